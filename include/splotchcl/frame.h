@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "splotchcl/scene.h"
+
+namespace splotchcl {
+
+// A field's way to [0, 1], with every number decided: scaled(v) is v, log10(v) or
+// asinh(v); normalised = clamp((scaled(v) - minimum) / (maximum - minimum), 0, 1).
+// minimum and maximum are after scaling. maximum == minimum maps all to 0.
+// A value whose scaled form is not finite maps to 0.
+struct ScalarMap {
+  Scaling scaling = Scaling::linear;
+  double minimum = 0;
+  double maximum = 1;
+};
+
+// A component with its particles and every number decided.
+struct DrawnComponent {
+  std::string name;
+  Particles particles;
+  double size_factor = 1;  // h_drawn = size_factor * smoothing_length
+  ScalarMap color;
+  ScalarMap intensity;
+  WeightModel weight = WeightModel::mass;
+  double reference_column = 1;  // w is divided by it
+  Palette palette;
+  double brightness = 1;
+  Absorption absorption;
+};
+
+// A part of the picture, in pixels of the whole picture.
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+// Everything a renderer needs for one picture, the same for the device and the oracle.
+struct Frame {
+  int width = 0, height = 0;  // of the whole picture: they fix the camera
+  Rectangle crop;             // what is drawn; inside the picture
+  CameraFrame camera;
+  Projection projection = Projection::perspective;
+  std::optional<double> near_limit, far_limit;
+  std::array<double, 3> background = {0, 0, 0};
+  KernelSettings kernel;
+  SortOrder sort;
+  double tolerance = 1e-3;
+  std::vector<DrawnComponent> components;
+};
+
+// The depth key's constants in binary32, the same for kernel and oracle:
+//   d = (p - position_high) - position_low   per axis, p the stored offset
+//   z = (d.x * forward.x + d.y * forward.y) + d.z * forward.z
+// every operation rounded to binary32, none contracted. Equal bits are a test.
+struct DepthChain {
+  float position_high[3];
+  float position_low[3];
+  float forward[3];
+};
+DepthChain make_depth_chain(const CameraFrame& camera, const Vec3& origin);
+
+}  // namespace splotchcl

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// What a frame costs follows from the structure of its light, never from comparing
+// floats:
+//   emission      nothing absorbs:  I = background + sum E X
+//   proportional  E = q A for all:  I = q + (background - q) exp(-sum A X)
+//   ordered       anything else:    sort, then layers nearer over farther
+enum class LightPlan { emission, proportional, ordered };
+
+struct Plan {
+  LightPlan light = LightPlan::emission;
+  std::array<double, 3> source = {1, 1, 1};  // q, for proportional
+  bool needs_sort = false;
+
+  // How the tolerance is shared out (docs/accuracy.md). They add up to it.
+  double truncation_share = 0;  // of a splat's light left out by ending its disc
+  double coarse_share = 0;      // coarse grids (sums only)
+  double arithmetic_share = 0;  // exp, phi, single precision, early stop
+};
+
+Plan make_plan(const Frame& frame);
+
+// Lines for --explain: the plan, why it is exact, and how the tolerance is spent.
+std::string explain(const Plan& plan, const Frame& frame);
+
+const char* name(LightPlan light);
+
+}  // namespace splotchcl

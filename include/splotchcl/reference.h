@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+#include "splotchcl/plan.h"
+
+// The oracle: a scalar renderer in double precision, written for reading. It shares no
+// code with the kernels. Its stages have the kernels' names, so each can be compared.
+namespace splotchcl::reference {
+
+// A projected particle. Positions and widths are in pixels of the whole picture.
+struct Splat {
+  double x = 0, y = 0;
+  double sigma = 0;           // after kernel.min_radius, before any pixel averaging
+  double weight = 0;          // w, divided by the reference column, times intensity
+  double emission[3] = {};    // E of the light model: brightness * palette etc., without w
+  double absorption[3] = {};  // A likewise; E X and A X with X = weight * shape
+  float key = 0;              // the sort key in binary32 (DepthChain, or the field)
+  std::uint64_t particle = 0; // index over all components, in component and file order
+};
+
+// Drawable particles in component and file order. Left out: bad values (not a number,
+// infinite, h <= 0), z outside the limits. Nothing is left out for lying off the image.
+std::vector<Splat> project(const Frame& frame);
+
+// Number of particles with bad values (position, smoothing length, weight).
+std::uint64_t count_bad(const Frame& frame);
+
+// Nearest first as frame.sort says; stable; -0 equals +0.
+void sort(std::vector<Splat>& splats, const SortOrder& order);
+
+// X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two
+// differences of erf) or the centre value, cut if the kernel says so.
+double shape(const Splat& splat, int x, int y, const KernelSettings& kernel);
+
+// A layer per channel: tau, S (DESIGN: S = E X phi(tau)).
+struct Layer {
+  double optical_depth[3] = {};
+  double source[3] = {};
+};
+Layer over(const Layer& near_layer, const Layer& far_layer);
+
+// The layer of one pixel: every splat of the list in order (nearest first).
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y,
+                      const KernelSettings& kernel);
+
+// The whole frame: frame.crop in size. `progress` (may be empty) takes 0..1.
+ExactImage render(const Frame& frame, const std::function<void(double)>& progress = {});
+
+}  // namespace splotchcl::reference

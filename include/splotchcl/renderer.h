@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+struct DeviceInfo {
+  std::string name, platform, driver;
+  bool is_gpu = false;
+  int compute_units = 0;
+  std::uint64_t memory_bytes = 0;
+  bool is_default = false;  // what a Renderer without a name would use
+};
+
+// Never throws for want of a device: the list is empty then.
+std::vector<DeviceInfo> list_devices();
+
+// What to tell a user whose machine has no OpenCL device.
+std::string no_device_advice();
+
+enum class CompositeShape {
+  automatic,  // groups on a GPU, rows elsewhere
+  rows,       // a work-item per tile, rows of float8
+  groups,     // a work-group per tile, a work-item per pixel
+};
+
+struct RendererOptions {
+  std::string device;  // part of a device's name, any case; empty: a GPU, else the CPU
+  CompositeShape shape = CompositeShape::automatic;
+};
+
+struct StageTime {
+  std::string stage;  // project, sort, bin, composite, resolve, ...
+  double seconds = 0;
+};
+
+struct RenderStats {
+  std::string device;
+  std::uint64_t particles = 0;      // in the components
+  std::uint64_t bad_particles = 0;  // left out: not a number, infinite, h <= 0
+  std::uint64_t drawn_particles = 0;
+  std::uint64_t tile_entries = 0;   // splats summed over tiles
+  std::uint64_t device_bytes = 0;   // largest total of device buffers, mapped input excluded
+  double total_seconds = 0;
+  std::vector<StageTime> stages;
+};
+
+// Draws frames on one OpenCL device. Keeps compiled kernels and buffers between frames.
+// Throws DeviceError. Not for use from several threads at once; several Renderers are.
+class Renderer {
+ public:
+  explicit Renderer(const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  // The same frame gives the same bits on the same device.
+  Image render(const Frame& frame);
+
+  const RenderStats& stats() const;  // of the last frame
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "splotchcl/scene.h"
+
+namespace splotchcl {
+
+// Scene files are TOML; docs/scene.md lists every key. Unknown keys, wrong types and
+// values out of range throw UsageError with file, line, key and the nearest known key.
+// `settings` are "key=value" strings (--set) that override the file. A relative
+// snapshot path is relative to the scene file.
+Scene read_scene_file(const std::filesystem::path& path,
+                      const std::vector<std::string>& settings = {});
+Scene parse_scene(const std::string& text, const std::string& name_for_messages,
+                  const std::vector<std::string>& settings = {});
+// Applies "key=value" strings to a scene that came from elsewhere.
+Scene apply_settings(const Scene& scene, const std::vector<std::string>& settings);
+
+// The scene as a scene file; parse_scene(format_scene(s)) is s.
+std::string format_scene(const Scene& scene);
+
+// `name` is a file (.pal of the original program, or a palette file of ours), or the
+// name of one in the palettes folder. Throws UsageError with the nearest names.
+Palette load_palette(const std::string& name, const std::filesystem::path& relative_to = {});
+std::vector<std::string> palette_names();
+
+}  // namespace splotchcl

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/particles.h"
+
+namespace splotchcl {
+
+// Fields have canonical names: position, velocity, id, mass, internal_energy, density,
+// smoothing_length, temperature, stellar_age, metallicity, ... A file's own label (U,
+// HSML, InternalEnergy) finds the same field, in any case of letters.
+struct FieldInfo {
+  std::string name;        // canonical, or the file's own name where there is none
+  std::string file_name;   // as the file spells it
+  int values_per_particle = 1;  // 1, or 3 for vectors
+  std::string unit;        // empty when unknown
+};
+
+struct ParticleTypeInfo {
+  int type = 0;  // 0 gas, 1 halo, 2 disk, 3 bulge, 4 stars, 5 boundary
+  std::uint64_t count = 0;
+  std::optional<double> table_mass;  // the same mass for all
+  std::vector<FieldInfo> fields;
+};
+
+struct SnapshotInfo {
+  std::string format;  // "Gadget format 2, big-endian", ...
+  std::vector<std::filesystem::path> files;
+  double time = 0;
+  std::optional<double> redshift;
+  std::optional<double> box_size;  // none: not periodic, or unknown
+  std::optional<double> hubble_parameter;
+  std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
+  std::vector<std::string> notes;       // oddities worth telling the user
+  const ParticleTypeInfo* find_type(int type) const;
+};
+
+// A snapshot that has been opened: its header is known, no particle has been read.
+class Snapshot {
+ public:
+  virtual ~Snapshot() = default;
+  virtual const SnapshotInfo& info() const = 0;
+
+  // Values of one field of one type, single precision, in file order; 3 per particle
+  // for vectors. Points into the mapped file where that is possible. Positions are
+  // relative to position_origin(). Throws DataError.
+  virtual Column read(int type, const std::string& field) const = 0;
+
+  // Not zero only where the file holds double-precision positions.
+  virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
+};
+
+// Recognises the format by content. `path` may be any member or the base name of a
+// multi-file set. Throws DataError.
+std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path);
+
+// A camera, components, fields and palettes that suit the data, every value spelled
+// out so that it can be saved as a scene file.
+Scene suggest_scene(const Snapshot& snapshot);
+
+// Reads what the scene uses, and no more, and decides every number that the scene
+// leaves to the data. Missing smoothing lengths are found (density and mass, else
+// nearest neighbours). `notes` takes what the user should know, a line each.
+Frame load_frame(const Scene& scene, const Snapshot& snapshot,
+                 std::vector<std::string>& notes);
+
+}  // namespace splotchcl
