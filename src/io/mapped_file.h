@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace splotchcl {
+
+// A file's bytes as read-only memory. Always held by shared_ptr, so that a Column may
+// point straight into the file and keep it mapped for as long as it lives.
+class MappedFile {
+ public:
+  // Throws DataError when the file is missing, not a regular file, or cannot be mapped.
+  static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
+
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  const std::byte* data() const { return data_; }
+  std::uint64_t size() const { return size_; }
+
+ private:
+  MappedFile(std::filesystem::path path, const std::byte* data, std::uint64_t size)
+      : path_(std::move(path)), data_(data), size_(size) {}
+
+  std::filesystem::path path_;
+  const std::byte* data_ = nullptr;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace splotchcl
