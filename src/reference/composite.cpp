@@ -1,0 +1,52 @@
+#include <cmath>
+
+#include "reference/profile.h"
+#include "splotchcl/reference.h"
+
+namespace splotchcl::reference {
+namespace {
+
+// phi(y) = (1 - exp(-y)) / y. The series' next term, y^3 / 24, is below 1e-13 there.
+double phi(double y) {
+  if (y < 1e-4) return 1 - y / 2 + y * y / 6;
+  return -std::expm1(-y) / y;
+}
+
+}  // namespace
+
+double shape(const Splat& splat, int x, int y, const KernelSettings& kernel) {
+  if (is_cut(splat, x, y, kernel)) return 0;
+  return axis_profile(splat.x, splat.sigma, x, kernel.sampling) *
+         axis_profile(splat.y, splat.sigma, y, kernel.sampling);
+}
+
+Layer layer_of(const Splat& splat, double column) {
+  Layer layer;
+  for (int c = 0; c < 3; ++c) {
+    layer.optical_depth[c] = splat.absorption[c] * column;
+    layer.source[c] = splat.emission[c] * column * phi(layer.optical_depth[c]);
+  }
+  return layer;
+}
+
+Layer over(const Layer& near_layer, const Layer& far_layer) {
+  Layer both;
+  for (int c = 0; c < 3; ++c) {
+    both.optical_depth[c] = near_layer.optical_depth[c] + far_layer.optical_depth[c];
+    both.source[c] =
+        near_layer.source[c] + std::exp(-near_layer.optical_depth[c]) * far_layer.source[c];
+  }
+  return both;
+}
+
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y,
+                      const KernelSettings& kernel) {
+  Layer pixel;
+  for (const Splat& splat : splats) {
+    const double column = splat.weight * shape(splat, x, y, kernel);
+    if (column > 0) pixel = over(pixel, layer_of(splat, column));
+  }
+  return pixel;
+}
+
+}  // namespace splotchcl::reference

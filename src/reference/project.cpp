@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "splotchcl/reference.h"
+
+namespace splotchcl::reference {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// One particle's values as they are stored.
+struct Particle {
+  float position[3];
+  float smoothing_length;
+  float weight;
+  float color;
+  float intensity;
+  float sort_field;
+};
+
+// A particle as the camera sees it: x right, y down, z forward, in world lengths.
+struct View {
+  double x, y, z;
+};
+
+// What a component does not have counts as 1 where it is a factor.
+float value_or(const Column& column, std::size_t i, float value_when_absent) {
+  return column.is_absent() ? value_when_absent : column[i];
+}
+
+Particle particle_at(const Particles& particles, std::size_t i) {
+  Particle p;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    p.position[axis] = particles.position[3 * i + axis];
+  p.smoothing_length = particles.smoothing_length[i];
+  p.weight = value_or(particles.weight, i, 1);
+  p.color = value_or(particles.color, i, 0);
+  p.intensity = value_or(particles.intensity, i, 1);
+  p.sort_field = value_or(particles.sort_field, i, 0);
+  return p;
+}
+
+bool is_bad(const Particle& p) {
+  const bool all_finite = std::isfinite(p.position[0]) && std::isfinite(p.position[1]) &&
+                          std::isfinite(p.position[2]) && std::isfinite(p.smoothing_length) &&
+                          std::isfinite(p.weight) && std::isfinite(p.color) &&
+                          std::isfinite(p.intensity) && std::isfinite(p.sort_field);
+  return !all_finite || p.smoothing_length <= 0 || p.weight < 0;
+}
+
+View view_of(const Particle& p, const Vec3& origin, const CameraFrame& camera) {
+  double d[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    // The two large numbers first, so that what is left is small when p is added.
+    d[axis] = (origin.a[axis] - camera.position.a[axis]) + static_cast<double>(p.position[axis]);
+  }
+  const auto along = [&d](const Vec3& axis) {
+    return d[0] * axis.a[0] + d[1] * axis.a[1] + d[2] * axis.a[2];
+  };
+  return {along(camera.right), along(camera.down), along(camera.forward)};
+}
+
+bool is_within_limits(double z, double h, const Frame& frame) {
+  const bool perspective = frame.projection == Projection::perspective;
+  if (perspective && z <= 0) return false;
+  const double near_limit = frame.near_limit.value_or(perspective ? 0.1 * h : 0.0);
+  if (z < near_limit) return false;
+  return !frame.far_limit || z <= *frame.far_limit;
+}
+
+double pixels_per_length(double z, const Frame& frame) {
+  return frame.projection == Projection::perspective ? frame.camera.focal_pixels / z
+                                                     : frame.camera.pixels_per_length;
+}
+
+double scaled(double value, Scaling scaling) {
+  switch (scaling) {
+    case Scaling::linear:
+      return value;
+    case Scaling::log:
+      return std::log10(value);
+    case Scaling::asinh:
+      return std::asinh(value);
+  }
+  return value;
+}
+
+double normalised(float value, const ScalarMap& map) {
+  const double v = scaled(static_cast<double>(value), map.scaling);
+  if (!std::isfinite(v) || map.maximum == map.minimum) return 0;
+  return std::clamp((v - map.minimum) / (map.maximum - map.minimum), 0.0, 1.0);
+}
+
+// The column of matter through the particle's centre, before colour.
+double column_weight(const Particle& p, double h, double sigma_world,
+                     const DrawnComponent& component) {
+  const double value = static_cast<double>(p.weight);
+  double w = 0;
+  switch (component.weight) {
+    case WeightModel::mass:
+      w = value / (pi * sigma_world * sigma_world);
+      break;
+    case WeightModel::density:
+      w = value * sigma_world * std::sqrt(pi);
+      break;
+    case WeightModel::constant:
+      w = 1 / h;
+      break;
+  }
+  return w / component.reference_column;
+}
+
+// Emission and absorption per unit of X; the weight stays in X.
+void color_splat(Splat& splat, double palette_position, const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  const auto emitted = sample_knots(palette.emission, palette_position);
+  const auto absorbed =
+      palette.has_own_absorption() ? sample_knots(palette.absorption, palette_position) : emitted;
+  const double factor = component.absorption.factor;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double e = component.brightness * emitted[c];
+    splat.emission[c] = e;
+    switch (component.absorption.kind) {
+      case Absorption::Kind::as_emission:
+        splat.absorption[c] = component.brightness * absorbed[c];
+        break;
+      case Absorption::Kind::none:
+        splat.absorption[c] = 0;
+        break;
+      case Absorption::Kind::factor:
+        splat.absorption[c] = factor * absorbed[c];
+        break;
+      case Absorption::Kind::gray: {
+        // As in the original the source is e / (e + factor) with e the cloud's whole
+        // amplitude, weight included, so it is not the same for all particles.
+        const double amplitude = e * splat.weight;
+        splat.absorption[c] = e;
+        splat.emission[c] = amplitude > 0 ? e * (amplitude / (amplitude + factor)) : 0;
+        break;
+      }
+    }
+  }
+}
+
+// The same operations in the same order as the kernel's, each rounded to binary32:
+// this file is compiled without contraction.
+float depth_key(const float position[3], const DepthChain& chain) {
+  float d[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    d[axis] = (position[axis] - chain.position_high[axis]) - chain.position_low[axis];
+  }
+  return (d[0] * chain.forward[0] + d[1] * chain.forward[1]) + d[2] * chain.forward[2];
+}
+
+Splat splat_of(const Particle& p, const View& view, double h, const DrawnComponent& component,
+               const Frame& frame) {
+  const double scale = pixels_per_length(view.z, frame);
+  const double h_pixels = h * scale;
+  const double h_drawn = std::hypot(h_pixels, frame.kernel.min_radius_pixels);
+
+  Splat splat;
+  splat.x = frame.camera.centre_x + scale * view.x;
+  splat.y = frame.camera.centre_y + scale * view.y;
+  splat.sigma = frame.kernel.width * h_drawn;
+  splat.weight = column_weight(p, h, frame.kernel.width * h, component) * (h_pixels / h_drawn);
+  // An absent intensity is 1 without being scaled.
+  if (!component.particles.intensity.is_absent()) {
+    splat.weight *= normalised(p.intensity, component.intensity);
+  }
+  const bool has_color = !component.particles.color.is_absent();
+  color_splat(splat, has_color ? normalised(p.color, component.color) : 0.0, component);
+  return splat;
+}
+
+void project_component(const DrawnComponent& component, const Frame& frame,
+                       std::uint64_t first_particle, std::vector<Splat>& splats) {
+  const Particles& particles = component.particles;
+  const DepthChain chain = make_depth_chain(frame.camera, particles.origin);
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    const Particle p = particle_at(particles, i);
+    if (is_bad(p)) continue;
+    const double h = component.size_factor * static_cast<double>(p.smoothing_length);
+    const View view = view_of(p, particles.origin, frame.camera);
+    if (!is_within_limits(view.z, h, frame)) continue;
+
+    Splat splat = splat_of(p, view, h, component, frame);
+    splat.key = frame.sort.by == SortOrder::By::depth ? depth_key(p.position, chain) : p.sort_field;
+    splat.particle = first_particle + i;
+    splats.push_back(splat);
+  }
+}
+
+}  // namespace
+
+std::vector<Splat> project(const Frame& frame) {
+  std::vector<Splat> splats;
+  std::uint64_t first_particle = 0;
+  for (const DrawnComponent& component : frame.components) {
+    project_component(component, frame, first_particle, splats);
+    first_particle += component.particles.count;
+  }
+  return splats;
+}
+
+std::uint64_t count_bad(const Frame& frame) {
+  std::uint64_t bad = 0;
+  for (const DrawnComponent& component : frame.components) {
+    for (std::size_t i = 0; i < component.particles.count; ++i) {
+      if (is_bad(particle_at(component.particles, i))) ++bad;
+    }
+  }
+  return bad;
+}
+
+}  // namespace splotchcl::reference

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <thread>
+#include <vector>
+
+#include "reference/profile.h"
+#include "splotchcl/reference.h"
+
+namespace splotchcl::reference {
+namespace {
+
+// Pixels first <= i < end of one axis.
+struct Range {
+  int first, end;
+};
+
+// Beyond this distance from its centre a splat adds less than 1e-14 to any pixel: far
+// below what the other terms of a pixel's sum lose in double precision. The pixel more
+// is for means, whose pixels reach closer to the splat than their centres do.
+double reach(const Splat& splat) {
+  double strongest = 1;
+  for (int c = 0; c < 3; ++c) {
+    strongest =
+        std::max({strongest, splat.weight * splat.emission[c], splat.weight * splat.absorption[c]});
+  }
+  return splat.sigma * std::sqrt(std::log(1e14) + std::log(strongest)) + 1;
+}
+
+Range pixels_within(double centre, double radius, int first, int end) {
+  // Clamped before the conversion: a splat close to the camera may lie anywhere.
+  const double low = std::clamp<double>(std::floor(centre - radius), first, end);
+  const double high = std::clamp<double>(std::ceil(centre + radius), first, end);
+  return {static_cast<int>(low), static_cast<int>(high)};
+}
+
+// Draws a part of the rows of the picture, all splats in order.
+class RowPainter {
+ public:
+  RowPainter(const Frame& frame, int first_row, int row_step)
+      : frame_(frame), first_row_(first_row), row_step_(row_step) {}
+
+  void add(const Splat& splat, std::vector<Layer>& layers) {
+    const Rectangle& crop = frame_.crop;
+    const double radius = reach(splat);
+    const Range columns = pixels_within(splat.x, radius, crop.x, crop.x + crop.width);
+    const Range rows = pixels_within(splat.y, radius, crop.y, crop.y + crop.height);
+    if (columns.first >= columns.end || rows.first >= rows.end) return;
+
+    const Sampling sampling = frame_.kernel.sampling;
+    profile_x_.clear();
+    for (int x = columns.first; x < columns.end; ++x) {
+      profile_x_.push_back(splat.weight * axis_profile(splat.x, splat.sigma, x, sampling));
+    }
+    for (int y = own_row_from(rows.first); y < rows.end; y += row_step_) {
+      const double profile_y = axis_profile(splat.y, splat.sigma, y, sampling);
+      Layer* row = layers.data() +
+                   static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
+      for (int x = columns.first; x < columns.end; ++x) {
+        const double column = profile_x_[static_cast<std::size_t>(x - columns.first)] * profile_y;
+        if (!(column > 0) || is_cut(splat, x, y, frame_.kernel)) continue;
+        Layer& pixel = row[x - crop.x];
+        pixel = over(pixel, layer_of(splat, column));
+      }
+    }
+  }
+
+ private:
+  // The first of this painter's rows at or after y.
+  int own_row_from(int y) const {
+    const int behind = (y - frame_.crop.y - first_row_) % row_step_;
+    return y + (row_step_ - behind) % row_step_;
+  }
+
+  const Frame& frame_;
+  int first_row_, row_step_;
+  std::vector<double> profile_x_;
+};
+
+// Every thread walks through all splats and draws its own rows, so the result does not
+// depend on their number. Rows take turns, which shares out a bright centre.
+std::vector<Layer> composite(const std::vector<Splat>& splats, const Frame& frame,
+                             const std::function<void(double)>& progress) {
+  std::vector<Layer> layers(static_cast<std::size_t>(frame.crop.width) *
+                            static_cast<std::size_t>(frame.crop.height));
+  const int thread_count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const auto draw_rows = [&](int thread) {
+    RowPainter painter(frame, thread, thread_count);
+    const std::size_t report_every = std::max<std::size_t>(1, splats.size() / 100);
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      painter.add(splats[i], layers);
+      if (thread == 0 && progress && i % report_every == 0) {
+        progress(static_cast<double>(i) / static_cast<double>(splats.size()));
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int t = 1; t < thread_count; ++t)
+    threads.emplace_back(draw_rows, t);
+  draw_rows(0);
+  for (std::thread& thread : threads)
+    thread.join();
+  return layers;
+}
+
+ExactImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
+  ExactImage image(frame.crop.width, frame.crop.height);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    double opacity = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double depth = layers[i].optical_depth[c];
+      image.pixels[4 * i + c] = layers[i].source[c] + std::exp(-depth) * frame.background[c];
+      opacity += -std::expm1(-depth) / 3;
+    }
+    image.pixels[4 * i + 3] = opacity;
+  }
+  return image;
+}
+
+}  // namespace
+
+// Composited in depth order even where the plan needs no order: that is how the plans'
+// shortcuts are checked.
+ExactImage render(const Frame& frame, const std::function<void(double)>& progress) {
+  std::vector<Splat> splats = project(frame);
+  sort(splats, frame.sort);
+  const std::vector<Layer> layers = composite(splats, frame, progress);
+  if (progress) progress(1);
+  return resolve(layers, frame);
+}
+
+}  // namespace splotchcl::reference
