@@ -8,19 +8,32 @@
 
 namespace splotchcl {
 
-// Throws UsageError when the ending names no format, DataError when the folder is
-// missing or not writable. Called before anything is read or drawn.
+// Throws UsageError when the ending names no format that can be written, DataError when
+// the folder is missing or not writable. Called before anything is read or drawn.
 void check_image_path(const std::filesystem::path& path);
+// Throws UsageError when the format cannot hold so large a picture.
+void check_image_size(const std::filesystem::path& path, int width, int height);
 
 struct ImageFileOptions {
-  double gamma = 1;  // 8- and 16-bit formats store value^(1/gamma); EXR stays linear
-  std::map<std::string, std::string> metadata;
+  double gamma = 1;  // 8-bit formats store value^(1/gamma); float formats stay linear
+  std::map<std::string, std::string> metadata;  // kept by EXR, dropped by other formats
 };
 
-// Written under a temporary name in the same folder and renamed when complete.
+// EXR and TIFF keep linear 32-bit floats and premultiplied alpha, HDR linear colour; the
+// others clamp to [0, 1] and store 8 bits without alpha. Written under a temporary name
+// in the same folder and renamed when complete.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageFileOptions& options = {});
 
+// Values as stored: 8 bits become value / 255, without a gamma. Gray becomes equal red,
+// green and blue; missing alpha becomes 1. Throws DataError.
 Image read_image(const std::filesystem::path& path);
+
+struct ImageFileInfo {
+  int width = 0, height = 0;
+  bool has_alpha = false;
+  std::map<std::string, std::string> metadata;  // text only
+};
+ImageFileInfo read_image_info(const std::filesystem::path& path);
 
 }  // namespace splotchcl

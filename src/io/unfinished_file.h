@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace splotchcl {
+
+// Throws DataError when no file can be created beside `path`: the folder is missing or
+// not writable, or `path` is itself a folder.
+void check_folder_of(const std::filesystem::path& path);
+
+// A file that appears under its name only when it is complete. Until finish() it has a
+// temporary name in the same folder, and is removed when it is abandoned. A symbolic link
+// stays: what it points to is replaced. Throws DataError.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(const std::filesystem::path& path);
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  void write(const void* data, std::size_t bytes);
+  void finish();
+
+ private:
+  [[noreturn]] void fail(int error_number) const;
+
+  std::filesystem::path path_;    // as the user named it, for messages
+  std::filesystem::path target_;  // where it will be
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+};
+
+}  // namespace splotchcl

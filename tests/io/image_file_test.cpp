@@ -1,0 +1,293 @@
+#include "splotchcl/image_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <limits>
+
+#include "io/unfinished_file.h"
+#include "splotchcl/error.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using splotchcl::testing::read_text;
+using splotchcl::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// Every value different, up to `brightest`.
+Image ramp(int width, int height, float brightest) {
+  Image image(width, height);
+  const auto last = static_cast<float>(image.pixels.size() - 1);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = brightest * static_cast<float>(i) / last;
+  }
+  return image;
+}
+
+// Writes beyond `bytes` fail while this lives, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_ = {};
+  void (*handler_)(int);
+};
+
+class FloatFormats : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(ImageFile, FloatFormats, ::testing::Values("exr", "tif", "tiff"));
+
+TEST_P(FloatFormats, KeepEveryBitOfColourAndAlpha) {
+  const TemporaryFolder folder;
+  const auto path = folder / (std::string("picture.") + GetParam());
+  const Image image = ramp(7, 5, 20);
+  write_image(path, image, {2.2, {}});
+  const Image read = read_image(path);
+  EXPECT_EQ(read.width, 7);
+  EXPECT_EQ(read.height, 5);
+  EXPECT_EQ(read.pixels, image.pixels);
+}
+
+class ByteFormats : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(ImageFile, ByteFormats,
+                         ::testing::Values("png", "tga", "bmp", "ppm", "pnm", "PNG"));
+
+TEST_P(ByteFormats, KeepColourRoundedToEightBits) {
+  const TemporaryFolder folder;
+  const auto path = folder / (std::string("picture.") + GetParam());
+  const Image image = ramp(9, 6, 1);
+  write_image(path, image);
+  const Image read = read_image(path);
+  ASSERT_EQ(read.pixels.size(), image.pixels.size());
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const float expected =
+        i % 4 == 3 ? 1.0F : static_cast<float>(std::lround(255 * image.pixels[i])) / 255.0F;
+    EXPECT_FLOAT_EQ(read.pixels[i], expected) << i;
+  }
+  EXPECT_FALSE(read_image_info(path).has_alpha);
+}
+
+class LossyFormats : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(ImageFile, LossyFormats, ::testing::Values("jpg", "jpeg", "webp", "jp2"));
+
+TEST_P(LossyFormats, KeepASmoothPictureNearly) {
+  const TemporaryFolder folder;
+  const auto path = folder / (std::string("picture.") + GetParam());
+  Image image(64, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      image.at(x, y)[0] = static_cast<float>(x) / 63;
+      image.at(x, y)[1] = static_cast<float>(y) / 63;
+      image.at(x, y)[2] = 0.5F;
+    }
+  }
+  write_image(path, image);
+  const Image read = read_image(path);
+  ASSERT_EQ(read.pixels.size(), image.pixels.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (i % 4 != 3) sum += std::abs(read.pixels[i] - image.pixels[i]);
+  }
+  // A few of 255 steps per value; a wrong channel order or a lost row is off by far more.
+  EXPECT_LT(sum / (3 * 64 * 64), 0.02);
+}
+
+TEST(ImageFile, AppliesTheGammaToEightBitsOnly) {
+  const TemporaryFolder folder;
+  Image image(1, 1);
+  image.pixels = {0.25F, 1, 0, 1};
+  write_image(folder / "a.png", image, {2, {}});
+  EXPECT_FLOAT_EQ(read_image(folder / "a.png").at(0, 0)[0], 128.0F / 255);  // 127.5 rounds up
+  write_image(folder / "a.exr", image, {2, {}});
+  EXPECT_EQ(read_image(folder / "a.exr").at(0, 0)[0], 0.25F);
+}
+
+TEST(ImageFile, ClampsColoursBeyondWhiteInEightBits) {
+  const TemporaryFolder folder;
+  Image image(1, 1);
+  image.pixels = {7, -1, std::numeric_limits<float>::infinity(), 1};
+  write_image(folder / "a.png", image);
+  const Image read = read_image(folder / "a.png");
+  EXPECT_EQ(read.at(0, 0)[0], 1);
+  EXPECT_EQ(read.at(0, 0)[1], 0);
+  EXPECT_EQ(read.at(0, 0)[2], 1);
+}
+
+TEST(ImageFile, KeepsColourBeyondWhiteInRadianceFiles) {
+  const TemporaryFolder folder;
+  Image image(1, 1);
+  image.pixels = {8, 4, 2, 1};  // exact in a shared exponent
+  write_image(folder / "a.hdr", image);
+  const Image read = read_image(folder / "a.hdr");
+  EXPECT_NEAR(read.at(0, 0)[0], 8, 8.0 / 256);
+  EXPECT_NEAR(read.at(0, 0)[2], 2, 8.0 / 256);
+}
+
+TEST(ImageFile, RefusesToStoreNotANumberInEightBitsAndSaysWhere) {
+  const TemporaryFolder folder;
+  Image image(3, 2);
+  image.at(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT([&] { write_image(folder / "a.png", image); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("2,1"), HasSubstr(".exr"))));
+  EXPECT_EQ(folder.count_files(), 0U);
+}
+
+TEST(ImageFile, KeepsMetadataInExr) {
+  const TemporaryFolder folder;
+  const std::string scene = "[image]\nwidth = 3\n";
+  write_image(folder / "a.exr", Image(2, 2), {1, {{"splotchcl:scene", scene}}});
+  const ImageFileInfo info = read_image_info(folder / "a.exr");
+  EXPECT_EQ(info.metadata.at("splotchcl:scene"), scene);
+  EXPECT_TRUE(info.has_alpha);
+}
+
+TEST(ImageFile, WritesTheSameBytesForTheSamePicture) {
+  const TemporaryFolder folder;
+  for (const std::string ending : {".png", ".exr", ".tif", ".jpg"}) {
+    write_image(folder / ("a" + ending), ramp(20, 20, 1));
+    write_image(folder / ("b" + ending), ramp(20, 20, 1));
+    EXPECT_EQ(read_text(folder / ("a" + ending)), read_text(folder / ("b" + ending))) << ending;
+  }
+}
+
+TEST(ImageFile, ReplacesAnOlderPicture) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image(2, 2));
+  write_image(folder / "a.png", Image(5, 4));
+  EXPECT_EQ(read_image(folder / "a.png").width, 5);
+  EXPECT_EQ(folder.count_files(), 1U);
+}
+
+TEST(ImageFile, ReadsGrayAsEqualRedGreenAndBlue) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "gray.pgm") << "P2\n2 1\n255\n51 255\n";
+  const Image image = read_image(folder / "gray.pgm");
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.2F);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[1], 0.2F);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[2], 0.2F);
+  EXPECT_EQ(image.at(1, 0)[3], 1);
+}
+
+TEST(ImageFile, RefusesAnEndingThatNamesNoFormatAndListsThoseThatDo) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"picture.xyz", "picture", "picture.null", "picture.mp4"}) {
+    EXPECT_THAT([&] { check_image_path(folder / name); },
+                ThrowsMessage<UsageError>(AllOf(HasSubstr(name), HasSubstr(".png"))))
+        << name;
+  }
+}
+
+TEST(ImageFile, NoticesAMissingFolder) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { check_image_path(folder / "nowhere/a.png"); },
+              ThrowsMessage<DataError>(HasSubstr("nowhere")));
+}
+
+TEST(ImageFile, NoticesAFolderThatIsNotWritable) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  std::filesystem::permissions(
+      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_THAT([&] { check_image_path(folder / "a.png"); },
+              ThrowsMessage<DataError>(HasSubstr("denied")));
+}
+
+TEST(ImageFile, NoticesThatThePathIsAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a.png");
+  EXPECT_THROW(check_image_path(folder / "a.png"), DataError);
+}
+
+TEST(ImageFile, LeavesNothingBehindWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.png", "a.exr", "a.jpg", "a.tif"}) {
+    const FileSizeLimit limit(100);
+    EXPECT_THAT([&] { write_image(folder / name, ramp(50, 50, 1)); },
+                ThrowsMessage<DataError>(HasSubstr(name)));
+    EXPECT_EQ(folder.count_files(), 0U) << name;
+  }
+}
+
+TEST(ImageFile, KeepsTheOlderPictureWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image(2, 2));
+  {
+    const FileSizeLimit limit(100);
+    EXPECT_THROW(write_image(folder / "a.png", ramp(50, 50, 1)), DataError);
+  }
+  EXPECT_EQ(read_image(folder / "a.png").width, 2);
+}
+
+TEST(ImageFile, RefusesPicturesTooLargeForTheirFormat) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { write_image(folder / "a.jpg", Image(70000, 1)); },
+              ThrowsMessage<UsageError>(HasSubstr("70000x1")));
+  EXPECT_EQ(folder.count_files(), 0U);
+}
+
+TEST(ImageFile, RefusesToReadWhatIsNoPicture) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a.png") << "this is text";
+  EXPECT_THAT([&] { (void)read_image(folder / "a.png"); },
+              ThrowsMessage<DataError>(HasSubstr("a.png")));
+  EXPECT_THAT([&] { (void)read_image(folder / "missing.png"); },
+              ThrowsMessage<DataError>(HasSubstr("missing.png")));
+}
+
+TEST(ImageFile, RefusesATruncatedPicture) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.png", "a.exr", "a.tif", "a.jpg"}) {
+    write_image(folder / name, ramp(200, 200, 1));
+    std::filesystem::resize_file(folder / name, std::filesystem::file_size(folder / name) / 2);
+    EXPECT_THROW((void)read_image(folder / name), DataError) << name;
+  }
+}
+
+TEST(UnfinishedFile, AppearsOnlyWhenItIsFinished) {
+  const TemporaryFolder folder;
+  UnfinishedFile file(folder / "data");
+  file.write("abc", 3);
+  EXPECT_FALSE(std::filesystem::exists(folder / "data"));
+  file.finish();
+  EXPECT_EQ(read_text(folder / "data"), "abc");
+  EXPECT_EQ(folder.count_files(), 1U);
+}
+
+TEST(UnfinishedFile, IsRemovedWhenItIsAbandoned) {
+  const TemporaryFolder folder;
+  {
+    UnfinishedFile file(folder / "data");
+    file.write("abc", 3);
+  }
+  EXPECT_EQ(folder.count_files(), 0U);
+}
+
+TEST(UnfinishedFile, ReplacesWhatALinkPointsTo) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "target") << "old";
+  std::filesystem::create_symlink("target", folder / "link");
+  UnfinishedFile file(folder / "link");
+  file.write("new", 3);
+  file.finish();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_text(folder / "target"), "new");
+}
+
+}  // namespace
+}  // namespace splotchcl
