@@ -1,13 +1,12 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "scene/central_column.h"
+#include "scene/scalar_map.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::reference {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // One particle's values as they are stored.
 struct Particle {
@@ -74,43 +73,6 @@ double pixels_per_length(double z, const Frame& frame) {
                                                      : frame.camera.pixels_per_length;
 }
 
-double scaled(double value, Scaling scaling) {
-  switch (scaling) {
-    case Scaling::linear:
-      return value;
-    case Scaling::log:
-      return std::log10(value);
-    case Scaling::asinh:
-      return std::asinh(value);
-  }
-  return value;
-}
-
-double normalised(float value, const ScalarMap& map) {
-  const double v = scaled(static_cast<double>(value), map.scaling);
-  if (!std::isfinite(v) || map.maximum == map.minimum) return 0;
-  return std::clamp((v - map.minimum) / (map.maximum - map.minimum), 0.0, 1.0);
-}
-
-// The column of matter through the particle's centre, before colour.
-double column_weight(const Particle& p, double h, double sigma_world,
-                     const DrawnComponent& component) {
-  const double value = static_cast<double>(p.weight);
-  double w = 0;
-  switch (component.weight) {
-    case WeightModel::mass:
-      w = value / (pi * sigma_world * sigma_world);
-      break;
-    case WeightModel::density:
-      w = value * sigma_world * std::sqrt(pi);
-      break;
-    case WeightModel::constant:
-      w = 1 / h;
-      break;
-  }
-  return w / component.reference_column;
-}
-
 // Emission and absorption per unit of X; the weight stays in X.
 void color_splat(Splat& splat, double palette_position, const DrawnComponent& component) {
   const Palette& palette = component.palette;
@@ -163,13 +125,16 @@ Splat splat_of(const Particle& p, const View& view, double h, const DrawnCompone
   splat.x = frame.camera.centre_x + scale * view.x;
   splat.y = frame.camera.centre_y + scale * view.y;
   splat.sigma = frame.kernel.width * h_drawn;
-  splat.weight = column_weight(p, h, frame.kernel.width * h, component) * (h_pixels / h_drawn);
+  const double w =
+      central_column(component.weight, static_cast<double>(p.weight), h, frame.kernel.width * h);
+  splat.weight = w / component.reference_column * (h_pixels / h_drawn);
   // An absent intensity is 1 without being scaled.
   if (!component.particles.intensity.is_absent()) {
-    splat.weight *= normalised(p.intensity, component.intensity);
+    splat.weight *= normalised(static_cast<double>(p.intensity), component.intensity);
   }
   const bool has_color = !component.particles.color.is_absent();
-  color_splat(splat, has_color ? normalised(p.color, component.color) : 0.0, component);
+  color_splat(splat, has_color ? normalised(static_cast<double>(p.color), component.color) : 0.0,
+              component);
   return splat;
 }
 

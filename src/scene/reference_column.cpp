@@ -1,0 +1,169 @@
+// A picture saturates where the optical depth is well above 1 and is black where it is
+// well below, so the reference follows from the columns that the picture itself will
+// show, not from the particles' own: how many clouds overlap depends on the view. The
+// picture is estimated on a coarse grid of fixed width, so that the reference, and with
+// it the brightness, depends neither on the size of the picture nor on its crop.
+#include "scene/reference_column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scene/central_column.h"
+#include "scene/scalar_map.h"
+#include "scene/statistics.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int coarse_width = 256;
+constexpr int level_count = 9;  // the last level's cell is as wide as the picture
+constexpr std::size_t particle_limit = 500000;
+
+// A pixel is lit when it shows at least this part of what the brightest pixels show;
+// what is dimmer is black in any picture and says nothing about its exposure.
+constexpr double lit_fraction = 0.01;
+constexpr double brightest_percentile = 0.999;
+
+// The reference is the column that this part of the lit pixels stays below.
+constexpr double exposed_percentile = 0.93;
+
+struct Cloud {
+  double x, y, sigma;  // in coarse pixels
+  double column;       // through its centre
+};
+
+struct Grid {
+  int width, height;
+  std::vector<double> cells;
+
+  Grid(int w, int h)
+      : width(w), height(h), cells(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  double& at(int x, int y) {
+    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(x)];
+  }
+};
+
+// Columns of matter on grids whose cells double in width from level to level.
+class ColumnPyramid {
+ public:
+  ColumnPyramid(int width, int height) {
+    for (int level = 0; level < level_count; ++level) {
+      levels_.emplace_back((width >> level) + 1, (height >> level) + 1);
+    }
+    width_ = width;
+    height_ = height;
+  }
+
+  // Adds a cloud at the level whose cells are about as large as the cloud, shared by the
+  // four nearest cells.
+  void add(const Cloud& cloud) {
+    const double side = std::sqrt(pi) * cloud.sigma;  // of a square with the cloud's flux
+    const int level =
+        static_cast<int>(std::lround(std::clamp(std::log2(side), 0.0, level_count - 1.0)));
+    const double cell = std::ldexp(1.0, level);
+    // A cloud wider than the widest cell adds its column, not all its flux.
+    const double column = cloud.column * std::min(side * side / (cell * cell), 2.0);
+    const double x = cloud.x / cell - 0.5;
+    const double y = cloud.y / cell - 0.5;
+    Grid& grid = levels_[static_cast<std::size_t>(level)];
+    if (!(x > -1 && y > -1 && x < grid.width && y < grid.height)) return;
+    const int x0 = static_cast<int>(std::floor(x));
+    const int y0 = static_cast<int>(std::floor(y));
+    for (int dy = 0; dy <= 1; ++dy) {
+      for (int dx = 0; dx <= 1; ++dx) {
+        if (x0 + dx < 0 || x0 + dx >= grid.width || y0 + dy < 0 || y0 + dy >= grid.height) continue;
+        grid.at(x0 + dx, y0 + dy) +=
+            column * (1 - std::abs(x - (x0 + dx))) * (1 - std::abs(y - (y0 + dy)));
+      }
+    }
+  }
+
+  // The sum of all levels in every pixel.
+  std::vector<double> pixels() {
+    std::vector<double> sums;
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        double sum = 0;
+        for (int level = 0; level < level_count; ++level) {
+          sum += levels_[static_cast<std::size_t>(level)].at(x >> level, y >> level);
+        }
+        sums.push_back(sum);
+      }
+    }
+    return sums;
+  }
+
+ private:
+  int width_ = 0, height_ = 0;
+  std::vector<Grid> levels_;
+};
+
+// Nothing for particles that are bad or outside the camera's limits.
+std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& frame, std::size_t i) {
+  using namespace boost::qvm;
+  const Particles& particles = component.particles;
+  const double h = component.size_factor * static_cast<double>(particles.smoothing_length[i]);
+  const double sigma = frame.kernel.width * h;
+  const Vec3 offset = {{static_cast<double>(particles.position[3 * i]),
+                        static_cast<double>(particles.position[3 * i + 1]),
+                        static_cast<double>(particles.position[3 * i + 2])}};
+  const Vec3 from_camera = particles.origin - frame.camera.position + offset;
+  const double z = dot(from_camera, frame.camera.forward);
+  const bool perspective = frame.projection == Projection::perspective;
+  if (perspective && z <= 0) return std::nullopt;
+  if (z < frame.near_limit.value_or(perspective ? 0.1 * h : 0.0)) return std::nullopt;
+  if (frame.far_limit && z > *frame.far_limit) return std::nullopt;
+
+  const double coarse_pixels = static_cast<double>(coarse_width) / frame.width;
+  const double scale = coarse_pixels * (perspective ? frame.camera.focal_pixels / z
+                                                    : frame.camera.pixels_per_length);
+  Cloud cloud;
+  cloud.x = coarse_pixels * frame.camera.centre_x + scale * dot(from_camera, frame.camera.right);
+  cloud.y = coarse_pixels * frame.camera.centre_y + scale * dot(from_camera, frame.camera.down);
+  cloud.sigma = scale * sigma;
+  cloud.column =
+      central_column(component.weight, static_cast<double>(particles.weight[i]), h, sigma);
+  if (!particles.intensity.is_absent()) {
+    cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);
+  }
+  const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) && cloud.sigma > 0 &&
+                       std::isfinite(cloud.sigma) && cloud.column > 0 &&
+                       std::isfinite(cloud.column);
+  if (!is_good) return std::nullopt;
+  return cloud;
+}
+
+std::vector<double> lit_pixels(std::vector<double> pixels) {
+  pixels.erase(std::remove(pixels.begin(), pixels.end(), 0.0), pixels.end());
+  if (pixels.empty()) return pixels;
+  const double limit = lit_fraction * percentile(pixels, brightest_percentile);
+  pixels.erase(std::remove_if(pixels.begin(), pixels.end(),
+                              [limit](double column) { return column < limit; }),
+               pixels.end());
+  return pixels;
+}
+
+}  // namespace
+
+std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame) {
+  const int coarse_height =
+      std::max(1, static_cast<int>(
+                      std::lround(static_cast<double>(coarse_width) * frame.height / frame.width)));
+  ColumnPyramid pyramid(coarse_width, coarse_height);
+  const std::size_t count = component.particles.count;
+  const std::size_t stride = sample_stride(count, particle_limit);
+  for (std::size_t i = 0; i < count; i += stride) {
+    if (std::optional<Cloud> cloud = cloud_of(component, frame, i)) {
+      cloud->column *= static_cast<double>(stride);  // for those that are passed over
+      pyramid.add(*cloud);
+    }
+  }
+  std::vector<double> lit = lit_pixels(pyramid.pixels());
+  if (lit.empty()) return std::nullopt;
+  return percentile(lit, exposed_percentile);
+}
+
+}  // namespace splotchcl

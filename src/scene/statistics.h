@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "splotchcl/particles.h"
+#include "splotchcl/scene.h"
+
+namespace splotchcl {
+
+struct ValueRange {
+  double minimum = 0;
+  double maximum = 0;
+};
+
+// Every `stride`-th of `count` things, so that at most `limit` are looked at: what is
+// found in the data is the same in every run.
+inline std::size_t sample_stride(std::size_t count, std::size_t limit) {
+  return count <= limit ? 1 : (count + limit - 1) / limit;
+}
+
+// The value below which `fraction` of the values lie, linear between neighbours.
+// `values` must not be empty; their order is lost.
+double percentile(std::vector<double>& values, double fraction);
+
+// The scaled values that are finite, of at most 2 million evenly spaced in the column.
+std::vector<double> sample_scaled(const Column& column, Scaling scaling);
+
+// Where the bulk of the scaled values lies: 0.5 % to 99.5 %, so that a few outliers do
+// not squeeze all others into one colour. Nothing when no value is finite.
+std::optional<ValueRange> bulk_range(const Column& column, Scaling scaling);
+
+}  // namespace splotchcl
