@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+
+#include "splotchcl/reference.h"
+
+namespace splotchcl::reference {
+
+// The mean of exp(-(t - centre)^2 / sigma^2) for t from i to i + 1: one axis of a pixel's
+// mean, since the Gaussian and the pixel are both products of their axes.
+inline double mean_over_pixel(double centre, double sigma, int i) {
+  constexpr double half_sqrt_pi = 0.886226925452758014;
+  const double low = (i - centre) / sigma;
+  const double high = (i + 1 - centre) / sigma;
+  // Both ends on one side: erf is close to +-1 there and its differences lose the digits
+  // that erfc keeps.
+  if (low > 0) return half_sqrt_pi * sigma * (std::erfc(low) - std::erfc(high));
+  if (high < 0) return half_sqrt_pi * sigma * (std::erfc(-high) - std::erfc(-low));
+  return half_sqrt_pi * sigma * (std::erf(high) - std::erf(low));
+}
+
+inline double value_at_pixel_center(double centre, double sigma, int i) {
+  const double distance = (i + 0.5 - centre) / sigma;
+  return std::exp(-distance * distance);
+}
+
+// One axis of the shape in pixel i; the shape is the product of its two axes where the
+// kernel does not cut it.
+inline double axis_profile(double centre, double sigma, int i, Sampling sampling) {
+  return sampling == Sampling::mean ? mean_over_pixel(centre, sigma, i)
+                                    : value_at_pixel_center(centre, sigma, i);
+}
+
+// Whether kernel.cut takes the splat's light from the pixel: its centre is farther than
+// cut * sigma. With pixel means the pixel that holds the splat's centre keeps its light
+// however small the splat is, or all clouds far below a pixel would vanish.
+inline bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kernel) {
+  if (!kernel.cut) return false;
+  const double dx = x + 0.5 - splat.x;
+  const double dy = y + 0.5 - splat.y;
+  const double radius = *kernel.cut * splat.sigma;
+  if (dx * dx + dy * dy <= radius * radius) return false;
+  const bool holds_centre = std::floor(splat.x) == x && std::floor(splat.y) == y;
+  return !(kernel.sampling == Sampling::mean && holds_centre);
+}
+
+// The layer of a column X of one splat: tau = A X, S = E X phi(tau).
+Layer layer_of(const Splat& splat, double column);
+
+}  // namespace splotchcl::reference
