@@ -1,0 +1,195 @@
+// Splats to lists per tile, in order: count, scan, scatter. A work-item walks one block of
+// splats; block and tile fix where each entry goes, so lists keep the splats' order and
+// never depend on timing.
+
+// Does the disc meet the rectangle of pixel centres first..last (both axes)?
+inline int disc_meets_tile(float x, float y, float radius, int2 first, int2 last) {
+  const float dx = x - clamp(x, (float)first.x + 0.5f, (float)last.x + 0.5f);
+  const float dy = y - clamp(y, (float)first.y + 0.5f, (float)last.y + 0.5f);
+  return dx * dx + dy * dy <= radius * radius;
+}
+
+// Tiles of its grid that a splat may touch: x range in .x .y, y range in .z .w.
+inline int4 tile_range(const Splat splat, const Grid grid) {
+  const int2 columns = pixel_range(splat.x, splat.radius, grid.width);
+  const int2 rows = pixel_range(splat.y, splat.radius, grid.height);
+  if (columns.x > columns.y || rows.x > rows.y) return (int4)(0, -1, 0, -1);
+  return (int4)(columns.x / TILE_WIDTH, columns.y / TILE_WIDTH, rows.x / TILE_HEIGHT,
+                rows.y / TILE_HEIGHT);
+}
+
+inline int touches(const Splat splat, const Grid grid, int tile_x, int tile_y, float mean_sigma) {
+  const int2 first = (int2)(tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT);
+  const int2 last = (int2)(min(first.x + TILE_WIDTH, grid.width) - 1,
+                           min(first.y + TILE_HEIGHT, grid.height) - 1);
+  return disc_meets_tile(splat.x, splat.y, reach(splat.sigma, splat.radius, mean_sigma), first,
+                         last);
+}
+
+inline uint slots_end(const BinParameters p, __global const uint* visible, uint block) {
+  const uint begin = p.first + block * p.stride;
+#ifdef BLOCKS_OF_PROJECTION
+  // Blocks are the projection's: each fills only a part of its stride.
+  return min(begin + p.length, block * p.stride + visible[2 * block]);
+#else
+  return min(begin + p.length, p.end);
+#endif
+}
+
+// counts[block * tile_count + tile]
+__kernel void bin_count(const BinParameters p, __global const Grid* grids,
+                        __global const Splat* splats, __global const uint* order,
+                        __global const uint* visible, __global uint* counts) {
+  const uint block = get_global_id(0);
+  __global uint* count = counts + (size_t)block * p.tile_count;
+  for (uint t = 0; t < p.tile_count; ++t) count[t] = 0;
+  const uint end = slots_end(p, visible, block);
+  for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
+#ifdef LIGHT_ORDERED
+    const Splat splat = splats[order[slot]];
+#else
+    const Splat splat = splats[slot];
+#endif
+    const Grid grid = grids[splat.component_and_grid >> 16];
+    const int4 range = tile_range(splat, grid);
+    if (range.x == range.y && range.z == range.w) {
+      ++count[grid.first_tile + (uint)(range.z * grid.tiles_x + range.x)];
+      continue;
+    }
+    for (int ty = range.z; ty <= range.w; ++ty) {
+      for (int tx = range.x; tx <= range.y; ++tx) {
+        if (touches(splat, grid, tx, ty, p.mean_sigma)) {
+          ++count[grid.first_tile + (uint)(ty * grid.tiles_x + tx)];
+        }
+      }
+    }
+  }
+}
+
+// Per tile, an exclusive scan over the blocks, in place, and the list's length.
+__kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
+                              __global uint* lengths) {
+  const uint tile = get_global_id(0);
+  if (tile >= p.tile_count) return;
+  uint running = 0;
+  for (uint b = 0; b < p.block_count; ++b) {
+    const size_t place = (size_t)b * p.tile_count + tile;
+    const uint count = counts[place];
+    counts[place] = running;
+    running += count;
+  }
+  lengths[tile] = running;
+}
+
+// Starts of the lists, and the segments that long ones are cut into. The sum of all
+// lengths is counted in 64 bits: the host refuses to go on where it exceeds the buffers.
+__kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths,
+                             __global uint* starts, uint segment_capacity,
+                             __global Segment* segments, __global BinTotals* totals) {
+  if (get_global_id(0) != 0) return;
+  ulong running = 0;
+  uint segment_count = 0, partial_count = 0;
+  for (uint t = 0; t < p.tile_count; ++t) {
+    const uint length = lengths[t];
+    starts[t] = (uint)running;
+    const uint pieces = length / p.segment_length + (length % p.segment_length != 0);
+    for (uint k = 0; k < pieces && segment_count < segment_capacity; ++k) {
+      Segment segment;
+      segment.tile = t;
+      segment.begin = (uint)running + k * p.segment_length;
+      segment.end = (uint)running + min((k + 1) * p.segment_length, length);
+      segment.partial = pieces > 1 ? partial_count++ : NO_PARTIAL;
+      segments[segment_count++] = segment;
+    }
+    running += length;
+  }
+  totals->entries_low = (uint)running;
+  totals->entries_high = (uint)(running >> 32);
+  totals->segment_count = segment_count;
+  totals->partial_count = partial_count;
+}
+
+inline void sample_palette(__global const float* knots, const ComponentColors colors,
+                           float position, float* emission, float* absorption) {
+  const float place = position * (float)(colors.knot_count - 1u);
+  const uint below = min((uint)place, colors.knot_count - 1u);
+  const uint above = min(below + 1u, colors.knot_count - 1u);
+  const float fraction = place - (float)below;
+  __global const float* a = knots + (size_t)(colors.first_knot + below) * 6;
+  __global const float* b = knots + (size_t)(colors.first_knot + above) * 6;
+  for (int c = 0; c < 3; ++c) {
+    emission[c] = a[c] + fraction * (b[c] - a[c]);
+    absorption[c] = a[c + 3] + fraction * (b[c + 3] - a[c + 3]);
+  }
+}
+
+// E w and A w at the cloud's centre (scene.h, Absorption).
+inline void amplitudes(const Splat splat, const ComponentColors colors,
+                       __global const float* knots, const BinParameters p, float* emission,
+                       float* absorption) {
+  float e[3], a[3];
+  sample_palette(knots, colors, splat.color, e, a);
+  for (int c = 0; c < 3; ++c) {
+    emission[c] = splat.weight * colors.brightness * e[c];
+    absorption[c] = splat.weight * colors.brightness * a[c];
+    if (colors.absorption_kind == ABSORPTION_NONE) absorption[c] = 0.0f;
+    if (colors.absorption_kind == ABSORPTION_FACTOR) {
+      absorption[c] = splat.weight * colors.absorption_factor * a[c];
+    }
+    if (colors.absorption_kind == ABSORPTION_GRAY) {
+      // The source depends on the cloud's own amplitude, before it was widened.
+      const float widened2 = splat.sigma * splat.sigma;
+      const float restored = splat.sigma < p.mean_sigma ? 1.0f : widened2 / (widened2 - p.widening);
+      const float own = emission[c] * restored;
+      absorption[c] = emission[c];
+      emission[c] *= own > 0.0f ? own / (own + colors.absorption_factor) : 0.0f;
+    }
+  }
+}
+
+__kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
+                          __global const Splat* splats, __global const uint* order,
+                          __global const uint* visible, __global uint* counts,
+                          __global const uint* starts,
+                          __global const ComponentColors* component_colors,
+                          __global const float* knots, __global TileSplat* entries) {
+  const uint block = get_global_id(0);
+  __global uint* count = counts + (size_t)block * p.tile_count;
+  const uint end = slots_end(p, visible, block);
+  for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
+#ifdef LIGHT_ORDERED
+    const Splat splat = splats[order[slot]];
+#else
+    const Splat splat = splats[slot];
+#endif
+    const Grid grid = grids[splat.component_and_grid >> 16];
+    const int4 range = tile_range(splat, grid);
+    if (range.x > range.y) continue;
+    float emission[3], absorption[3];
+    amplitudes(splat, component_colors[splat.component_and_grid & 0xffffu], knots, p, emission,
+               absorption);
+    TileSplat entry;
+    entry.sigma = splat.sigma;
+    entry.radius = splat.radius;
+    for (int c = 0; c < 3; ++c) {
+#ifdef LIGHT_ORDERED
+      entry.light[c] = absorption[c];
+      entry.emission[c] = emission[c];
+#elif defined(LIGHT_EMISSION)
+      entry.light[c] = emission[c];
+#else
+      entry.light[c] = absorption[c];
+#endif
+    }
+    const int single = range.x == range.y && range.z == range.w;
+    for (int ty = range.z; ty <= range.w; ++ty) {
+      for (int tx = range.x; tx <= range.y; ++tx) {
+        if (!single && !touches(splat, grid, tx, ty, p.mean_sigma)) continue;
+        entry.x = splat.x - (float)(tx * TILE_WIDTH);
+        entry.y = splat.y - (float)(ty * TILE_HEIGHT);
+        const uint tile = grid.first_tile + (uint)(ty * grid.tiles_x + tx);
+        entries[(size_t)starts[tile] + count[tile]++] = entry;
+      }
+    }
+  }
+}

@@ -1,0 +1,51 @@
+// Formulas that several stages share. The host puts a block of #defines and parameters.h
+// in front of this file.
+
+#pragma OPENCL FP_CONTRACT ON
+
+typedef struct ProjectParameters ProjectParameters;
+typedef struct FieldScaling FieldScaling;
+typedef struct Splat Splat;
+typedef struct ComponentColors ComponentColors;
+typedef struct Grid Grid;
+typedef struct BinParameters BinParameters;
+typedef struct Segment Segment;
+typedef struct BinTotals BinTotals;
+typedef struct CompositeParameters CompositeParameters;
+typedef struct ResolveParameters ResolveParameters;
+
+// A splat in the list of one tile, positions relative to the tile's corner, amplitudes
+// at the splat's centre: LIGHT_ORDERED carries A w and E w, the sums only the one that
+// they add up.
+typedef struct TileSplat {
+  float x, y;
+  float sigma, radius;
+  float light[3];
+#ifdef LIGHT_ORDERED
+  float emission[3];
+#endif
+} TileSplat;
+
+inline size_t first_float(const Grid grid) {
+  return (size_t)grid.first_float_low | ((size_t)grid.first_float_high << 32);
+}
+
+// The grid that a tile belongs to. Grids are few, coarse ones small.
+inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile) {
+  uint g = 0;
+  while (g + 1 < grid_count && tile >= grids[g + 1].first_tile) ++g;
+  return g;
+}
+
+// First and last pixel whose centre (index + 1/2) lies within `radius` of `centre`,
+// clamped to [0, size - 1]; first > last where there is none.
+inline int2 pixel_range(float centre, float radius, int size) {
+  const int first = convert_int_sat_rtp(centre - radius - 0.5f);
+  const int last = convert_int_sat_rtn(centre + radius - 0.5f);
+  return (int2)(max(first, 0), min(last, size - 1));
+}
+
+// How far a splat reaches: a pixel mean sees a disc that touches the pixel's corner.
+inline float reach(float sigma, float radius, float mean_sigma) {
+  return sigma < mean_sigma ? radius + 0.2072f : radius;
+}

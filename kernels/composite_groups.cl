@@ -1,0 +1,80 @@
+// Compositing for GPUs: a work-group takes a segment of one tile's list, a work-item one
+// pixel. The group stages splats in local memory, a batch at a time. Formulas are those of
+// composite_rows.cl, on single floats.
+#define GROUP (TILE_WIDTH * TILE_HEIGHT)
+#ifdef LIGHT_ORDERED
+#define PLANES 6
+#else
+#define PLANES 3
+#endif
+
+// X / w of one pixel; zero outside what the rows would draw.
+inline float pixel_shape(float dx, float dy, const TileSplat splat, const CompositeParameters p) {
+  if (fabs(dx) > splat.radius || fabs(dy) > splat.radius) return 0.0f;
+  const float sigma = splat.sigma;
+  const float inverse = 1.44269504f / (sigma * sigma);
+#ifdef KERNEL_CUT
+  const float cut = p.kernel_cut * sigma;
+  int inside = dx * dx + dy * dy <= cut * cut;
+#ifdef SAMPLING_MEAN
+  inside |= fabs(dx) <= 0.5f && fabs(dy) <= 0.5f;
+#endif
+  if (!inside) return 0.0f;
+#endif
+  return axis_shape(dx, sigma, inverse, p.mean_sigma) *
+         axis_shape(dy, sigma, inverse, p.mean_sigma);
+}
+
+inline void add_splat(float* pixel, const TileSplat splat, float shape, float phi_series_limit) {
+  for (int c = 0; c < 3; ++c) {
+#ifdef LIGHT_ORDERED
+    const float tau = shape * splat.light[c];
+    const float phi = tau <= phi_series_limit ? phi_series(tau) : phi_full(tau);
+    const float u = (1.0f - pixel[c + 3]) * (shape * phi);
+    pixel[c] += u * splat.emission[c];
+    pixel[c + 3] += u * splat.light[c];
+#else
+    pixel[c] += shape * splat.light[c];
+#endif
+  }
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
+    const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
+    __global const BinTotals* totals, __global const TileSplat* entries, __global float* planes,
+    __global float* partials) {
+  __local TileSplat batch[GROUP];
+  const uint item = get_local_id(0);
+  // The launch has as many groups as there are segments.
+  const Segment segment = segments[get_group_id(0)];
+  const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
+  const uint in_grid = segment.tile - grid.first_tile;
+  const uint x = item % TILE_WIDTH, y = item / TILE_WIDTH;
+  __global float* own = planes + first_float(grid) +
+                        ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + y) * grid.stride +
+                        (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH + x;
+  float pixel[PLANES];
+  for (int c = 0; c < PLANES; ++c) {
+    pixel[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
+  }
+  // begin and end are the group's: every item meets every barrier.
+  for (uint first = segment.begin; first < segment.end; first += GROUP) {
+    const uint count = min((uint)GROUP, segment.end - first);
+    if (item < count) batch[item] = entries[first + item];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint k = 0; k < count; ++k) {
+      const TileSplat splat = batch[k];
+      const float dx = (float)x + 0.5f - splat.x, dy = (float)y + 0.5f - splat.y;
+      const float shape = pixel_shape(dx, dy, splat, p);
+      if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  for (int c = 0; c < PLANES; ++c) {
+    if (segment.partial == NO_PARTIAL) {
+      own[(size_t)c * grid.plane_size] = pixel[c];
+    } else {
+      partials[((size_t)segment.partial * PLANES + c) * GROUP + item] = pixel[c];
+    }
+  }
+}

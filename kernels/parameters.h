@@ -1,0 +1,141 @@
+// Structures that host and kernels share, byte for byte. Only 4-byte members (and arrays
+// of them), so that no compiler pads them differently.
+#ifndef SPLOTCHCL_PARAMETERS_H
+#define SPLOTCHCL_PARAMETERS_H
+
+#define SCALING_LINEAR 0
+#define SCALING_LOG 1
+#define SCALING_ASINH 2
+
+#define WEIGHT_MASS 0
+#define WEIGHT_DENSITY 1
+#define WEIGHT_CONSTANT 2
+
+#define ABSORPTION_AS_EMISSION 0
+#define ABSORPTION_NONE 1
+#define ABSORPTION_FACTOR 2
+#define ABSORPTION_GRAY 3
+
+// A field's way to [0, 1] (frame.h, ScalarMap).
+struct FieldScaling {
+  int scaling;
+  float minimum;
+  float inverse_range;  // 0 where the range is empty
+};
+
+// Constants of the projection of one component.
+struct ProjectParameters {
+  // The depth chain (frame.h).
+  float position_high[3];
+  float position_low[3];
+  float forward[3];
+  float right[3];
+  float down[3];
+  float pixels_per_length;  // perspective: at z = 1
+  float centre_x, centre_y;  // of the whole picture, relative to the crop's corner
+  int perspective;
+
+  float near_limit;   // z below is left out
+  float near_factor;  // z below near_factor * h is left out
+  float far_limit;
+
+  float size_factor;
+  float kernel_width;  // sigma = kernel_width * h
+  float kernel_cut;    // in sigma; 0: uncut
+  float min_radius;    // pixels
+  float widening;      // sigma'^2 = sigma^2 + widening, in pixels
+  float mean_sigma;    // below: the pixel mean by erf, not the widened centre value
+
+  int weight_model;
+  float length_scale;  // keeps sigma^2 inside single precision in any unit
+  float weight_scale;
+  float peak_colour;   // the largest of E and A per unit weight
+
+  float inverse_truncation;  // 1 / (light left out where a splat ends, per unit peak)
+  float coarse_sigma;        // smallest sigma in pixels of a coarse grid
+  int grid_count;
+
+  struct FieldScaling color;
+  struct FieldScaling intensity;
+
+  unsigned int component;
+  unsigned int first_particle, end_particle;  // of the component, this launch
+  unsigned int block_particles;               // per work-item
+  unsigned int first_block;  // of the component, in offsets and visible
+  // 0 where one value serves all particles.
+  int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
+  int sort_by_field, sort_descending;
+};
+
+// A projected particle, positions and widths in pixels of its grid.
+struct Splat {
+  float x, y;
+  float sigma;   // widened, unless the pixel mean is taken by erf
+  float radius;  // drawn up to here
+  float weight;  // w' = w sigma^2 / sigma'^2
+  float color;   // palette position in [0, 1]
+  unsigned int component_and_grid;  // component | grid << 16
+};
+
+// One component's colours: knots lie in a table at first_knot, six floats each (emission,
+// absorption).
+struct ComponentColors {
+  unsigned int first_knot, knot_count;
+  float brightness;
+  int absorption_kind;
+  float absorption_factor;
+};
+
+// One grid of the picture: grid 0 has the picture's own pixels, grid g pixels 2^g times
+// as wide, with a guard band around the picture. Planes are padded to whole tiles.
+struct Grid {
+  int width, height;  // with the guard band
+  int guard;
+  int tiles_x, tiles_y;
+  unsigned int first_tile;
+  unsigned int stride, plane_size;  // floats
+  unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
+};
+
+// Which splats a binning pass takes: work-item b walks the slots first + b * stride ...
+// of at most `length` splats.
+struct BinParameters {
+  unsigned int first, stride, length;
+  unsigned int end;          // slots from here on do not exist
+  unsigned int block_count;
+  unsigned int tile_count;
+  unsigned int grid_count;
+  unsigned int segment_length;
+  float kernel_cut;
+  float mean_sigma;
+  float widening;
+};
+
+// A stretch of one tile's list, composited by one work-item or work-group.
+struct Segment {
+  unsigned int tile, begin, end;
+  unsigned int partial;  // where the layer goes; NO_PARTIAL: into the planes
+};
+#define NO_PARTIAL 0xffffffffu
+
+// Totals of a binning pass, read back by the host.
+struct BinTotals {
+  unsigned int entries_low, entries_high;
+  unsigned int segment_count, partial_count;
+};
+
+struct CompositeParameters {
+  unsigned int grid_count;
+  float kernel_cut;   // in sigma
+  float mean_sigma;
+  float phi_series;   // optical depth up to which the short series for phi serves
+  float opaque;       // stop where every pixel's opacity is at least this; > 1: never
+};
+
+struct ResolveParameters {
+  int width, height;
+  float source[3];
+  float background[3];
+};
+
+#endif

@@ -1,0 +1,44 @@
+// Least-significant-digit radix sort of (key, value) pairs, 8-bit digits, stable:
+// histogram, scan, scatter. A work-item walks one block of pairs in order; no work-item
+// waits for another, so no forward progress is assumed.
+#define DIGITS 256
+
+__kernel void sort_histogram(__global const uint* keys, uint count, uint block_length, uint shift,
+                             uint block_count, __global uint* histograms) {
+  const uint block = get_global_id(0);
+  const uint begin = block * block_length;
+  const uint end = min(begin + block_length, count);
+  uint histogram[DIGITS];
+  for (uint d = 0; d < DIGITS; ++d) histogram[d] = 0;
+  for (uint i = begin; i < end; ++i) ++histogram[(keys[i] >> shift) & (DIGITS - 1)];
+  for (uint d = 0; d < DIGITS; ++d) histograms[d * block_count + block] = histogram[d];
+}
+
+// Exclusive scan over all digits and blocks, in place: where each block's first pair of a
+// digit goes. 256 * block_count numbers: one work-item.
+__kernel void sort_scan(uint total, __global uint* histograms) {
+  if (get_global_id(0) != 0) return;
+  uint running = 0;
+  for (uint i = 0; i < total; ++i) {
+    const uint count = histograms[i];
+    histograms[i] = running;
+    running += count;
+  }
+}
+
+__kernel void sort_scatter(__global const uint* keys, __global const uint* values, uint count,
+                           uint block_length, uint shift, uint block_count,
+                           __global const uint* histograms, __global uint* sorted_keys,
+                           __global uint* sorted_values) {
+  const uint block = get_global_id(0);
+  const uint begin = block * block_length;
+  const uint end = min(begin + block_length, count);
+  uint next[DIGITS];
+  for (uint d = 0; d < DIGITS; ++d) next[d] = histograms[d * block_count + block];
+  for (uint i = begin; i < end; ++i) {
+    const uint key = keys[i];
+    const uint place = next[(key >> shift) & (DIGITS - 1)]++;
+    sorted_keys[place] = key;
+    sorted_values[place] = values[i];
+  }
+}

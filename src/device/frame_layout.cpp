@@ -1,0 +1,148 @@
+#include "device/frame_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace splotchcl {
+namespace {
+
+// Refining a grid needs 2.5 coarse pixels beyond the outermost fine guard pixel:
+// (g - 1/2) / 2 + 2.5 <= g holds from g = 5 on.
+constexpr int guard_pixels = 6;
+
+// Below this a coarse grid costs more to refine than it saves.
+constexpr int smallest_coarse_side = 16;
+constexpr int most_grids = 12;
+
+// What a relative error of every splat does to the picture, relative to max(1, I). An
+// emission sum errs by as much; behind exp(-x) it is at most the maximum of x exp(-x)
+// times the range of the light.
+double response(const Frame& frame, const Plan& plan) {
+  if (plan.light == LightPlan::emission) return 1;
+  constexpr double depth_to_light = 0.36787944117144233;
+  double range = 1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    range = std::max(range, std::abs(plan.source[c] - frame.background[c]));
+  }
+  return range * depth_to_light;
+}
+
+int ceil_divide(int value, int by) {
+  return (value + by - 1) / by;
+}
+
+void append_grid(FrameLayout& layout, int width, int height, int guard) {
+  kernel::Grid grid{};
+  grid.width = width + 2 * guard;
+  grid.height = height + 2 * guard;
+  grid.guard = guard;
+  grid.tiles_x = ceil_divide(grid.width, static_cast<int>(layout.tile_width));
+  grid.tiles_y = ceil_divide(grid.height, static_cast<int>(layout.tile_height));
+  grid.first_tile = layout.tile_count;
+  grid.stride = static_cast<std::uint32_t>(grid.tiles_x) * layout.tile_width;
+  grid.plane_size = grid.stride * static_cast<std::uint32_t>(grid.tiles_y) * layout.tile_height;
+  grid.first_float_low = static_cast<std::uint32_t>(layout.plane_floats);
+  grid.first_float_high = static_cast<std::uint32_t>(layout.plane_floats >> 32);
+  layout.grids.push_back(grid);
+  layout.tile_count += static_cast<std::uint32_t>(grid.tiles_x * grid.tiles_y);
+  layout.plane_floats += std::uint64_t{layout.planes} * grid.plane_size;
+}
+
+// The disc's edge is part of the model when the scene cuts the kernel, and a coarse grid
+// cannot show it.
+bool may_use_coarse_grids(const Frame& frame, const Plan& plan) {
+  return plan.light != LightPlan::ordered && plan.coarse_share > 0 && !frame.kernel.cut;
+}
+
+// Largest E / A of the component: what shines through an opacity o is at most
+// (1 - o) times this.
+double brightest_source(const DrawnComponent& component) {
+  using Kind = Absorption::Kind;
+  if (component.absorption.kind == Kind::none) return std::numeric_limits<double>::infinity();
+  if (component.absorption.kind == Kind::gray) return 1;
+  const double factor = component.absorption.kind == Kind::factor
+                            ? component.brightness / component.absorption.factor
+                            : 1;
+  if (!component.palette.has_own_absorption()) return factor;
+  double largest = 0;
+  for (std::size_t k = 0; k < component.palette.emission.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float emission = component.palette.emission[k][c];
+      const float absorption = component.palette.absorption[k][c];
+      if (emission > 0)
+        largest = std::max(largest, factor * static_cast<double>(emission / absorption));
+    }
+  }
+  return largest;
+}
+
+float opaque_limit(const Frame& frame, double share) {
+  double brightest = *std::max_element(frame.background.begin(), frame.background.end());
+  for (const DrawnComponent& component : frame.components) {
+    brightest = std::max(brightest, brightest_source(component));
+  }
+  constexpr float never = 2;
+  if (!std::isfinite(brightest) || share <= 0) return never;
+  return brightest > 0 ? static_cast<float>(1 - share / brightest) : 0.0f;
+}
+
+}  // namespace
+
+FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
+  FrameLayout layout;
+  layout.tile_width = rows ? 32 : 16;
+  layout.tile_height = 16;
+  layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
+  append_grid(layout, frame.crop.width, frame.crop.height, 0);
+  if (may_use_coarse_grids(frame, plan)) {
+    for (int g = 1; g < most_grids; ++g) {
+      const int width = ceil_divide(frame.crop.width, 1 << g);
+      const int height = ceil_divide(frame.crop.height, 1 << g);
+      if (std::max(width, height) < smallest_coarse_side) break;
+      append_grid(layout, width, height, guard_pixels);
+    }
+  }
+
+  const double picture_error = response(frame, plan);
+  // Tolerance 0 asks for the most that single precision gives.
+  const double smallest = 1e-7;
+  const double arithmetic = std::max(plan.arithmetic_share, smallest);
+  const double truncation = std::max(plan.truncation_share, smallest);
+  layout.exact = frame.tolerance < 1e-4;
+  layout.inverse_truncation = static_cast<float>(1 / truncation);
+  if (frame.kernel.sampling == Sampling::mean) {
+    // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
+    const double sigma = std::pow(7.7e-3 * picture_error / (0.75 * arithmetic), 0.25);
+    layout.mean_sigma = static_cast<float>(std::clamp(sigma, 1.5, 64.0));
+    layout.widening = 1.0f / 6.0f;
+  }
+  if (layout.grids.size() > 1) {
+    // Two axes, each 1.29 / sigma^8 of the peak.
+    layout.coarse_sigma =
+        static_cast<float>(std::max(std::pow(2.58 * picture_error / plan.coarse_share, 0.125),
+                                    static_cast<double>(layout.mean_sigma)));
+  } else {
+    layout.coarse_sigma = std::numeric_limits<float>::max();
+  }
+  // The series errs by y^4 / 120 of phi.
+  layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * 0.25 * arithmetic, 0.25)));
+  layout.opaque = opaque_limit(frame, 0.25 * plan.arithmetic_share);
+  return layout;
+}
+
+std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayout& layout) {
+  std::string defines;
+  const auto define = [&defines](const std::string& text) { defines += "#define " + text + "\n"; };
+  define("TILE_WIDTH " + std::to_string(layout.tile_width));
+  define("TILE_HEIGHT " + std::to_string(layout.tile_height));
+  if (plan.light == LightPlan::ordered) define("LIGHT_ORDERED");
+  if (plan.light == LightPlan::emission) define("LIGHT_EMISSION");
+  if (frame.kernel.cut) define("KERNEL_CUT");
+  if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
+  if (layout.exact) define("EXACT");
+  return defines;
+}
+
+}  // namespace splotchcl

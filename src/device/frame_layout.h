@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/kernel_parameters.h"
+#include "device/quirks.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// How the picture lies in device memory: grids of pixels, cut in tiles, and the numbers
+// that turn the plan's shares of the tolerance into limits for the kernels.
+struct FrameLayout {
+  std::vector<kernel::Grid> grids;  // grid 0 is the picture, the others only in sums
+  std::uint32_t tile_width = 0, tile_height = 0;
+  std::uint32_t tile_count = 0;
+  std::uint32_t planes = 0;        // 3 sums, or 3 sources and 3 opacities
+  std::uint64_t plane_floats = 0;  // all planes of all grids
+
+  float mean_sigma = 0;    // narrower splats take the pixel mean by erf
+  float widening = 0;      // of sigma^2, for wider ones
+  float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
+  float inverse_truncation = 0;
+  float phi_series = 0;
+  float opaque = 0;
+  bool exact = false;  // polynomials of full single precision
+};
+
+FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows);
+
+// The block of #defines that specialises the kernels to the plan.
+std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayout& layout);
+
+}  // namespace splotchcl

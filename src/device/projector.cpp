@@ -1,0 +1,248 @@
+#include "device/projector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Bounds on amplitudes are taken over the whole palette.
+double brightest_knot(const std::vector<Rgb>& knots) {
+  float brightest = 0;
+  for (const Rgb& knot : knots) {
+    brightest = std::max(brightest, *std::max_element(knot.begin(), knot.end()));
+  }
+  return static_cast<double>(brightest);
+}
+
+double peak_colour(const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  const double emission = component.brightness * brightest_knot(palette.emission);
+  const double colour_absorption =
+      brightest_knot(palette.has_own_absorption() ? palette.absorption : palette.emission);
+  switch (component.absorption.kind) {
+    case Absorption::Kind::none:
+    case Absorption::Kind::gray:
+      return emission;
+    case Absorption::Kind::as_emission:
+      return std::max(emission, component.brightness * colour_absorption);
+    case Absorption::Kind::factor:
+      return std::max(emission, component.absorption.factor * colour_absorption);
+  }
+  return emission;
+}
+
+kernel::FieldScaling scaling_of(const ScalarMap& map) {
+  kernel::FieldScaling scaling{};
+  scaling.scaling = map.scaling == Scaling::log     ? SCALING_LOG
+                    : map.scaling == Scaling::asinh ? SCALING_ASINH
+                                                    : SCALING_LINEAR;
+  scaling.minimum = static_cast<float>(map.minimum);
+  const double range = map.maximum - map.minimum;
+  scaling.inverse_range = range > 0 ? static_cast<float>(1 / range) : 0.0f;
+  return scaling;
+}
+
+// An intensity field that is absent counts as 1.
+kernel::FieldScaling intensity_scaling(const DrawnComponent& component) {
+  if (!component.particles.intensity.is_absent()) return scaling_of(component.intensity);
+  kernel::FieldScaling one{};
+  one.scaling = SCALING_LINEAR;
+  one.inverse_range = 1;
+  return one;
+}
+
+void copy(const Vec3& from, float (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis)
+    to[axis] = static_cast<float>(from.a[axis]);
+}
+
+std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
+  return value / by + (value % by != 0 ? 1 : 0);
+}
+
+}  // namespace
+
+Projector::Projector(DeviceContext& device, const Frame& frame, const FrameLayout& layout,
+                     const compute::buffer& grids)
+    : device_(device), frame_(frame), layout_(layout), grids_(grids) {}
+
+kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& component,
+                                                    std::uint32_t component_index,
+                                                    const ParticleBuffers& particles) const {
+  kernel::ProjectParameters p{};
+  const DepthChain chain = make_depth_chain(frame_.camera, component.particles.origin);
+  std::copy(std::begin(chain.position_high), std::end(chain.position_high), p.position_high);
+  std::copy(std::begin(chain.position_low), std::end(chain.position_low), p.position_low);
+  std::copy(std::begin(chain.forward), std::end(chain.forward), p.forward);
+  copy(frame_.camera.right, p.right);
+  copy(frame_.camera.down, p.down);
+  p.perspective = frame_.projection == Projection::perspective;
+  p.pixels_per_length = static_cast<float>(p.perspective ? frame_.camera.focal_pixels
+                                                         : frame_.camera.pixels_per_length);
+  p.centre_x = static_cast<float>(frame_.camera.centre_x - frame_.crop.x);
+  p.centre_y = static_cast<float>(frame_.camera.centre_y - frame_.crop.y);
+
+  // z <= 0 never projects in perspective; the smallest float stands for "above 0".
+  const float lowest = p.perspective ? std::numeric_limits<float>::min() : 0.0f;
+  p.near_limit = lowest;
+  p.near_factor = 0;
+  if (frame_.near_limit) {
+    p.near_limit = static_cast<float>(*frame_.near_limit);
+    if (p.perspective) p.near_limit = std::max(p.near_limit, lowest);
+  } else if (p.perspective) {
+    p.near_factor = 0.1f;
+  }
+  p.far_limit = frame_.far_limit ? static_cast<float>(*frame_.far_limit)
+                                 : std::numeric_limits<float>::infinity();
+
+  p.size_factor = static_cast<float>(component.size_factor);
+  p.kernel_width = static_cast<float>(frame_.kernel.width);
+  p.kernel_cut = static_cast<float>(frame_.kernel.cut.value_or(0));
+  p.min_radius = static_cast<float>(frame_.kernel.min_radius_pixels);
+  p.widening = layout_.widening;
+  p.mean_sigma = layout_.mean_sigma;
+
+  // A power of two near the scene's size keeps sigma^2 inside single precision, whether
+  // lengths are in centimetres or in megaparsecs.
+  const double length_scale = std::exp2(-std::round(std::log2(frame_.camera.look_at_distance)));
+  p.length_scale = static_cast<float>(length_scale);
+  switch (component.weight) {
+    case WeightModel::mass:
+      p.weight_model = WEIGHT_MASS;
+      p.weight_scale =
+          static_cast<float>(length_scale * length_scale / (pi * component.reference_column));
+      break;
+    case WeightModel::density:
+      p.weight_model = WEIGHT_DENSITY;
+      p.weight_scale =
+          static_cast<float>(std::sqrt(pi) / (length_scale * component.reference_column));
+      break;
+    case WeightModel::constant:
+      p.weight_model = WEIGHT_CONSTANT;
+      p.weight_scale = static_cast<float>(length_scale / component.reference_column);
+      break;
+  }
+  p.peak_colour = static_cast<float>(peak_colour(component));
+  p.inverse_truncation = layout_.inverse_truncation;
+  p.coarse_sigma = layout_.coarse_sigma;
+  p.grid_count = static_cast<int>(layout_.grids.size());
+  p.color = scaling_of(component.color);
+  p.intensity = intensity_scaling(component);
+  p.component = component_index;
+  p.block_particles = device_.traits.project_block;
+  p.smoothing_length_stride = particles.smoothing_length_stride;
+  p.weight_stride = particles.weight_stride;
+  p.color_stride = particles.color_stride;
+  p.intensity_stride = particles.intensity_stride;
+  p.sort_stride = particles.sort_stride;
+  p.sort_by_field = frame_.sort.by == SortOrder::By::field;
+  p.sort_descending = frame_.sort.descending;
+  return p;
+}
+
+void Projector::launch(const compute::program& program, const kernel::ProjectParameters& parameters,
+                       const ParticleBuffers& particles, const compute::buffer& offsets,
+                       const compute::buffer& visible, std::uint32_t block_count) {
+  Buffers& buffers = device_.buffers;
+  Launch(device_, "project", program.create_kernel("project"))
+      .value(parameters)
+      .arg(grids_)
+      .arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field)
+      .arg(offsets)
+      .arg(visible)
+      .arg(buffers.get("splats", 0))
+      .arg(buffers.get("keys", 0))
+      .arg(buffers.get("order", 0))
+      .run_items(block_count);
+}
+
+SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint32_t component_index,
+                                     const ParticleBuffers& particles, std::uint32_t first,
+                                     std::uint32_t end) {
+  const compute::program program =
+      device_.programs.get("#define OUTPUT_SPLATS\n", {"common.cl", "project.cl"});
+  kernel::ProjectParameters parameters = parameters_for(component, component_index, particles);
+  parameters.first_particle = first;
+  parameters.end_particle = end;
+  SplatBlocks blocks;
+  blocks.stride = parameters.block_particles;
+  blocks.block_count = ceil_divide(end - first, blocks.stride);
+
+  std::vector<std::uint32_t> offsets(blocks.block_count);
+  for (std::uint32_t b = 0; b < blocks.block_count; ++b)
+    offsets[b] = b * blocks.stride;
+  Buffers& buffers = device_.buffers;
+  const compute::buffer visible = buffers.get("visible", 8ull * blocks.block_count);
+  buffers.get("splats", std::uint64_t{blocks.block_count} * blocks.stride * sizeof(kernel::Splat));
+  launch(program, parameters, particles, buffers.upload("offsets", offsets), visible,
+         blocks.block_count);
+  return blocks;
+}
+
+void Projector::collect_counts(const SplatBlocks& blocks) {
+  std::vector<std::uint32_t> counts(2 * std::size_t{blocks.block_count});
+  device_.queue.enqueue_read_buffer(device_.buffers.get("visible", 0), 0,
+                                    counts.size() * sizeof(std::uint32_t), counts.data());
+  for (std::size_t b = 0; b < blocks.block_count; ++b) {
+    visible_particles_ += counts[2 * b];
+    bad_particles_ += counts[2 * b + 1];
+  }
+}
+
+std::uint32_t Projector::project_all(const std::vector<DrawnComponent>& components,
+                                     const std::vector<ParticleBuffers>& particles) {
+  Buffers& buffers = device_.buffers;
+  std::vector<std::uint32_t> first_block = {0};
+  for (const DrawnComponent& component : components) {
+    first_block.push_back(first_block.back() +
+                          ceil_divide(static_cast<std::uint32_t>(component.particles.count),
+                                      device_.traits.project_block));
+  }
+  const std::uint32_t block_count = first_block.back();
+  if (block_count == 0) return 0;
+  const compute::buffer visible = buffers.get("visible", 8ull * block_count);
+  const compute::buffer offsets = buffers.get("offsets", 4ull * (block_count + 1));
+
+  const auto pass = [&](const std::string& defines) {
+    const compute::program program = device_.programs.get(defines, {"common.cl", "project.cl"});
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      const std::uint32_t blocks = first_block[c + 1] - first_block[c];
+      if (blocks == 0) continue;
+      kernel::ProjectParameters parameters =
+          parameters_for(components[c], static_cast<std::uint32_t>(c), particles[c]);
+      parameters.first_particle = 0;
+      parameters.end_particle = static_cast<std::uint32_t>(components[c].particles.count);
+      parameters.first_block = first_block[c];
+      launch(program, parameters, particles[c], offsets, visible, blocks);
+    }
+  };
+  pass("");
+  Launch(device_, "project",
+         device_.programs.get("", {"common.cl", "scan.cl"}).create_kernel("scan_blocks"))
+      .value(block_count)
+      .arg(visible)
+      .arg(offsets)
+      .run_items(1);
+  std::uint32_t splat_count = 0;
+  device_.queue.enqueue_read_buffer(offsets, 4ull * block_count, sizeof(splat_count), &splat_count);
+  buffers.get("splats", std::uint64_t{splat_count} * sizeof(kernel::Splat));
+  buffers.get("keys", 4ull * splat_count);
+  buffers.get("order", 4ull * splat_count);
+  pass("#define OUTPUT_SPLATS\n#define OUTPUT_KEYS\n");
+  collect_counts({block_count, 0});
+  return splat_count;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,62 @@
+#include "device/resolver.h"
+
+#include <algorithm>
+
+namespace splotchcl {
+
+Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame& frame,
+                   const Plan& plan, const compute::buffer& grids)
+    : device_(device), layout_(layout), grids_(grids) {
+  parameters_.width = frame.crop.width;
+  parameters_.height = frame.crop.height;
+  for (std::size_t c = 0; c < 3; ++c) {
+    parameters_.source[c] = static_cast<float>(plan.source[c]);
+    parameters_.background[c] = static_cast<float>(frame.background[c]);
+  }
+  program_ = device.programs.get(kernel_defines(frame, plan, layout), {"common.cl", "resolve.cl"});
+}
+
+// From the coarsest grid to the picture's own, each added to the next finer one.
+void Resolver::refine(const compute::buffer& planes) {
+  const std::size_t grid_count = layout_.grids.size();
+  if (grid_count < 2) return;
+  const std::uint64_t largest = std::uint64_t{layout_.planes} *
+                                static_cast<std::uint32_t>(layout_.grids[1].height) *
+                                layout_.grids[0].stride;
+  const compute::buffer temporary = device_.buffers.get("refined columns", 4 * largest);
+  for (std::size_t g = grid_count - 1; g > 0; --g) {
+    const auto coarse_index = static_cast<std::uint32_t>(g);
+    const auto fine_width = static_cast<std::size_t>(layout_.grids[g - 1].width);
+    const auto fine_height = static_cast<std::size_t>(layout_.grids[g - 1].height);
+    const auto coarse_height = static_cast<std::size_t>(layout_.grids[g].height);
+    Launch(device_, "resolve", program_.create_kernel("refine_columns"))
+        .value(coarse_index)
+        .arg(grids_)
+        .arg(planes)
+        .arg(temporary)
+        .run_grid(fine_width, coarse_height, layout_.planes);
+    Launch(device_, "resolve", program_.create_kernel("refine_rows"))
+        .value(coarse_index)
+        .arg(grids_)
+        .arg(planes)
+        .arg(temporary)
+        .run_grid(fine_width, fine_height, layout_.planes);
+  }
+}
+
+Image Resolver::resolve(const compute::buffer& planes) {
+  refine(planes);
+  Image image(parameters_.width, parameters_.height);
+  const std::uint64_t bytes = image.pixels.size() * sizeof(float);
+  const compute::buffer pixels = device_.buffers.get("image", bytes);
+  Launch(device_, "resolve", program_.create_kernel("resolve"))
+      .value(parameters_)
+      .arg(grids_)
+      .arg(planes)
+      .arg(pixels)
+      .run_grid(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), 1);
+  device_.queue.enqueue_read_buffer(pixels, 0, bytes, image.pixels.data());
+  return image;
+}
+
+}  // namespace splotchcl

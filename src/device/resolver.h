@@ -1,0 +1,28 @@
+#pragma once
+
+#include "device/device_context.h"
+#include "device/frame_layout.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+
+namespace splotchcl {
+
+// Planes of all grids to the picture: the stage `resolve`.
+class Resolver {
+ public:
+  Resolver(DeviceContext& device, const FrameLayout& layout, const Frame& frame, const Plan& plan,
+           const compute::buffer& grids);
+
+  Image resolve(const compute::buffer& planes);
+
+ private:
+  void refine(const compute::buffer& planes);
+
+  DeviceContext& device_;
+  const FrameLayout& layout_;
+  kernel::ResolveParameters parameters_{};
+  compute::buffer grids_;
+  compute::program program_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,56 @@
+#include "device/sorter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace splotchcl {
+namespace {
+
+constexpr std::uint32_t digit_bits = 8;
+constexpr std::uint32_t digits = 1u << digit_bits;
+
+}  // namespace
+
+Sorter::Pairs Sorter::sort(const Pairs& pairs, std::uint32_t count) {
+  if (count < 2) return pairs;
+  const std::uint32_t wanted = device_.traits.sort_blocks;
+  const std::uint32_t block_length = std::max(1024u, count / wanted + (count % wanted != 0));
+  const std::uint32_t block_count = count / block_length + (count % block_length != 0);
+  const std::uint32_t histogram_size = digits * block_count;
+
+  Buffers& buffers = device_.buffers;
+  const compute::buffer histograms = buffers.get("sort histograms", 4ull * histogram_size);
+  Pairs from = pairs;
+  Pairs to = {buffers.get("keys (sorting)", 4ull * count),
+              buffers.get("order (sorting)", 4ull * count)};
+  const compute::program program = device_.programs.get("", {"sort.cl"});
+  for (std::uint32_t shift = 0; shift < 32; shift += digit_bits) {
+    Launch(device_, "sort", program.create_kernel("sort_histogram"))
+        .arg(from.keys)
+        .value(count)
+        .value(block_length)
+        .value(shift)
+        .value(block_count)
+        .arg(histograms)
+        .run_items(block_count);
+    Launch(device_, "sort", program.create_kernel("sort_scan"))
+        .value(histogram_size)
+        .arg(histograms)
+        .run_items(1);
+    Launch(device_, "sort", program.create_kernel("sort_scatter"))
+        .arg(from.keys)
+        .arg(from.values)
+        .value(count)
+        .value(block_length)
+        .value(shift)
+        .value(block_count)
+        .arg(histograms)
+        .arg(to.keys)
+        .arg(to.values)
+        .run_items(block_count);
+    std::swap(from, to);
+  }
+  return from;
+}
+
+}  // namespace splotchcl

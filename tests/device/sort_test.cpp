@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "device/device_context.h"
+#include "device/scenes.h"
+#include "device/sorter.h"
+
+namespace splotchcl::test {
+namespace {
+
+using Keys = std::vector<std::uint32_t>;
+
+Keys stable_order(const Keys& keys) {
+  Keys order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+Keys device_order(const Keys& keys) {
+  DeviceContext device(choose_device(""));
+  const auto count = static_cast<std::uint32_t>(keys.size());
+  Keys order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const Sorter::Pairs pairs = {device.buffers.upload("keys", keys),
+                               device.buffers.upload("order", order)};
+  const Sorter::Pairs sorted = Sorter(device).sort(pairs, count);
+  if (count > 0) {
+    device.queue.enqueue_read_buffer(sorted.values, 0, 4 * keys.size(), order.data());
+  }
+  return order;
+}
+
+Keys random_keys(std::size_t count, double low, double high) {
+  Random random(7);
+  Keys keys(count);
+  for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(random.uniform(low, high));
+  return keys;
+}
+
+TEST(Sort, GivesTheStableOrderIndexForIndex) {
+  for (const std::size_t count : {0ul, 1ul, 2ul, 1000ul, 1024ul, 1025ul, 300007ul}) {
+    const Keys keys = random_keys(count, 0, 4294967295.0);
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << count;
+  }
+}
+
+TEST(Sort, KeepsTheOrderOfEqualKeys) {
+  const Keys keys = random_keys(100000, 0, 10);
+  EXPECT_EQ(device_order(keys), stable_order(keys));
+}
+
+TEST(Sort, LeavesSortedInputAlone) {
+  Keys keys = random_keys(100000, 0, 4294967295.0);
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(device_order(keys), stable_order(keys));
+}
+
+TEST(Sort, TurnsReversedInputRound) {
+  Keys keys = random_keys(100000, 0, 4294967295.0);
+  std::sort(keys.rbegin(), keys.rend());
+  EXPECT_EQ(device_order(keys), stable_order(keys));
+}
+
+TEST(Sort, ComparesKeysThatDifferInOneDigitOnly) {
+  for (const double step : {1.0, 256.0, 65536.0, 16777216.0}) {
+    Keys keys = random_keys(5000, 0, 256);
+    for (std::uint32_t& key : keys) key *= static_cast<std::uint32_t>(step);
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << step;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test
