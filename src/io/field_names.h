@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// The canonical name of a field that a file calls `label` (any case, trailing blanks
+// allowed), or an empty string when the label is not a known one.
+std::string canonical_field_name(std::string_view label);
+
+// Names the fields of one type: FieldInfo::name becomes the canonical name, or the file's
+// own where there is none or where another field of the type already has it.
+void name_fields(ParticleTypeInfo& type);
+
+// The field that `name` means: a canonical name, the file's own label or any other label
+// of the same quantity, in any case. "smoothing_length" also finds a type's
+// star_smoothing_length where it has no other. Null when there is none.
+const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name);
+
+// Throws the DataError for a field that a type does not have: it lists those it has.
+[[noreturn]] void throw_missing_field(const SnapshotInfo& info, const ParticleTypeInfo& type,
+                                      std::string_view name);
+// Throws the DataError for a type without particles: it lists those with particles.
+[[noreturn]] void throw_missing_type(const SnapshotInfo& info, int type);
+
+bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+}  // namespace splotchcl

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// What the header of one file of a snapshot says, whatever the container. The arrays have
+// one entry per particle type and the same length.
+struct GadgetHeader {
+  std::vector<std::uint64_t> counts;        // in this file
+  std::vector<std::uint64_t> total_counts;  // in all files; all 0 in many initial conditions
+  std::vector<double> table_masses;         // 0: masses are stored per particle
+  double time = 0;
+  double redshift = 0;
+  int files = 1;
+  double box_size = 0;
+  double omega_matter = 0;
+  double hubble_parameter = 0;
+  bool has_cooling = false;
+  bool has_star_formation = false;
+  bool has_stellar_age = false;
+  bool has_metals = false;
+
+  std::uint64_t particles() const;
+};
+
+// Refuses a header that cannot be right, naming `path`: masses below zero or not finite,
+// no particles at all in a snapshot of one file.
+void check_header(const GadgetHeader& header, const std::filesystem::path& path);
+
+// Whether the named file holds the whole snapshot although its header speaks of more files:
+// the header's number of files is not always set.
+bool is_complete_alone(const GadgetHeader& header);
+
+// The members' headers as one snapshot: counts added, everything else as in the first.
+// Refuses members that do not belong together and counts that do not add up.
+GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
+                           const std::vector<std::filesystem::path>& paths,
+                           std::vector<std::string>& notes);
+
+// Fills what follows from the header: time, redshift, box, h, types with count and mass.
+void describe(const GadgetHeader& header, SnapshotInfo& info);
+
+}  // namespace splotchcl

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "splotchcl/particles.h"
+
+namespace splotchcl {
+
+// Called now and then from the calling thread with the fraction done, 0 to 1.
+using Progress = std::function<void(double)>;
+
+// Each particle's distance to its `neighbours`-th nearest other particle (or to the
+// farthest, where there are fewer): a smoothing length for matter that has none.
+//
+// `position` holds 3 * count values. With `periodic_box`, neighbours are also looked for
+// across the faces of the box, wherever its corner lies; positions must be within one
+// period. A particle counts there once per image.
+//
+// Results are the same for any number of threads. A position that is not finite gets
+// not-a-number and is nobody's neighbour. Where all those neighbours coincide with the
+// particle, it gets the smallest length found for others; where there is none (or no
+// neighbour at all), a thousandth of the particles' extent or of the box; where that is
+// zero too, 1.
+Column find_smoothing_lengths(const Column& position, std::size_t count,
+                              std::optional<double> periodic_box = std::nullopt,
+                              int neighbours = 64, const Progress& progress = {});
+
+// The length whose sphere holds the mass of 33 particles at the particle's density, as
+// Gadget's gas has it: h = (3 * 33 m / (4 pi rho))^(1/3). Not finite or not positive where
+// mass or density are.
+Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count);
+
+}  // namespace splotchcl

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splotchcl {
+
+// A file name of a multi-file set: snapshot_002.1.hdf5 is base snapshot_002, index 1,
+// ending ".hdf5". Indices have no leading zeros.
+struct MemberName {
+  std::filesystem::path base;  // with its folder
+  int index = 0;
+  std::string ending;  // "", ".hdf5" or ".h5"
+};
+std::optional<MemberName> parse_member_name(const std::filesystem::path& path);
+
+// The names of the `count` files of the set that `member` belongs to, in order. Throws
+// DataError when the name is not that of a member or when a file is missing.
+std::vector<std::filesystem::path> find_members(const std::filesystem::path& member, int count);
+
+// The existing file that `path` stands for when it is the base name of a set or lacks
+// its ending. Throws DataError when there is none, or more than one.
+std::filesystem::path find_by_base_name(const std::filesystem::path& path);
+
+}  // namespace splotchcl
