@@ -1,0 +1,43 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/scene.h"
+
+namespace splotchcl::scene_file {
+
+// One key of a scene file. The list of them drives reading, the messages for what is
+// wrong, writing, and the reference in docs/scene.md.
+struct Key {
+  std::string path;      // "image.width"; "component.size.field" stands for every component
+  std::string expected;  // completes "expected ..."
+  std::string unit;      // empty: none
+  std::string absent;    // what counts when it is not given; empty: the default below
+  std::string meaning;
+  std::vector<std::string> excludes;  // keys that must not be given together with it
+
+  // False, and nothing changed: wrong type, or out of range. The camera and the component
+  // exist already.
+  std::function<bool(Scene&, std::size_t component, const toml::node&)> set;
+  // The value as TOML; nothing when it is absent.
+  std::function<std::optional<std::string>(const Scene&, std::size_t component)> get;
+  bool is_written = true;  // false: another key writes the same value
+};
+
+// In the order in which they are documented and written.
+const std::vector<Key>& all_keys();
+
+const Key* find_key(const std::string& path);
+bool is_table(const std::string& path);                            // "camera", "component.size"
+std::vector<std::string> names_in_table(const std::string& path);  // "": the top level
+
+// The reference for docs/scene.md, as Markdown.
+std::string key_reference();
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "splotchcl/scene.h"
+
+// Settings: "key=value" strings, given on the command line as --set.
+namespace splotchcl::scene_file {
+
+// A key or table: as the list of keys calls it, and as the user does.
+struct Place {
+  std::string path;   // "component.size.field"
+  std::string label;  // "component.0.size.field"
+  std::size_t component = 0;
+};
+
+struct Setting {
+  std::string key;
+  std::string text;  // right of the first '=', without spaces around it
+};
+
+// Throws UsageError without a key or '='.
+Setting split_setting(const std::string& setting);
+
+// {value = ...} with the text read as a TOML value, or as a bare string where it is none.
+toml::table parse_value(const std::string& text);
+
+// Finds the component in "component.0.palette" or "component.gas.palette"; other keys are
+// left as they are. Throws UsageError when the scene has no such component.
+Place locate(const std::string& key, const Scene& scene, const std::string& where);
+
+}  // namespace splotchcl::scene_file
