@@ -2,28 +2,14 @@
 // splats; block and tile fix where each entry goes, so lists keep the splats' order and
 // never depend on timing.
 
-// Does the disc meet the rectangle of pixel centres first..last (both axes)?
-inline int disc_meets_tile(float x, float y, float radius, int2 first, int2 last) {
-  const float dx = x - clamp(x, (float)first.x + 0.5f, (float)last.x + 0.5f);
-  const float dy = y - clamp(y, (float)first.y + 0.5f, (float)last.y + 0.5f);
-  return dx * dx + dy * dy <= radius * radius;
-}
-
-// Tiles of its grid that a splat may touch: x range in .x .y, y range in .z .w.
+// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
+// empty x range where there is none.
 inline int4 tile_range(const Splat splat, const Grid grid) {
   const int2 columns = pixel_range(splat.x, splat.radius, grid.width);
   const int2 rows = pixel_range(splat.y, splat.radius, grid.height);
   if (columns.x > columns.y || rows.x > rows.y) return (int4)(0, -1, 0, -1);
   return (int4)(columns.x / TILE_WIDTH, columns.y / TILE_WIDTH, rows.x / TILE_HEIGHT,
                 rows.y / TILE_HEIGHT);
-}
-
-inline int touches(const Splat splat, const Grid grid, int tile_x, int tile_y, float mean_sigma) {
-  const int2 first = (int2)(tile_x * TILE_WIDTH, tile_y * TILE_HEIGHT);
-  const int2 last = (int2)(min(first.x + TILE_WIDTH, grid.width) - 1,
-                           min(first.y + TILE_HEIGHT, grid.height) - 1);
-  return disc_meets_tile(splat.x, splat.y, reach(splat.sigma, splat.radius, mean_sigma), first,
-                         last);
 }
 
 inline uint slots_end(const BinParameters p, __global const uint* visible, uint block) {
@@ -52,15 +38,9 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
 #endif
     const Grid grid = grids[splat.component_and_grid >> 16];
     const int4 range = tile_range(splat, grid);
-    if (range.x == range.y && range.z == range.w) {
-      ++count[grid.first_tile + (uint)(range.z * grid.tiles_x + range.x)];
-      continue;
-    }
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
-        if (touches(splat, grid, tx, ty, p.mean_sigma)) {
-          ++count[grid.first_tile + (uint)(ty * grid.tiles_x + tx)];
-        }
+        ++count[grid.first_tile + (uint)(ty * grid.tiles_x + tx)];
       }
     }
   }
@@ -181,10 +161,8 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
       entry.light[c] = absorption[c];
 #endif
     }
-    const int single = range.x == range.y && range.z == range.w;
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
-        if (!single && !touches(splat, grid, tx, ty, p.mean_sigma)) continue;
         entry.x = splat.x - (float)(tx * TILE_WIDTH);
         entry.y = splat.y - (float)(ty * TILE_HEIGHT);
         const uint tile = grid.first_tile + (uint)(ty * grid.tiles_x + tx);

@@ -44,8 +44,3 @@ inline int2 pixel_range(float centre, float radius, int size) {
   const int last = convert_int_sat_rtn(centre + radius - 0.5f);
   return (int2)(max(first, 0), min(last, size - 1));
 }
-
-// How far a splat reaches: a pixel mean sees a disc that touches the pixel's corner.
-inline float reach(float sigma, float radius, float mean_sigma) {
-  return sigma < mean_sigma ? radius + 0.2072f : radius;
-}

@@ -8,6 +8,14 @@
 #define PLANES 3
 #endif
 
+// One axis of the separable shape at distance d of a pixel's centre.
+inline float axis_shape(float d, float sigma, float inverse, float mean_sigma) {
+  if (sigma >= mean_sigma) return gaussian(d, inverse);
+  const float per_sigma = 1.0f / sigma;
+  return PIXEL_MEAN_SCALE * sigma *
+         (error_function((d + 0.5f) * per_sigma) - error_function((d - 0.5f) * per_sigma));
+}
+
 // X / w of one pixel; zero outside what the rows would draw.
 inline float pixel_shape(float dx, float dy, const TileSplat splat, const CompositeParameters p) {
   if (fabs(dx) > splat.radius || fabs(dy) > splat.radius) return 0.0f;

@@ -44,21 +44,19 @@ inline void store_partial(const float* tile, __global float* partial) {
   }
 }
 
-// X / w of eight pixels, zero outside the cut.
-inline float8 row_shape(float8 across, float along, float8 dx, float dy, float cut2) {
-  const float8 shape = across * along;
 #ifdef KERNEL_CUT
-  const int8 outside = dx * dx + dy * dy > cut2;
+// `shape` of eight pixels of a row, zero outside the cut.
+inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
+  int8 outside = dx * dx + dy * dy > cut2;
 #ifdef SAMPLING_MEAN
-  const int8 home = fabs(dx) <= 0.5f & (int8)(fabs(dy) <= 0.5f ? -1 : 0);
-  return select(shape, (float8)(0.0f), outside & ~home);
-#else
+  // The pixel that holds the centre keeps its light.
+  outside &= fabs(dx) > 0.5f | (int8)(fabs(dy) > 0.5f ? -1 : 0);
+#endif
   return select(shape, (float8)(0.0f), outside);
-#endif
-#else
-  return shape;
-#endif
 }
+#else
+#define cut_shape(shape, dx, dy, cut2) (shape)
+#endif
 
 #ifdef LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = (1 - opacity) X phi(A X),
@@ -67,7 +65,8 @@ inline float8 row_shape(float8 across, float along, float8 dx, float dy, float c
 #define COMPOSITE_ROWS(PHI)                                                      \
   for (int y = rows.x; y <= rows.y; ++y) {                                       \
     const int k = y - rows.x;                                                    \
-    const float8 shape = row_shape(across, along[k], dx, dy0 + (float)k, cut2);  \
+    const float8 shape =                                                         \
+        cut_shape(across * along_y[k], dx, dy0 + (float)k, cut2);                \
     float* pixel = tile + y * ROW + x;                                           \
     for (int c = 0; c < 3; ++c) {                                                \
       float* source = pixel + c * TILE_PIXELS;                                   \
@@ -80,28 +79,55 @@ inline float8 row_shape(float8 across, float along, float8 dx, float dy, float c
   }
 #endif
 
+// One axis of the separable shape at `count` pixels, the first one's centre at distance
+// `first`. Writes whole eights: `values` has room for 16 more than `count`.
+inline void fill_axis(float* values, float first, int count, float sigma, float inverse,
+                      float mean_sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma >= mean_sigma) {
+    for (int k = 0; k < count; k += 8) {
+      vstore8(gaussian(first + (float)k + ramp, inverse), 0, values + k);
+    }
+    return;
+  }
+  // Neighbouring pixels share an edge.
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 8) {
+    vstore8(error_function((first - 0.5f + (float)k + ramp) * per_sigma), 0, values + k);
+  }
+  // Pixels beyond `count` in its last eight are drawn, too: the very last has no far edge.
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 8) {
+    const float8 mean = vload8(0, values + k + 1) - vload8(0, values + k);
+    vstore8(mean * (PIXEL_MEAN_SCALE * sigma), 0, values + k);
+  }
+}
+
 inline void add_splat(float* tile, __global const TileSplat* splat, const CompositeParameters p) {
   const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, splat->radius, TILE_WIDTH);
-  if (rows.x > rows.y) return;
+  if (rows.x > rows.y || columns.x > columns.y) return;
   const float sigma = splat->sigma;
   const float inverse = 1.44269504f / (sigma * sigma);
-  const float cut2 = p.kernel_cut * p.kernel_cut * sigma * sigma;
-  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-
-  // One call of the shape serves eight rows: the Gaussian is separable.
+  const float dx0 = (float)columns.x + 0.5f - splat->x;
   const float dy0 = (float)rows.x + 0.5f - splat->y;
-  float along[TILE_HEIGHT + 8];
-  for (int k = 0; k <= rows.y - rows.x; k += 8) {
-    vstore8(axis_shape(dy0 + (float)k + ramp, sigma, inverse, p.mean_sigma), 0, along + k);
-  }
+  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
+  fill_axis(along_x, dx0, columns.y - columns.x + 1, sigma, inverse, p.mean_sigma);
+  fill_axis(along_y, dy0, rows.y - rows.x + 1, sigma, inverse, p.mean_sigma);
+#ifdef KERNEL_CUT
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float cut2 = p.kernel_cut * p.kernel_cut * sigma * sigma;
+#endif
 #ifdef LIGHT_ORDERED
   const float deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
-                        (sigma < p.mean_sigma ? 3.15f * sigma * sigma : 1.0f);
+                        (sigma < p.mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
 #endif
   for (int x = columns.x; x <= columns.y; x += 8) {
-    const float8 dx = (float)x + 0.5f - splat->x + ramp;
-    const float8 across = axis_shape(dx, sigma, inverse, p.mean_sigma);
+    const float8 across = vload8(0, along_x + (x - columns.x));
+#ifdef KERNEL_CUT
+    const float8 dx = dx0 + (float)(x - columns.x) + ramp;
+#endif
 #ifdef LIGHT_ORDERED
     if (deepest <= p.phi_series) {
       COMPOSITE_ROWS(phi_series)
@@ -109,14 +135,22 @@ inline void add_splat(float* tile, __global const TileSplat* splat, const Compos
       COMPOSITE_ROWS(phi_full)
     }
 #else
+    const float8 light0 = across * splat->light[0];
+    const float8 light1 = across * splat->light[1];
+    const float8 light2 = across * splat->light[2];
     for (int y = rows.x; y <= rows.y; ++y) {
-      const int k = y - rows.x;
-      const float8 shape = row_shape(across, along[k], dx, dy0 + (float)k, cut2);
+      const float along = along_y[y - rows.x];
       float* pixel = tile + y * ROW + x;
-      for (int c = 0; c < 3; ++c) {
-        vstore8(vload8(0, pixel + c * TILE_PIXELS) + shape * splat->light[c], 0,
-                pixel + c * TILE_PIXELS);
-      }
+#ifdef KERNEL_CUT
+      const float8 shape = cut_shape(along, dx, dy0 + (float)(y - rows.x), cut2);
+#else
+      const float8 shape = (float8)(along);
+#endif
+      vstore8(vload8(0, pixel) + shape * light0, 0, pixel);
+      pixel += TILE_PIXELS;
+      vstore8(vload8(0, pixel) + shape * light1, 0, pixel);
+      pixel += TILE_PIXELS;
+      vstore8(vload8(0, pixel) + shape * light2, 0, pixel);
     }
 #endif
   }

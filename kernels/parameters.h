@@ -54,6 +54,7 @@ struct ProjectParameters {
   float inverse_truncation;  // 1 / (light left out where a splat ends, per unit peak)
   float coarse_sigma;        // smallest sigma in pixels of a coarse grid
   int grid_count;
+  float guard;  // of the coarse grids
 
   struct FieldScaling color;
   struct FieldScaling intensity;

@@ -4,16 +4,6 @@
 // The depth chain is compared bit for bit with the oracle (frame.h).
 #pragma OPENCL FP_CONTRACT OFF
 
-inline float3 camera_offset(__global const float* position, const ProjectParameters p) {
-  return (float3)((position[0] - p.position_high[0]) - p.position_low[0],
-                  (position[1] - p.position_high[1]) - p.position_low[1],
-                  (position[2] - p.position_high[2]) - p.position_low[2]);
-}
-
-inline float chain_dot(float3 d, const float* axis) {
-  return (d.x * axis[0] + d.y * axis[1]) + d.z * axis[2];
-}
-
 // Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
 inline uint sort_key(float value, int descending) {
   const uint bits = as_uint(value == 0.0f ? 0.0f : value);
@@ -21,105 +11,188 @@ inline uint sort_key(float value, int descending) {
   return descending ? ~key : key;
 }
 
-inline float normalised(float value, const FieldScaling map) {
-  float scaled = value;
-  if (map.scaling == SCALING_LOG) scaled = log10(value);
-  if (map.scaling == SCALING_ASINH) scaled = asinh(value);
-  if (!isfinite(scaled)) return 0.0f;
-  return clamp((scaled - map.minimum) * map.inverse_range, 0.0f, 1.0f);
+// LANES values from index i on; those from `end` on repeat the last one, since a mapped
+// file may end with its last value. Stride 0: one value for all.
+inline VALUE load_values(__global const float* values, uint i, uint end, int stride) {
+  if (stride == 0) return (VALUE)(values[0]);
+#ifdef LANES_8
+  if (i + LANES > end) {
+    float lanes[LANES];
+    for (uint k = 0; k < LANES; ++k) lanes[k] = values[min(i + k, end - 1)];
+    return vload8(0, lanes);
+  }
+#endif
+  return LOAD(values + i);
 }
 
-// sigma_scaled is sigma in world units times length_scale.
-inline float column_weight(float raw, float h, float sigma_scaled, const ProjectParameters p) {
-  if (p.weight_model == WEIGHT_MASS) {
-    return raw * p.weight_scale / sigma_scaled / sigma_scaled;
+typedef struct Offset {
+  VALUE x, y, z;
+} Offset;
+
+inline Offset load_positions(__global const float* positions, uint i, uint end) {
+  Offset p;
+#ifdef LANES_8
+  if (i + LANES <= end) {
+    __global const float* first = positions + (size_t)i * 3;
+    const float8 a = vload8(0, first), b = vload8(1, first), c = vload8(2, first);
+    p.x = (float8)(a.s036, b.s147, c.s25);
+    p.y = (float8)(a.s147, b.s25, c.s036);
+    p.z = (float8)(a.s25, b.s036, c.s147);
+    return p;
   }
+  float x[LANES], y[LANES], z[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    __global const float* position = positions + (size_t)min(i + k, end - 1) * 3;
+    x[k] = position[0];
+    y[k] = position[1];
+    z[k] = position[2];
+  }
+  p.x = vload8(0, x);
+  p.y = vload8(0, y);
+  p.z = vload8(0, z);
+#else
+  p.x = positions[(size_t)i * 3];
+  p.y = positions[(size_t)i * 3 + 1];
+  p.z = positions[(size_t)i * 3 + 2];
+#endif
+  return p;
+}
+
+inline Offset camera_offset(Offset position, const ProjectParameters p) {
+  Offset d;
+  d.x = (position.x - p.position_high[0]) - p.position_low[0];
+  d.y = (position.y - p.position_high[1]) - p.position_low[1];
+  d.z = (position.z - p.position_high[2]) - p.position_low[2];
+  return d;
+}
+
+inline VALUE chain_dot(Offset d, const float* axis) {
+  return (d.x * axis[0] + d.y * axis[1]) + d.z * axis[2];
+}
+
+inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
+
+inline VALUE normalised(VALUE value, const FieldScaling map) {
+  VALUE scaled = value;
+  if (map.scaling == SCALING_LOG) {
+    scaled = choose((VALUE)(-INFINITY), log2_positive(max(value, (VALUE)(1e-45f))) * 0.301029996f,
+                    value > 0.0f);
+  }
+  if (map.scaling == SCALING_ASINH) scaled = asinh(value);
+  const VALUE place = clamp((scaled - map.minimum) * map.inverse_range, (VALUE)(0.0f), (VALUE)(1.0f));
+  return choose((VALUE)(0.0f), place, is_finite(scaled));
+}
+
+// w (scene.h, WeightModel); sigma_scaled is sigma in world units times length_scale.
+inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
+  const VALUE sigma_scaled = p.kernel_width * h * p.length_scale;
+  if (p.weight_model == WEIGHT_MASS) return raw * p.weight_scale / sigma_scaled / sigma_scaled;
   if (p.weight_model == WEIGHT_DENSITY) return raw * p.weight_scale * sigma_scaled;
   return p.weight_scale / (h * p.length_scale);
 }
 
-// What one particle becomes. 0: not visible, 1: visible, -1: bad values.
-inline int project_particle(uint i, const ProjectParameters p, __global const Grid* grids,
-                            __global const float* positions,
-                            __global const float* smoothing_lengths,
-                            __global const float* weights, __global const float* colors,
-                            __global const float* intensities,
-                            __global const float* sort_fields, Splat* splat, float* depth) {
-  const float raw_h = smoothing_lengths[(size_t)i * p.smoothing_length_stride];
-  const float raw_weight = weights[(size_t)i * p.weight_stride];
-  const float raw_color = colors[(size_t)i * p.color_stride];
-  const float raw_intensity = intensities[(size_t)i * p.intensity_stride];
-  const float raw_sort = sort_fields[(size_t)i * p.sort_stride];
-  const float3 d = camera_offset(positions + (size_t)i * 3, p);
-  const float z = chain_dot(d, p.forward);
-  *depth = z;
+// How many sigma a splat is drawn: the light outside the square of that half side,
+// 2 erfc(k), is 1 / inverse_truncation of a splat's, less for peaks above 1. With
+// erfc(k) ~ exp(-k^2) / (k sqrt(pi)) one step of iteration is close enough.
+inline VALUE truncation_extent(VALUE peak, const ProjectParameters p) {
+  const VALUE logarithm =
+      0.693147181f * log2_positive(p.inverse_truncation * max(peak, (VALUE)(1.0f)));
+  const VALUE first = sqrt(max(logarithm, (VALUE)(0.8f)));
+  const VALUE corrected = logarithm - 0.693147181f * log2_positive(0.886226925f * first);
+  return sqrt(max(corrected, (VALUE)(0.0f)));
+}
 
-  const float h = raw_h * p.size_factor;
-  if (!(isfinite(d.x) && isfinite(d.y) && isfinite(d.z) && isfinite(raw_h) && raw_h > 0.0f &&
-        isfinite(raw_weight) && raw_weight >= 0.0f && isfinite(raw_color) &&
-        isfinite(raw_intensity) && isfinite(raw_sort))) {
-    return -1;
-  }
-  if (z < max(p.near_limit, p.near_factor * h) || z > p.far_limit) return 0;
+// The splats of LANES particles.
+typedef struct SplatLanes {
+  INTEGER visible, bad;
+  INTEGER grid;
+  VALUE x, y, sigma, radius, weight, color;
+  VALUE sort_value;
+} SplatLanes;
 
-  const float scale = p.perspective ? p.pixels_per_length / z : p.pixels_per_length;
-  const float sigma_true = p.kernel_width * h * scale;
+// Particles from i on; those at or beyond `end` are neither visible nor bad.
+inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
+                                __global const Grid* grids, __global const float* positions,
+                                __global const float* smoothing_lengths,
+                                __global const float* weights, __global const float* colors,
+                                __global const float* intensities,
+                                __global const float* sort_fields) {
+  SplatLanes s;
+#ifdef LANES_8
+  const INTEGER exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
+#else
+  const INTEGER exists = 1;
+#endif
+  const VALUE raw_h = load_values(smoothing_lengths, i, end, p.smoothing_length_stride);
+  const VALUE raw_weight = load_values(weights, i, end, p.weight_stride);
+  const VALUE raw_color = load_values(colors, i, end, p.color_stride);
+  const VALUE raw_intensity = load_values(intensities, i, end, p.intensity_stride);
+  const VALUE raw_sort = load_values(sort_fields, i, end, p.sort_stride);
+  const Offset d = camera_offset(load_positions(positions, i, end), p);
+  const VALUE z = chain_dot(d, p.forward);
+  s.sort_value = p.sort_by_field ? raw_sort : z;
+
+  const INTEGER good = is_finite(d.x) & is_finite(d.y) & is_finite(d.z) & is_finite(raw_h) &
+                       raw_h > 0.0f & is_finite(raw_weight) & raw_weight >= 0.0f &
+                       is_finite(raw_color) & is_finite(raw_intensity) & is_finite(raw_sort);
+  s.bad = exists & (good == 0);
+
+  const VALUE h = raw_h * p.size_factor;
+  const VALUE scale = p.perspective ? p.pixels_per_length / z : (VALUE)(p.pixels_per_length);
+  const VALUE sigma_true = p.kernel_width * h * scale;
   const float sigma_floor = p.kernel_width * p.min_radius;
-  const float sigma =
+  const VALUE sigma =
       p.min_radius > 0.0f ? sqrt(sigma_true * sigma_true + sigma_floor * sigma_floor) : sigma_true;
-  float x = p.centre_x + chain_dot(d, p.right) * scale;
-  float y = p.centre_y + chain_dot(d, p.down) * scale;
+  const VALUE x = p.centre_x + chain_dot(d, p.right) * scale;
+  const VALUE y = p.centre_y + chain_dot(d, p.down) * scale;
 
-  // Cheap rejection before fields are scaled: six sigma reach beyond any truncation of
-  // amplitudes up to 1e12.
-  const float far_reach = 6.0f * sigma + 2.0f;
+  // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
+  // amplitude that single precision can hold against the smallest tolerance.
+  const VALUE far_reach = 7.0f * sigma + 2.0f;
   const float width = (float)grids[0].width, height = (float)grids[0].height;
-  if (x + far_reach < 0.0f || x - far_reach > width || y + far_reach < 0.0f ||
-      y - far_reach > height) {
-    return 0;
-  }
+  s.visible = exists & good & z >= max(p.near_factor * h, (VALUE)(p.near_limit)) &
+              z <= p.far_limit & x + far_reach >= 0.0f & x - far_reach <= width &
+              y + far_reach >= 0.0f & y - far_reach <= height;
+  if (!ANY(s.visible)) return s;
 
-  float weight = column_weight(raw_weight, h, p.kernel_width * h * p.length_scale, p) *
-                 normalised(raw_intensity, p.intensity);
+  VALUE weight = column_weight(raw_weight, h, p) * normalised(raw_intensity, p.intensity);
   if (p.min_radius > 0.0f) weight *= sigma_true / sigma;
-
-  const int by_mean = sigma < p.mean_sigma;
-  const float widened = by_mean ? sigma : sqrt(sigma * sigma + p.widening);
-  if (!by_mean) weight *= (sigma / widened) * (sigma / widened);
+  const INTEGER by_mean = sigma < p.mean_sigma;
+  const VALUE widened = choose(sqrt(sigma * sigma + p.widening), sigma, by_mean);
+  const VALUE narrowing = sigma / widened;
+  weight *= narrowing * narrowing;
 
   // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
-  const float peak = weight * p.peak_colour * min(1.0f, 3.2f * widened * widened);
-  float extent = p.kernel_cut;
-  if (extent == 0.0f) {
-    extent = native_sqrt(max(0.0f, native_log(p.inverse_truncation * max(1.0f, peak))));
-  }
+  const VALUE peak = weight * p.peak_colour * min((VALUE)(1.0f), 3.2f * widened * widened);
+  const VALUE extent =
+      p.kernel_cut > 0.0f ? (VALUE)(p.kernel_cut) : truncation_extent(peak, p);
 
-  uint grid = 0;
-  if (widened >= 2.0f * p.coarse_sigma) {
-    const float amplified = p.coarse_sigma * max(1.0f, native_powr(peak, 0.125f));
-    const float levels = native_log2(widened / amplified);
-    grid = (uint)clamp((int)levels, 0, p.grid_count - 1);
-  }
-  const float shrink = as_float((127u - grid) << 23);
-  const float sigma_grid = widened * shrink;
-  const float radius = extent * sigma_grid + (by_mean ? 0.5f : 0.0f);
-  x = x * shrink + (float)grids[grid].guard;
-  y = y * shrink + (float)grids[grid].guard;
-  const float r = reach(sigma_grid, radius, p.mean_sigma);
-  if (x + r < 0.0f || x - r > (float)grids[grid].width || y + r < 0.0f ||
-      y - r > (float)grids[grid].height) {
-    return 0;
-  }
-
-  splat->x = x;
-  splat->y = y;
-  splat->sigma = sigma_grid;
-  splat->radius = radius;
-  splat->weight = weight;
-  splat->color = normalised(raw_color, p.color);
-  splat->component_and_grid = p.component | (grid << 16);
-  return 1;
+  // Wide splats go to the coarsest grid that still shows their shape, bright ones finer.
+  const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
+  const INTEGER level = (AS_INTEGER(widened / amplified) >> 23) - 127;
+  s.grid = clamp(level, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
+  const VALUE shrink = AS_VALUE((127 - s.grid) << 23);
+  s.sigma = widened * shrink;
+  s.radius = extent * s.sigma + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean);
+  const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
+  s.x = x * shrink + guard;
+  s.y = y * shrink + guard;
+  s.visible &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f &
+               s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
+  s.weight = weight;
+  s.color = normalised(raw_color, p.color);
+  return s;
 }
+
+#ifdef LANES_8
+#define LANE(v, k) v##_lanes[k]
+#define SPREAD(type, v) \
+  type v##_lanes[LANES]; \
+  vstore8(s.v, 0, v##_lanes);
+#else
+#define LANE(v, k) s.v
+#define SPREAD(type, v)
+#endif
 
 // visible[2 b] and visible[2 b + 1] take the block's numbers of visible and bad particles.
 // With OUTPUT_SPLATS the splats are written from offsets[b] on; with OUTPUT_KEYS their
@@ -133,28 +206,49 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
-  uint count = 0, bad = 0;
   const uint numbered = p.first_block + block;
-  uint slot = offsets[numbered];
-  for (uint i = begin; i < end; ++i) {
-    Splat splat;
-    float depth;
-    const int outcome = project_particle(i, p, grids, positions, smoothing_lengths, weights,
-                                         colors, intensities, sort_fields, &splat, &depth);
-    if (outcome > 0) {
+  const uint first_slot = offsets[numbered];
+  uint slot = first_slot, bad_count = 0;
+  for (uint i = begin; i < end; i += LANES) {
+    const SplatLanes s = project_lanes(i, end, p, grids, positions, smoothing_lengths, weights,
+                                       colors, intensities, sort_fields);
+    if (ANY(s.bad)) {
+      SPREAD(int, bad)
+      for (uint k = 0; k < LANES; ++k) bad_count += LANE(bad, k) != 0;
+    }
+    if (!ANY(s.visible)) continue;
+    SPREAD(int, visible)
 #ifdef OUTPUT_SPLATS
-      splats[slot] = splat;
+    SPREAD(float, x)
+    SPREAD(float, y)
+    SPREAD(float, sigma)
+    SPREAD(float, radius)
+    SPREAD(float, weight)
+    SPREAD(float, color)
+    SPREAD(int, grid)
 #endif
 #ifdef OUTPUT_KEYS
-      const float value = p.sort_by_field ? sort_fields[(size_t)i * p.sort_stride] : depth;
-      keys[slot] = sort_key(value, p.sort_descending);
+    SPREAD(float, sort_value)
+#endif
+    for (uint k = 0; k < LANES; ++k) {
+      if (!LANE(visible, k)) continue;
+#ifdef OUTPUT_SPLATS
+      __global Splat* splat = splats + slot;
+      splat->x = LANE(x, k);
+      splat->y = LANE(y, k);
+      splat->sigma = LANE(sigma, k);
+      splat->radius = LANE(radius, k);
+      splat->weight = LANE(weight, k);
+      splat->color = LANE(color, k);
+      splat->component_and_grid = p.component | ((uint)LANE(grid, k) << 16);
+#endif
+#ifdef OUTPUT_KEYS
+      keys[slot] = sort_key(LANE(sort_value, k), p.sort_descending);
       order[slot] = slot;
 #endif
       ++slot;
-      ++count;
     }
-    bad += outcome < 0;
   }
-  visible[2 * numbered] = count;
-  visible[2 * numbered + 1] = bad;
+  visible[2 * numbered] = slot - first_slot;
+  visible[2 * numbered + 1] = bad_count;
 }

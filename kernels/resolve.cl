@@ -8,67 +8,84 @@ __constant float refine_weights[8] = {
     -0.001888275146484375f, 0.019092559814453125f, -0.10309982299804688f, 0.8591651916503906f,
     0.2863883972167969f,    -0.07364273071289062f, 0.015621185302734375f, -0.001636505126953125f};
 
-// The coarse pixel under pixel `index` of the next finer grid, and on which side of its
-// centre that lies: +1 right, -1 left.
-inline int2 coarse_place(int index, int fine_guard, int coarse_guard) {
-  const int from_corner = index - fine_guard;
-  return (int2)((from_corner >> 1) + coarse_guard, (from_corner & 1) ? 1 : -1);
+// Grids have even guards of at least eight pixels, so every pixel below is inside, and a
+// finer pixel is left of its coarse pixel's centre where its index is even.
+
+// The coarse pixel under the finer grid's pixel `index`.
+inline int coarse_place(int index, Grid fine, Grid coarse) {
+  return (index - fine.guard) / 2 + coarse.guard - (index < fine.guard && (index & 1) ? 1 : 0);
 }
 
-// Work-item (x of the finer grid, y of the coarser one, plane).
+// Work-item (eight coarse pixels, y of the coarser grid, plane): sixteen pixels of a row,
+// interpolated along x.
 __kernel void refine_columns(uint coarse_index, __global const Grid* grids,
                              __global const float* planes, __global float* temporary) {
   const Grid coarse = grids[coarse_index], fine = grids[coarse_index - 1];
-  const int x = (int)get_global_id(0), y = (int)get_global_id(1), c = (int)get_global_id(2);
-  if (x >= fine.width || y >= coarse.height) return;
-  const int2 place = coarse_place(x, fine.guard, coarse.guard);
+  const int x = (int)get_global_id(0) * 2 * 8;
+  const int y = (int)get_global_id(1), c = (int)get_global_id(2);
+  if (x >= fine.width) return;
   __global const float* row = planes + first_float(coarse) + (size_t)c * coarse.plane_size +
-                              (size_t)y * coarse.stride;
-  float sum = 0.0f;
+                              (size_t)y * coarse.stride + coarse_place(x, fine, coarse);
+  float8 even = (float8)(0.0f), odd = (float8)(0.0f);
   for (int k = 0; k < 8; ++k) {
-    sum += refine_weights[k] * row[clamp(place.x + (k - 3) * place.y, 0, coarse.width - 1)];
+    even += refine_weights[k] * vload8(0, row - (k - 3));
+    odd += refine_weights[k] * vload8(0, row + (k - 3));
   }
-  temporary[((size_t)c * coarse.height + y) * fine.stride + x] = sum;
+  __global float* target = temporary + ((size_t)c * coarse.height + y) * fine.stride + x;
+  vstore8((float8)(even.s0, odd.s0, even.s1, odd.s1, even.s2, odd.s2, even.s3, odd.s3), 0, target);
+  vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
 }
 
-// Work-item (x, y of the finer grid, plane).
+// Work-item (eight pixels, y of the finer grid, plane): interpolated along y and added.
 __kernel void refine_rows(uint coarse_index, __global const Grid* grids, __global float* planes,
                           __global const float* temporary) {
   const Grid coarse = grids[coarse_index], fine = grids[coarse_index - 1];
-  const int x = (int)get_global_id(0), y = (int)get_global_id(1), c = (int)get_global_id(2);
-  if (x >= fine.width || y >= fine.height) return;
-  const int2 place = coarse_place(y, fine.guard, coarse.guard);
-  float sum = 0.0f;
+  const int x = (int)get_global_id(0) * 8;
+  const int y = (int)get_global_id(1), c = (int)get_global_id(2);
+  if (x >= fine.width) return;
+  const int side = (y & 1) ? 1 : -1;
+  __global const float* column =
+      temporary + ((size_t)c * coarse.height + coarse_place(y, fine, coarse)) * fine.stride + x;
+  __global float* target =
+      planes + first_float(fine) + (size_t)c * fine.plane_size + (size_t)y * fine.stride + x;
+  float8 sum = vload8(0, target);
   for (int k = 0; k < 8; ++k) {
-    const int row = clamp(place.x + (k - 3) * place.y, 0, coarse.height - 1);
-    sum += refine_weights[k] * temporary[((size_t)c * coarse.height + row) * fine.stride + x];
+    sum += refine_weights[k] * vload8(0, column + (k - 3) * side * (int)fine.stride);
   }
-  planes[first_float(fine) + (size_t)c * fine.plane_size + (size_t)y * fine.stride + x] += sum;
+  vstore8(sum, 0, target);
 }
 
-// Linear red, green, blue and alpha of every pixel.
+// Work-item (eight pixels, y): linear red, green, blue and alpha.
 __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
                       __global const float* planes, __global float* image) {
-  const int x = (int)get_global_id(0), y = (int)get_global_id(1);
-  if (x >= p.width || y >= p.height) return;
+  const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
+  if (x >= p.width) return;
   const Grid grid = grids[0];
-  __global const float* pixel = planes + first_float(grid) + (size_t)y * grid.stride + x;
-  float light[3], transmittance[3];
+  __global const float* pixels = planes + first_float(grid) + (size_t)y * grid.stride + x;
+  float light[4][8];
+  float8 transmitted = (float8)(0.0f);
   for (int c = 0; c < 3; ++c) {
-    const float sum = pixel[(size_t)c * grid.plane_size];
+    const float8 sum = vload8(0, pixels + (size_t)c * grid.plane_size);
 #if defined(LIGHT_ORDERED)
-    transmittance[c] = 1.0f - pixel[(size_t)(c + 3) * grid.plane_size];
-    light[c] = sum + transmittance[c] * p.background[c];
+    const float8 transmittance = 1.0f - vload8(0, pixels + (size_t)(c + 3) * grid.plane_size);
+    const float8 own = sum;
 #elif defined(LIGHT_EMISSION)
-    transmittance[c] = 1.0f;
-    light[c] = sum + p.background[c];
+    const float8 transmittance = (float8)(1.0f);
+    const float8 own = sum;
 #else
     // Coarse grids ring by a part of the tolerance: a sum may be slightly negative.
-    const float opacity = -expm1(-max(sum, 0.0f));
-    transmittance[c] = 1.0f - opacity;
-    light[c] = p.source[c] * opacity + transmittance[c] * p.background[c];
+    const float8 depth = max(sum, (float8)(0.0f));
+    const float8 opacity = depth * phi_full(depth);
+    const float8 transmittance = 1.0f - opacity;
+    const float8 own = p.source[c] * opacity;
 #endif
+    vstore8(own + transmittance * p.background[c], 0, light[c]);
+    transmitted += transmittance;
   }
-  const float alpha = 1.0f - (transmittance[0] + transmittance[1] + transmittance[2]) / 3.0f;
-  vstore4((float4)(light[0], light[1], light[2], alpha), (size_t)y * p.width + x, image);
+  vstore8(1.0f - transmitted / 3.0f, 0, light[3]);
+  const int count = min(8, p.width - x);
+  __global float* out = image + ((size_t)y * p.width + x) * 4;
+  for (int i = 0; i < count; ++i) {
+    vstore4((float4)(light[0][i], light[1][i], light[2][i], light[3][i]), i, out);
+  }
 }

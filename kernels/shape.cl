@@ -1,11 +1,4 @@
-// The cloud's shape on rows of eight pixels, for compositing. Expanded for TYPE = float8
-// (rows) and float (groups) by SHAPE_TYPE, so that both shapes share every formula.
-
-#define CONCATENATE_(a, b) a##b
-#define CONCATENATE(a, b) CONCATENATE_(a, b)
-#define VALUE SHAPE_TYPE
-#define AS_INTEGER CONCATENATE(as_, SHAPE_INTEGER)
-#define AS_VALUE CONCATENATE(as_, SHAPE_TYPE)
+// The cloud's shape and its layer, for compositing and resolving, on VALUEs (lanes.cl).
 
 // 2^t for t <= 0. The polynomial on [-1/2, 1/2] has a relative error of 2.6e-6 (degree 4)
 // or 7.5e-8 (degree 6 within single precision). 12582912 = 1.5 * 2^23 rounds t to an
@@ -69,17 +62,9 @@ inline VALUE error_function(VALUE x) {
   return x * p;
 }
 
-// Mean of exp(-x^2 / sigma^2) over the pixel from d - 1/2 to d + 1/2.
-inline VALUE pixel_mean(VALUE d, float sigma) {
-  const float inverse = 1.0f / sigma;
-  return 0.88622693f * sigma *
-         (error_function((d + 0.5f) * inverse) - error_function((d - 0.5f) * inverse));
-}
-
-// One axis of the splat at distance d of a pixel centre.
-inline VALUE axis_shape(VALUE d, float sigma, float inverse, float mean_sigma) {
-  return sigma < mean_sigma ? pixel_mean(d, sigma) : gaussian(d, inverse);
-}
+// The mean of exp(-x^2 / sigma^2) over a pixel is pixel_mean_scale * sigma times the
+// difference of the error function at its two edges, in units of sigma.
+#define PIXEL_MEAN_SCALE 0.88622693f
 
 // phi(y) = (1 - exp(-y)) / y, by its series (error y^4 / 120).
 inline VALUE phi_series(VALUE y) {

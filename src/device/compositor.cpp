@@ -1,13 +1,6 @@
 #include "device/compositor.h"
 
 namespace splotchcl {
-namespace {
-
-const char rows_types[] = "#define SHAPE_TYPE float8\n#define SHAPE_INTEGER int8\n";
-const char groups_types[] = "#define SHAPE_TYPE float\n#define SHAPE_INTEGER int\n";
-
-}  // namespace
-
 Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const Frame& frame,
                        const Plan& plan, const compute::buffer& grids, bool rows)
     : device_(device), layout_(layout), grids_(grids), rows_(rows) {
@@ -18,8 +11,8 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
   parameters_.opaque = layout.opaque;
   const std::string defines = kernel_defines(frame, plan, layout);
   program_ = device.programs.get(
-      defines + (rows ? rows_types : groups_types),
-      {"common.cl", "shape.cl", rows ? "composite_rows.cl" : "composite_groups.cl"});
+      defines + (rows ? "#define LANES_8\n" : ""),
+      {"common.cl", "lanes.cl", "shape.cl", rows ? "composite_rows.cl" : "composite_groups.cl"});
   join_program_ = device.programs.get(defines, {"common.cl", "join.cl"});
   planes_ = device.buffers.get("planes", 4 * layout.plane_floats);
 }

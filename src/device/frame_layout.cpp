@@ -8,19 +8,20 @@
 namespace splotchcl {
 namespace {
 
-// Refining a grid needs 2.5 coarse pixels beyond the outermost fine guard pixel:
-// (g - 1/2) / 2 + 2.5 <= g holds from g = 5 on.
-constexpr int guard_pixels = 6;
+// A pixel reads coarse pixels from four left of its own to four right: with eight pixels
+// of guard, (8 / 2) + 4, every pixel that refining reads exists. Even, so that a pixel's
+// index tells on which side of its coarse pixel's centre it lies.
+constexpr int guard_pixels = 8;
 
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
 constexpr int most_grids = 12;
 
-// What a relative error of every splat does to the picture, relative to max(1, I). An
-// emission sum errs by as much; behind exp(-x) it is at most the maximum of x exp(-x)
-// times the range of the light.
+// What a relative error of every splat does to the picture, relative to max(1, I). Sums of
+// light err by as much; behind exp(-x) it is at most the maximum of x exp(-x) times the
+// range of the light.
 double response(const Frame& frame, const Plan& plan) {
-  if (plan.light == LightPlan::emission) return 1;
+  if (plan.light != LightPlan::proportional) return 1;
   constexpr double depth_to_light = 0.36787944117144233;
   double range = 1;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -111,7 +112,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   const double arithmetic = std::max(plan.arithmetic_share, smallest);
   const double truncation = std::max(plan.truncation_share, smallest);
   layout.exact = frame.tolerance < 1e-4;
-  layout.inverse_truncation = static_cast<float>(1 / truncation);
+  layout.inverse_truncation = static_cast<float>(std::max(1.0, picture_error / truncation));
   if (frame.kernel.sampling == Sampling::mean) {
     // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
     const double sigma = std::pow(7.7e-3 * picture_error / (0.75 * arithmetic), 0.25);

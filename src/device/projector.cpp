@@ -133,6 +133,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.inverse_truncation = layout_.inverse_truncation;
   p.coarse_sigma = layout_.coarse_sigma;
   p.grid_count = static_cast<int>(layout_.grids.size());
+  p.guard = static_cast<float>(layout_.grids.back().guard);
   p.color = scaling_of(component.color);
   p.intensity = intensity_scaling(component);
   p.component = component_index;
@@ -145,6 +146,11 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.sort_by_field = frame_.sort.by == SortOrder::By::field;
   p.sort_descending = frame_.sort.descending;
   return p;
+}
+
+compute::program Projector::program(const std::string& outputs) const {
+  const std::string lanes = device_.traits.rows ? "#define LANES_8\n" : "";
+  return device_.programs.get(lanes + outputs, {"common.cl", "lanes.cl", "project.cl"});
 }
 
 void Projector::launch(const compute::program& program, const kernel::ProjectParameters& parameters,
@@ -171,8 +177,7 @@ void Projector::launch(const compute::program& program, const kernel::ProjectPar
 SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint32_t component_index,
                                      const ParticleBuffers& particles, std::uint32_t first,
                                      std::uint32_t end) {
-  const compute::program program =
-      device_.programs.get("#define OUTPUT_SPLATS\n", {"common.cl", "project.cl"});
+  const compute::program compiled = program("#define OUTPUT_SPLATS\n");
   kernel::ProjectParameters parameters = parameters_for(component, component_index, particles);
   parameters.first_particle = first;
   parameters.end_particle = end;
@@ -186,7 +191,7 @@ SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint3
   Buffers& buffers = device_.buffers;
   const compute::buffer visible = buffers.get("visible", 8ull * blocks.block_count);
   buffers.get("splats", std::uint64_t{blocks.block_count} * blocks.stride * sizeof(kernel::Splat));
-  launch(program, parameters, particles, buffers.upload("offsets", offsets), visible,
+  launch(compiled, parameters, particles, buffers.upload("offsets", offsets), visible,
          blocks.block_count);
   return blocks;
 }
@@ -216,7 +221,7 @@ std::uint32_t Projector::project_all(const std::vector<DrawnComponent>& componen
   const compute::buffer offsets = buffers.get("offsets", 4ull * (block_count + 1));
 
   const auto pass = [&](const std::string& defines) {
-    const compute::program program = device_.programs.get(defines, {"common.cl", "project.cl"});
+    const compute::program compiled = program(defines);
     for (std::size_t c = 0; c < components.size(); ++c) {
       const std::uint32_t blocks = first_block[c + 1] - first_block[c];
       if (blocks == 0) continue;
@@ -225,7 +230,7 @@ std::uint32_t Projector::project_all(const std::vector<DrawnComponent>& componen
       parameters.first_particle = 0;
       parameters.end_particle = static_cast<std::uint32_t>(components[c].particles.count);
       parameters.first_block = first_block[c];
-      launch(program, parameters, particles[c], offsets, visible, blocks);
+      launch(compiled, parameters, particles[c], offsets, visible, blocks);
     }
   };
   pass("");

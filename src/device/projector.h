@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "device/device_context.h"
@@ -40,6 +41,7 @@ class Projector {
   void collect_counts(const SplatBlocks& blocks);
 
  private:
+  compute::program program(const std::string& outputs) const;
   kernel::ProjectParameters parameters_for(const DrawnComponent& component,
                                            std::uint32_t component_index,
                                            const ParticleBuffers& particles) const;

@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace splotchcl {
+namespace {
+
+std::size_t strips(std::size_t pixels, std::size_t per_item) {
+  return (pixels + per_item - 1) / per_item;
+}
+
+}  // namespace
 
 Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame& frame,
                    const Plan& plan, const compute::buffer& grids)
@@ -13,7 +20,8 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
     parameters_.source[c] = static_cast<float>(plan.source[c]);
     parameters_.background[c] = static_cast<float>(frame.background[c]);
   }
-  program_ = device.programs.get(kernel_defines(frame, plan, layout), {"common.cl", "resolve.cl"});
+  program_ = device.programs.get(kernel_defines(frame, plan, layout) + "#define LANES_8\n",
+                                 {"common.cl", "lanes.cl", "shape.cl", "resolve.cl"});
 }
 
 // From the coarsest grid to the picture's own, each added to the next finer one.
@@ -34,13 +42,13 @@ void Resolver::refine(const compute::buffer& planes) {
         .arg(grids_)
         .arg(planes)
         .arg(temporary)
-        .run_grid(fine_width, coarse_height, layout_.planes);
+        .run_grid(strips(fine_width, 16), coarse_height, layout_.planes);
     Launch(device_, "resolve", program_.create_kernel("refine_rows"))
         .value(coarse_index)
         .arg(grids_)
         .arg(planes)
         .arg(temporary)
-        .run_grid(fine_width, fine_height, layout_.planes);
+        .run_grid(strips(fine_width, 8), fine_height, layout_.planes);
   }
 }
 
@@ -54,7 +62,8 @@ Image Resolver::resolve(const compute::buffer& planes) {
       .arg(grids_)
       .arg(planes)
       .arg(pixels)
-      .run_grid(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), 1);
+      .run_grid(strips(static_cast<std::size_t>(image.width), 8),
+                static_cast<std::size_t>(image.height), 1);
   device_.queue.enqueue_read_buffer(pixels, 0, bytes, image.pixels.data());
   return image;
 }

@@ -1,0 +1,45 @@
+// One particle or pixel at a time on a GPU, eight on a processor: LANES_8 chooses. Stages
+// written in VALUE and INTEGER share every formula between the two.
+#ifdef LANES_8
+#define LANES 8
+#define VALUE float8
+#define INTEGER int8
+#define AS_VALUE as_float8
+#define AS_INTEGER as_int8
+#define TO_VALUE convert_float8
+#define LOAD(p) vload8(0, p)
+#define STORE(v, p) vstore8(v, 0, p)
+#define ANY(mask) any(mask)
+#else
+#define LANES 1
+#define VALUE float
+#define INTEGER int
+#define AS_VALUE as_float
+#define AS_INTEGER as_int
+#define TO_VALUE convert_float
+#define LOAD(p) (*(p))
+#define STORE(v, p) (*(p) = (v))
+// A scalar comparison gives 1 where a vector's gives -1; select() wants the top bit of
+// vectors and any non-zero scalar, so masks work alike as long as they are only combined
+// with & and |.
+#define ANY(mask) (mask)
+#endif
+
+// 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.
+inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
+  return select(if_false, if_true, mask);
+}
+
+// log2 of a positive, finite number, absolute error 3e-7: exponent, and the series of
+// artanh on [sqrt(1/2), sqrt(2)].
+inline VALUE log2_positive(VALUE x) {
+  const INTEGER denormal = x < 1.17549435e-38f;
+  x = choose(x, x * 16777216.0f, denormal);
+  const INTEGER bits = AS_INTEGER(x) - 0x3f3504f3;
+  const INTEGER exponent = bits >> 23;
+  const VALUE m = AS_VALUE((bits & 0x007fffff) + 0x3f3504f3);
+  const VALUE t = (m - 1.0f) / (m + 1.0f);
+  const VALUE t2 = t * t;
+  const VALUE series = t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
+  return TO_VALUE(exponent) + series - choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
+}
