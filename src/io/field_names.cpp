@@ -21,7 +21,7 @@ const std::vector<FieldNames>& known_fields() {
       {"position", {"POS", "Coordinates", "Coordinate", "Positions", "xyz"}},
       {"velocity", {"VEL", "Velocities", "vxyz"}},
       {"id", {"ParticleIDs", "ParticleID"}},
-      {"mass", {"Masses", "mass table"}},
+      {"mass", {"Masses", "mass table", "MassTable"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
       {"density", {"RHO", "Densities"}},
       {"smoothing_length", {"HSML", "SmoothingLength", "SmoothingLengths", "h"}},

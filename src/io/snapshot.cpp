@@ -91,7 +91,7 @@ const ParticleTypeInfo* SnapshotInfo::find_type(int type) const {
 }
 
 std::vector<const SnapshotFormat*> snapshot_formats() {
-  return {&gadget_binary_format()};
+  return {&gadget_binary_format(), &hdf5_formats()};
 }
 
 std::unique_ptr<Snapshot> open_snapshot(const fs::path& path) try {

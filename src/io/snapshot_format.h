@@ -24,6 +24,7 @@ class SnapshotFormat {
 };
 
 const SnapshotFormat& gadget_binary_format();  // formats 1 and 2
+const SnapshotFormat& hdf5_formats();          // Gadget and its relatives
 
 // In the order in which they are asked.
 std::vector<const SnapshotFormat*> snapshot_formats();

@@ -1,0 +1,183 @@
+// HDF5 snapshots with groups Header and PartType0, PartType1, ...: Gadget 2 to 4, AREPO and
+// their relatives, SWIFT.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "io/field_names.h"
+#include "io/gadget_hdf5_fields.h"
+#include "io/gadget_hdf5_header.h"
+#include "io/hdf5_column.h"
+#include "io/hdf5_formats.h"
+#include "io/snapshot_files.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct Member {
+  std::filesystem::path path;
+  GadgetHeader header;
+  std::map<int, std::vector<Hdf5Field>> fields;  // of the types with particles
+
+  const Hdf5Field* find_field(int type, const std::string& label) const {
+    const auto of_type = fields.find(type);
+    if (of_type == fields.end()) return nullptr;
+    const auto found = std::find_if(of_type->second.begin(), of_type->second.end(),
+                                    [&](const Hdf5Field& field) { return field.label == label; });
+    return found == of_type->second.end() ? nullptr : &*found;
+  }
+};
+
+Member read_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  const Hdf5File file(path);
+  Member member;
+  member.path = path;
+  member.header = read_hdf5_header(file);
+  check_header(member.header, path);
+  check_hdf5_groups(file, member.header);
+  std::vector<std::string> own_notes;
+  for (std::size_t type = 0; type < member.header.counts.size(); ++type) {
+    if (member.header.counts[type] == 0) continue;
+    const auto number = static_cast<int>(type);
+    member.fields[number] = find_hdf5_fields(file, member.header, number, own_notes);
+  }
+  for (std::string& note : own_notes) {  // members tend to have the same ones
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  return member;
+}
+
+class GadgetHdf5Snapshot : public Snapshot {
+ public:
+  explicit GadgetHdf5Snapshot(const std::filesystem::path& path);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  Vec3 position_origin() const override { return origin_; }
+
+ private:
+  void read_dialect();
+  void find_fields(ParticleTypeInfo& type);
+  void add_masses(ParticleTypeInfo& type);
+  bool is_in_every_member(int type, const Hdf5Field& field) const;
+  std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
+  void choose_origin();
+
+  std::vector<Member> members_;
+  SnapshotInfo info_;
+  Vec3 origin_ = {{0, 0, 0}};
+  double smoothing_length_factor_ = 1;  // from what the file has to the support radius
+};
+
+GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
+  // The named file first: what is wrong with it matters more than what is missing beside it.
+  Member named = read_member(path, info_.notes);
+  info_.files = is_complete_alone(named.header) ? std::vector<std::filesystem::path>{path}
+                                                : find_members(path, named.header.files);
+  for (const auto& file : info_.files) {
+    members_.push_back(file == path ? std::move(named) : read_member(file, info_.notes));
+  }
+  std::vector<GadgetHeader> headers;
+  for (const Member& member : members_)
+    headers.push_back(member.header);
+  describe(merge_headers(headers, info_.files, info_.notes), info_);
+  read_dialect();
+  for (ParticleTypeInfo& type : info_.types)
+    find_fields(type);
+  choose_origin();
+}
+
+void GadgetHdf5Snapshot::read_dialect() {
+  const Hdf5File file(members_.front().path);
+  const bool is_swift = is_swift_file(file);
+  info_.format = is_swift ? "SWIFT HDF5" : "Gadget HDF5";
+  if (!is_swift) return;
+  // SWIFT stores the kernel's scale, not its support.
+  smoothing_length_factor_ = file.number("HydroScheme", "Kernel gamma").value_or(1);
+}
+
+bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
+  return std::all_of(members_.begin(), members_.end(), [&](const Member& member) {
+    if (member.fields.count(type) == 0) return true;
+    const Hdf5Field* const own = member.find_field(type, field.label);
+    return own != nullptr && own->values_per_particle == field.values_per_particle;
+  });
+}
+
+void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
+  const auto member = std::find_if(members_.begin(), members_.end(),
+                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  const Hdf5File file(member->path);
+  const BaseUnits units = read_base_units(file);
+  for (const Hdf5Field& field : member->fields.at(type.type)) {
+    if (!is_in_every_member(type.type, field)) {
+      info_.notes.push_back(
+          fmt::format("dataset {} left out: not every file of the snapshot has it in the same form",
+                      field.dataset.path));
+      continue;
+    }
+    const std::string unit = unit_name(read_unit_powers(file, field.dataset), units);
+    type.fields.push_back({"", field.label, field.values_per_particle, unit});
+  }
+  add_masses(type);
+  name_fields(type);
+}
+
+void GadgetHdf5Snapshot::add_masses(ParticleTypeInfo& type) {
+  const bool has_masses = std::any_of(
+      type.fields.begin(), type.fields.end(),
+      [](const FieldInfo& field) { return canonical_field_name(field.file_name) == "mass"; });
+  if (has_masses) {
+    type.table_mass.reset();  // particles have masses of their own
+  } else if (type.table_mass) {
+    type.fields.push_back({"", "MassTable", 1, ""});
+  } else {
+    info_.notes.push_back(fmt::format(
+        "particles of type {} have no masses: neither in Header/MassTable nor as a dataset",
+        type.type));
+  }
+}
+
+std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {
+  std::vector<Hdf5Values> parts;
+  for (const Member& member : members_) {
+    const Hdf5Field* const field = member.find_field(type, label);
+    if (field != nullptr) parts.push_back({member.path, field->dataset});
+  }
+  return parts;
+}
+
+void GadgetHdf5Snapshot::choose_origin() {
+  std::vector<Hdf5Values> positions;
+  for (const ParticleTypeInfo& type : info_.types) {
+    const FieldInfo& field = *find_field(type, "position");
+    for (Hdf5Values& part : find_parts(type.type, field.file_name)) {
+      positions.push_back(std::move(part));
+    }
+  }
+  origin_ = find_position_origin(positions);
+}
+
+Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
+  const ParticleTypeInfo* const particles = info_.find_type(type);
+  if (particles == nullptr) throw_missing_type(info_, type);
+  const FieldInfo* const field = find_field(*particles, name);
+  if (field == nullptr) throw_missing_field(info_, *particles, name);
+  if (field->name == "mass" && particles->table_mass) {
+    return Column::uniform(static_cast<float>(*particles->table_mass));
+  }
+  const auto parts = find_parts(type, field->file_name);
+  if (field->name == "position") return read_column(parts, origin_);
+  if (field->name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
+  return read_column(parts);
+}
+
+}  // namespace
+
+std::unique_ptr<Snapshot> open_gadget_hdf5(const std::filesystem::path& path) {
+  return std::make_unique<GadgetHdf5Snapshot>(path);
+}
+
+}  // namespace splotchcl

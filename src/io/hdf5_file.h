@@ -1,0 +1,111 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace splotchcl {
+
+// Closes an HDF5 identifier of the kind that `Close` is for.
+template <herr_t (*Close)(hid_t)>
+class Hdf5Handle {
+ public:
+  Hdf5Handle() = default;
+  explicit Hdf5Handle(hid_t id) : id_(id) {}
+  ~Hdf5Handle() { reset(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    reset();
+    id_ = std::exchange(other.id_, H5I_INVALID_HID);
+    return *this;
+  }
+  hid_t id() const { return id_; }
+  bool is_valid() const { return id_ >= 0; }
+
+ private:
+  void reset() {
+    if (id_ >= 0) Close(id_);
+    id_ = H5I_INVALID_HID;
+  }
+  hid_t id_ = H5I_INVALID_HID;
+};
+
+// While one lives, HDF5 does not print its errors: ours say what is wrong.
+class Hdf5Silence {
+ public:
+  Hdf5Silence();
+  ~Hdf5Silence();
+  Hdf5Silence(const Hdf5Silence&) = delete;
+  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
+
+ private:
+  H5E_auto2_t printer_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// A dataset of rows: one row per particle.
+struct Hdf5Dataset {
+  enum class Kind { integer, real, other };
+  std::string path;  // in the file
+  std::vector<hsize_t> shape;
+  Kind kind = Kind::other;
+  std::size_t bytes_per_value = 0;
+
+  std::uint64_t rows() const { return shape.empty() ? 1 : shape[0]; }
+  std::uint64_t values_per_row() const;
+};
+
+// An HDF5 file opened for reading. Every member throws DataError when HDF5 fails, with
+// HDF5's own reason. HDF5 is not thread-safe: use from one thread at a time.
+class Hdf5File {
+ public:
+  explicit Hdf5File(const std::filesystem::path& path);
+
+  static bool has_signature(const std::byte* data, std::uint64_t size);
+
+  const std::filesystem::path& path() const { return path_; }
+  bool has(const std::string& object) const;
+  std::vector<std::string> groups(const std::string& group) const;    // names, sorted
+  std::vector<Hdf5Dataset> datasets(const std::string& group) const;  // sorted by name
+  Hdf5Dataset dataset(const std::string& path) const;
+
+  // A numeric attribute, scalar or array of any shape. None when it is absent or is text.
+  std::optional<std::vector<double>> numbers(const std::string& object,
+                                             const std::string& attribute) const;
+  std::optional<double> number(const std::string& object, const std::string& attribute) const;
+  std::optional<std::string> text(const std::string& object, const std::string& attribute) const;
+
+  // Refuses a dataset that the file does not hold completely, so that no memory is
+  // claimed for values that are not there.
+  void check_complete(const Hdf5Dataset& dataset) const;
+
+  // Rows [first, first + rows), converted by HDF5. `out` has rows * values_per_row places.
+  void read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
+                 float* out) const;
+  void read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
+                 double* out) const;
+
+  // Rows to read at a time: a large piece of whole chunks.
+  std::uint64_t rows_per_piece(const Hdf5Dataset& dataset) const;
+
+  // Where the values lie in the file, when they lie there in one piece as this machine's
+  // own floats.
+  std::optional<std::uint64_t> native_float_offset(const Hdf5Dataset& dataset) const;
+
+ private:
+  using Dataset = Hdf5Handle<H5Dclose>;
+  Dataset open_dataset(const std::string& path) const;
+  void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
+            void* out) const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::filesystem::path path_;
+  Hdf5Handle<H5Fclose> file_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,26 @@
+#include "io/hdf5_formats.h"
+
+#include "io/hdf5_file.h"
+#include "io/snapshot_format.h"
+
+namespace splotchcl {
+namespace {
+
+class Hdf5Formats : public SnapshotFormat {
+ public:
+  bool recognises(const MappedFile& file) const override {
+    return Hdf5File::has_signature(file.data(), file.size());
+  }
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
+    return open_gadget_hdf5(path);
+  }
+};
+
+}  // namespace
+
+const SnapshotFormat& hdf5_formats() {
+  static const Hdf5Formats formats;
+  return formats;
+}
+
+}  // namespace splotchcl
