@@ -1,0 +1,257 @@
+#include "cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "io/nearest_name.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl::cli {
+namespace {
+
+using Run = std::function<int()>;
+
+// Help beside a column of names, in lines of at most 100 characters.
+constexpr std::size_t name_column = 24;
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t width = 99 - name_column;
+  std::string lines;
+  std::size_t line_start = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.size() > line_start) {
+      const bool fits = lines.size() + 1 + word.size() - line_start <= width;
+      lines += fits ? ' ' : '\n';
+      if (!fits) line_start = lines.size();
+    }
+    lines += word;
+  }
+  return lines;
+}
+
+// Each command's options live as long as its `run`, which CLI11 fills in and we call.
+template <typename Options>
+CLI::App* add_command(CLI::App& app, Run& run, const char* name, const char* description,
+                      const std::shared_ptr<Options>& options,
+                      std::function<int(const Options&)> command) {
+  CLI::App* const sub = app.add_subcommand(name, description);
+  sub->callback(
+      [&run, options, command] { run = [options, command] { return command(*options); }; });
+  return sub;
+}
+
+void add_render(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* const sub = add_command<RenderOptions>(
+      app, run, "render", "Draw a scene or a snapshot", options,
+      [&console](const RenderOptions& o) { return run_render(o, console); });
+  sub->add_option(
+         "SCENE", options->scene,
+         wrapped("A scene file (.toml), or a snapshot: then camera, palette and ranges are "
+                 "chosen from the data"))
+      ->required();
+  sub->add_option(
+         "-o,--output", options->output,
+         wrapped("The picture; its ending chooses the format: .png .jpg .tga ... hold 8 bits, "
+                 ".exr and .tif linear floats and alpha. Default: the scene's name with .png, "
+                 "in the current folder"))
+      ->type_name("FILE");
+  sub->add_option(
+         "--device", options->device,
+         wrapped("A part of an OpenCL device's name, see splotchcl devices. Default: a GPU, "
+                 "else the CPU"))
+      ->type_name("NAME");
+  sub->add_option("--set", options->settings,
+                  wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->add_option(
+         "--tolerance", options->tolerance,
+         wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
+                 "the device can. Default: the scene's, 0.001"))
+      ->type_name("X");
+  sub->add_option("--crop", options->crop, wrapped("Draw only this part of the picture, in pixels"))
+      ->type_name("X,Y,W,H");
+  sub->add_flag(
+      "--reference", options->reference,
+      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
+  sub->add_flag(
+      "--explain", options->explain,
+      wrapped("Print how the picture is drawn, and the equivalent scene file; draws nothing "
+              "unless there is an --output"));
+  sub->add_option("--stats", options->stats,
+                  wrapped("Write times in seconds, counts and the plan as JSON"))
+      ->type_name("FILE");
+  sub->footer(
+      "Examples:\n"
+      "  splotchcl render snapshot_006 -o universe.png\n"
+      "  splotchcl render snapshot_006 --set image.width=1920 --set image.height=1080\n"
+      "  splotchcl render snapshot_006 --explain > scene.toml\n"
+      "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128");
+}
+
+void add_info(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* const sub =
+      add_command<InfoOptions>(app, run, "info", "Tell what a snapshot holds", options,
+                               [&console](const InfoOptions& o) { return run_info(o, console); });
+  sub->add_option("FILE", options->snapshot,
+                  wrapped("A snapshot; of several files, any one of them"))
+      ->required();
+  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->footer(
+      "Lists the fields of each particle type with their range, mean and number of bad values\n"
+      "(not a number, or infinite), in the file's own units, and the scene file that render\n"
+      "would use.\n"
+      "Example:\n"
+      "  splotchcl info snapshot_006");
+}
+
+void add_compare(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* const sub = add_command<CompareOptions>(
+      app, run, "compare", "Tell how far two pictures differ", options,
+      [&console](const CompareOptions& o) { return run_compare(o, console); });
+  sub->add_option("A", options->image, wrapped("A picture"))->required();
+  sub->add_option("B", options->reference, wrapped("The picture it should be, of the same size"))
+      ->required();
+  sub->add_option("--limit", options->limit,
+                  wrapped("Count the pixels where |A - B| > X max(1, |B|) in any channel; 1 is the "
+                          "display's white"))
+      ->type_name("X");
+  sub->add_option("--diff", options->difference,
+                  wrapped("Write a picture of |A - B|, scaled so that the largest is white"))
+      ->type_name("FILE");
+  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->footer(
+      "Exit code 1 when a pixel lies beyond the limit, 2 for pictures of different sizes.\n"
+      "Examples:\n"
+      "  splotchcl compare device.exr reference.exr --limit 0.001\n"
+      "  splotchcl compare old.png new.png --diff difference.png");
+}
+
+void add_devices(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<DevicesOptions>();
+  CLI::App* const sub =
+      add_command<DevicesOptions>(app, run, "devices", "List the OpenCL devices", options,
+                                  [](const DevicesOptions& o) { return run_devices(o); });
+  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->footer("Example:\n  splotchcl devices");
+}
+
+void add_generate(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<GenerateOptions>();
+  CLI::App* const sub = add_command<GenerateOptions>(
+      app, run, "generate", "Make up a snapshot to try things on", options,
+      [&console](const GenerateOptions& o) { return run_generate(o, console); });
+  sub->add_option("WHAT", options->what,
+                  wrapped("universe: cosmic web and haloes in a box of 50000 kpc/h; halo: a spiral "
+                          "galaxy with satellites in hot gas"))
+      ->required()
+      ->check(CLI::IsMember({"universe", "halo"}));
+  sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget format 2"))
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--particles", options->settings.particles, wrapped("Gas and stars together"))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("--stars", options->settings.star_fraction,
+                  wrapped("The part of them that are stars"))
+      ->type_name("FRACTION")
+      ->capture_default_str();
+  sub->add_option("--seed", options->settings.seed,
+                  wrapped("The same seed makes the same particles"))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->footer(
+      "Units are Gadget's: kpc/h, 1e10 solar masses/h, km/s.\n"
+      "Example:\n"
+      "  splotchcl generate universe -o universe.gadget --particles 1000000 --seed 7");
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(sub->get_name());
+  }
+  return names;
+}
+
+std::string join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// CLI11 would report an unknown command as an unexpected argument.
+void check_command(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = command_names(app);
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  std::error_code error;
+  if (std::filesystem::exists(word, error)) {
+    throw UsageError("'" + word + "' is a file, not a command; did you mean splotchcl render " +
+                     word + "?");
+  }
+  throw UsageError("there is no command '" + word + "' among " + join(names) +
+                   did_you_mean(nearest_name(word, names)));
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  }
+  return names;
+}
+
+// What the parser did not understand, as a line that says what to do.
+std::string explain(const CLI::ParseError& error, const CLI::App& app) {
+  const auto used = app.get_subcommands();
+  const CLI::App& command = used.empty() ? app : *used.front();
+  std::string text = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    text = "'" + (unknown.empty() ? "" : unknown.front()) + "' is not expected here";
+    if (!unknown.empty()) {
+      const std::string name = unknown.front().substr(0, unknown.front().find('='));
+      text += did_you_mean(nearest_name(name, option_names(command)));
+    }
+  }
+  const std::string name = used.empty() ? "" : command.get_name() + " ";
+  return (used.empty() ? "" : command.get_name() + ": ") + text + "; see splotchcl " + name +
+         "--help";
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv, Console& console) {
+  CLI::App app("Draws particle simulations of the universe, with OpenCL.", "splotchcl");
+  Run run;
+  app.set_version_flag("--version", "splotchcl " SPLOTCHCL_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(name_column);
+  add_render(app, run, console);
+  add_info(app, run, console);
+  add_compare(app, run, console);
+  add_devices(app, run);
+  add_generate(app, run, console);
+  app.footer(
+      "splotchcl COMMAND --help tells more.\n"
+      "Exit codes: 0 done; 1 the data or the device failed; 2 the call or the scene is wrong.");
+  if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    throw UsageError(explain(error, app));
+  }
+  return run();
+}
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/console.h"
+#include "splotchcl/generate.h"
+
+// What a user asks of each command, and what carries it out. A command's answer goes to
+// standard output, everything else through the console. The result is the exit code.
+namespace splotchcl::cli {
+
+struct RenderOptions {
+  std::filesystem::path scene;  // a scene file or a snapshot
+  std::optional<std::filesystem::path> output;
+  std::string device;
+  std::vector<std::string> settings;  // key=value
+  std::optional<double> tolerance;
+  std::string crop;  // X,Y,W,H
+  bool reference = false;
+  bool explain = false;
+  std::optional<std::filesystem::path> stats;
+};
+int run_render(const RenderOptions& options, Console& console);
+
+struct InfoOptions {
+  std::filesystem::path snapshot;
+  bool json = false;
+};
+int run_info(const InfoOptions& options, Console& console);
+
+struct CompareOptions {
+  std::filesystem::path image, reference;
+  std::optional<double> limit;
+  std::optional<std::filesystem::path> difference;  // a picture of it
+  bool json = false;
+};
+int run_compare(const CompareOptions& options, Console& console);
+
+struct DevicesOptions {
+  bool json = false;
+};
+int run_devices(const DevicesOptions& options);
+
+struct GenerateOptions {
+  std::string what;  // universe or halo
+  std::filesystem::path output;
+  GenerateSettings settings;
+};
+int run_generate(const GenerateOptions& options, Console& console);
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "io/field_statistics.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* type_name(int type) {
+  constexpr std::array<const char*, 6> names = {"gas",   "halo",  "disk",
+                                                "bulge", "stars", "boundary"};
+  const auto index = static_cast<std::size_t>(type);
+  return index < names.size() ? names[index] : "other";
+}
+
+// One axis of a vector field, or the values of another.
+struct FieldRow {
+  std::string name;
+  FieldStatistics statistics;
+};
+
+Column axis_of(const Column& vectors, std::size_t axis) {
+  std::vector<float> values(vectors.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = vectors[3 * i + axis];
+  return Column::owning(std::move(values));
+}
+
+std::vector<FieldRow> read_rows(const Snapshot& snapshot, int type, const FieldInfo& field) {
+  const Column values = snapshot.read(type, field.name);
+  if (field.values_per_particle != 3) return {{field.name, find_statistics(values)}};
+  std::vector<FieldRow> rows;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    FieldStatistics statistics = find_statistics(axis_of(values, axis));
+    if (field.name == "position") {
+      const double origin = snapshot.position_origin().a[axis];
+      statistics.minimum += origin;
+      statistics.maximum += origin;
+      statistics.mean += origin;
+    }
+    rows.push_back({field.name + " " + "xyz"[axis], statistics});
+  }
+  return rows;
+}
+
+// As the user may know it from the file, where that differs.
+std::string label(const FieldInfo& field) {
+  return field.file_name.empty() || field.file_name == field.name ? "" : field.file_name;
+}
+
+std::string header_text(const SnapshotInfo& info) {
+  std::string text = fmt::format("format    {}\n", info.format);
+  for (const auto& file : info.files) {
+    text += fmt::format("{:9} {}\n", &file == &info.files.front() ? "files" : "", file.string());
+  }
+  text += fmt::format("time      {}\n", info.time);
+  if (info.redshift) text += fmt::format("redshift  {}\n", *info.redshift);
+  if (info.box_size) text += fmt::format("box       {}\n", *info.box_size);
+  if (info.hubble_parameter) text += fmt::format("h         {}\n", *info.hubble_parameter);
+  return text;
+}
+
+std::string row_text(const FieldRow& row, const FieldInfo& field) {
+  const FieldStatistics& s = row.statistics;
+  return fmt::format("  {:20} {:12} {:>13.6g} {:>13.6g} {:>13.6g} {:>8} {}\n", row.name,
+                     label(field), s.minimum, s.maximum, s.mean, s.bad, field.unit);
+}
+
+std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Console& console) {
+  std::string text =
+      fmt::format("\ntype {}, {}: {} particles\n", type.type, type_name(type.type), type.count);
+  if (type.table_mass)
+    text += fmt::format("  mass of each, from the header: {}\n", *type.table_mass);
+  text += fmt::format("  {:20} {:12} {:>13} {:>13} {:>13} {:>8} {}\n", "field", "in the file",
+                      "minimum", "maximum", "mean", "bad", "unit");
+  for (const FieldInfo& field : type.fields) {
+    console.status("reading " + field.name);
+    for (const FieldRow& row : read_rows(snapshot, type.type, field))
+      text += row_text(row, field);
+  }
+  return text;
+}
+
+Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+  Json json = {{"type", type.type}, {"name", type_name(type.type)}, {"count", type.count}};
+  if (type.table_mass) json["table_mass"] = *type.table_mass;
+  json["fields"] = Json::array();
+  for (const FieldInfo& field : type.fields) {
+    for (const FieldRow& row : read_rows(snapshot, type.type, field)) {
+      const FieldStatistics& s = row.statistics;
+      json["fields"].push_back({{"name", row.name},
+                                {"file_name", field.file_name},
+                                {"unit", field.unit},
+                                {"minimum", s.minimum},
+                                {"maximum", s.maximum},
+                                {"mean", s.mean},
+                                {"bad", s.bad}});
+    }
+  }
+  return json;
+}
+
+// Empty, and a note, where nothing can be drawn.
+std::string suggested_scene(const Snapshot& snapshot, Console& console) {
+  try {
+    return format_scene(suggest_scene(snapshot));
+  } catch (const Error& error) {
+    console.note(std::string("no scene can be suggested: ") + error.what());
+    return {};
+  }
+}
+
+Json to_json(const Snapshot& snapshot, Console& console) {
+  const SnapshotInfo& info = snapshot.info();
+  Json json = {{"format", info.format}, {"files", Json::array()}, {"time", info.time}};
+  for (const auto& file : info.files)
+    json["files"].push_back(file.string());
+  if (info.redshift) json["redshift"] = *info.redshift;
+  if (info.box_size) json["box_size"] = *info.box_size;
+  if (info.hubble_parameter) json["hubble_parameter"] = *info.hubble_parameter;
+  json["notes"] = info.notes;
+  json["types"] = Json::array();
+  for (const ParticleTypeInfo& type : info.types) {
+    json["types"].push_back(type_json(snapshot, type));
+  }
+  json["scene"] = suggested_scene(snapshot, console);
+  return json;
+}
+
+void print_text(const Snapshot& snapshot, Console& console) {
+  const SnapshotInfo& info = snapshot.info();
+  std::string text = header_text(info);
+  for (const std::string& note : info.notes)
+    text += fmt::format("note      {}\n", note);
+  for (const ParticleTypeInfo& type : info.types)
+    text += type_text(snapshot, type, console);
+  const std::string scene = suggested_scene(snapshot, console);
+  if (!scene.empty()) text += "\n# The scene file that render uses for it:\n" + scene;
+  std::cout << text;
+}
+
+}  // namespace
+
+int run_info(const InfoOptions& options, Console& console) {
+  const auto snapshot = open_snapshot(options.snapshot);
+  if (options.json) {
+    std::cout << to_json(*snapshot, console).dump(2) << "\n";
+  } else {
+    print_text(*snapshot, console);
+  }
+  return 0;
+}
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,39 @@
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "cli/command_line.h"
+#include "cli/console.h"
+#include "splotchcl/error.h"
+
+namespace {
+
+constexpr int failed = 1;        // the data or the device
+constexpr int called_wrong = 2;  // the call or the scene
+
+int run(int argc, char** argv, splotchcl::cli::Console& console) {
+  try {
+    const int code = splotchcl::cli::run_command_line(argc, argv, console);
+    std::cout.flush();
+    if (std::cout) return code;
+    console.error("standard output could not be written: is the disk full?");
+  } catch (const splotchcl::UsageError& error) {
+    console.error(error.what());
+    return called_wrong;
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory; fewer particles or a smaller picture need less");
+  } catch (const std::exception& error) {
+    console.error(error.what());
+  }
+  return failed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A write beyond the limit on file sizes becomes an error that is reported like any other.
+  std::signal(SIGXFSZ, SIG_IGN);
+  splotchcl::cli::Console console;
+  return run(argc, argv, console);
+}

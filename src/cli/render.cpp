@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iostream>
+#include <numeric>
+
+#include "cli/commands.h"
+#include "cli/render_stats.h"
+#include "cli/scene_argument.h"
+#include "io/unfinished_file.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+#include "splotchcl/plan.h"
+#include "splotchcl/reference.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::cli {
+namespace {
+
+// X,Y,W,H
+Rectangle parse_crop(const std::string& text) {
+  int numbers[4];
+  const char* next = text.data();
+  const char* const end = next + text.size();
+  bool good = true;
+  for (int i = 0; i < 4 && good; ++i) {
+    if (i > 0) good = next != end && *next++ == ',';
+    const auto [after, error] = std::from_chars(next, end, numbers[i]);
+    good = good && error == std::errc();
+    next = after;
+  }
+  if (!good || next != end) {
+    throw UsageError("--crop: '" + text +
+                     "' is not X,Y,W,H, four whole numbers of pixels such as 0,0,256,256");
+  }
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+Rectangle choose_crop(const std::string& text, int width, int height) {
+  if (text.empty()) return {0, 0, width, height};
+  const Rectangle crop = parse_crop(text);
+  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 &&
+                      crop.width <= width - crop.x && crop.height <= height - crop.y;
+  if (!inside) {
+    throw UsageError(fmt::format("--crop: {} does not lie inside the picture of {}x{} pixels", text,
+                                 width, height));
+  }
+  return crop;
+}
+
+// --explain without --output only explains.
+std::optional<std::filesystem::path> choose_output(const RenderOptions& options) {
+  if (options.output) return options.output;
+  if (options.explain) return std::nullopt;
+  return options.scene.stem().string() + ".png";
+}
+
+std::vector<std::string> settings_of(const RenderOptions& options) {
+  std::vector<std::string> settings = options.settings;
+  if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
+  return settings;
+}
+
+Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, Console& console) {
+  console.status("reading " + source.snapshot->info().files.front().filename().string());
+  std::vector<std::string> notes = source.snapshot->info().notes;
+  Frame frame = load_frame(source.scene, *source.snapshot, notes);
+  for (const std::string& note : notes)
+    console.note(note);
+  frame.crop = choose_crop(options.crop, frame.width, frame.height);
+  return frame;
+}
+
+// The plan as comments, so that the whole is a scene file.
+void print_explanation(const Plan& plan, const Frame& frame, const Scene& scene) {
+  std::string line;
+  for (const char c : explain(plan, frame)) {
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    std::cout << "# " << line << "\n";
+    line.clear();
+  }
+  std::cout << "\n" << format_scene(scene);
+}
+
+std::uint64_t count_particles(const Frame& frame) {
+  return std::accumulate(frame.components.begin(), frame.components.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const DrawnComponent& component) {
+                           return sum + component.particles.count;
+                         });
+}
+
+Image draw_with_reference(const Frame& frame, RenderStats& stats, Console& console) {
+  stats.device = "reference";
+  stats.particles = count_particles(frame);
+  stats.bad_particles = reference::count_bad(frame);
+  stats.drawn_particles = reference::project(frame).size();
+  return reference::render(
+             frame,
+             [&](double fraction) { console.progress("drawing with the reference", fraction); })
+      .to_float();
+}
+
+Image draw(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& stats,
+           Console& console) {
+  const Stopwatch stopwatch;
+  Image image;
+  if (renderer) {
+    console.status(fmt::format("drawing {} particles", count_particles(frame)));
+    image = renderer->render(frame);
+    stats = renderer->stats();
+  } else {
+    image = draw_with_reference(frame, stats, console);
+    stats.total_seconds = stopwatch.seconds();
+  }
+  if (stats.bad_particles > 0) {
+    console.note(fmt::format(
+        "{} of {} particles are left out: their position, smoothing length or weight is not "
+        "finite, or the smoothing length is not above 0",
+        stats.bad_particles, stats.particles));
+  }
+  return image;
+}
+
+ImageFileOptions file_options(const Scene& scene, const RenderOptions& options,
+                              const RenderStats& stats) {
+  ImageFileOptions file;
+  file.gamma = scene.image.gamma;
+  file.metadata = {{"splotchcl:version", SPLOTCHCL_VERSION},
+                   {"splotchcl:scene", format_scene(scene)},
+                   {"splotchcl:device", stats.device}};
+  if (!options.crop.empty()) file.metadata["splotchcl:crop"] = options.crop;
+  return file;
+}
+
+}  // namespace
+
+int run_render(const RenderOptions& options, Console& console) {
+  // Whatever would fail at the end is tried first.
+  const std::optional<std::filesystem::path> output = choose_output(options);
+  if (output) check_image_path(*output);
+  if (options.stats) check_folder_of(*options.stats);
+  const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
+
+  const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  const ImageSettings& picture = source.scene.image;
+  if (output) {
+    const bool cropped = wanted.width > 0;
+    check_image_size(*output, cropped ? wanted.width : picture.width,
+                     cropped ? wanted.height : picture.height);
+  }
+  std::optional<Renderer> renderer;
+  if (output && !options.reference) {
+    console.status("starting the device");
+    renderer.emplace(RendererOptions{options.device, CompositeShape::automatic});
+  }
+
+  RenderReport report;
+  const Stopwatch reading;
+  report.frame = read_frame(source, options, console);
+  report.read_seconds = reading.seconds();
+  report.plan = make_plan(report.frame);
+  if (options.explain) print_explanation(report.plan, report.frame, source.scene);
+  if (!output) return 0;
+
+  const Stopwatch drawing;
+  const Image image = draw(report.frame, renderer, report.stats, console);
+  report.draw_seconds = drawing.seconds();
+  const Stopwatch writing;
+  console.status("writing " + output->string());
+  write_image(*output, image, file_options(source.scene, options, report.stats));
+  report.write_seconds = writing.seconds();
+  if (options.stats) {
+    report.scene = options.scene.string();
+    report.snapshot = source.snapshot->info().files.front().string();
+    report.output = output->string();
+    report.reference = options.reference;
+    write_stats(*options.stats, report);
+  }
+  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}",
+                           output->string(), image.width, image.height, report.stats.particles,
+                           report.read_seconds, report.draw_seconds, report.stats.device));
+  return 0;
+}
+
+}  // namespace splotchcl::cli

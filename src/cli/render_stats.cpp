@@ -1,0 +1,66 @@
+#include "cli/render_stats.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/unfinished_file.h"
+
+namespace splotchcl::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json particles_to_json(const RenderStats& stats) {
+  return {
+      {"total", stats.particles}, {"bad", stats.bad_particles}, {"drawn", stats.drawn_particles}};
+}
+
+Json plan_to_json(const Plan& plan) {
+  return {{"light", name(plan.light)},         {"source", plan.source},
+          {"needs_sort", plan.needs_sort},     {"truncation_share", plan.truncation_share},
+          {"coarse_share", plan.coarse_share}, {"arithmetic_share", plan.arithmetic_share}};
+}
+
+Json seconds_to_json(const RenderReport& report) {
+  return {{"read", report.read_seconds},
+          {"draw", report.draw_seconds},
+          {"write", report.write_seconds}};
+}
+
+Json stages_to_json(const RenderStats& stats) {
+  Json stages = Json::array();
+  for (const StageTime& stage : stats.stages) {
+    stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  }
+  return stages;
+}
+
+Json to_json(const RenderReport& report) {
+  const Frame& frame = report.frame;
+  return {{"version", SPLOTCHCL_VERSION},
+          {"scene", report.scene},
+          {"snapshot", report.snapshot},
+          {"output", report.output},
+          {"width", frame.width},
+          {"height", frame.height},
+          {"crop", {frame.crop.x, frame.crop.y, frame.crop.width, frame.crop.height}},
+          {"tolerance", frame.tolerance},
+          {"plan", plan_to_json(report.plan)},
+          {"renderer", report.reference ? "reference" : "device"},
+          {"device", report.stats.device},
+          {"particles", particles_to_json(report.stats)},
+          {"tile_entries", report.stats.tile_entries},
+          {"device_bytes", report.stats.device_bytes},
+          {"seconds", seconds_to_json(report)},
+          {"stages", stages_to_json(report.stats)}};
+}
+
+}  // namespace
+
+void write_stats(const std::filesystem::path& path, const RenderReport& report) {
+  const std::string text = to_json(report).dump(2) + "\n";
+  UnfinishedFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+}  // namespace splotchcl::cli

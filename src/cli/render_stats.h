@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+#include "splotchcl/renderer.h"
+
+namespace splotchcl::cli {
+
+// What --stats tells of a picture.
+struct RenderReport {
+  std::string scene, snapshot, output;
+  bool reference = false;  // drawn by the reference instead of a device
+  Frame frame;
+  Plan plan;
+  RenderStats stats;
+  double read_seconds = 0, draw_seconds = 0, write_seconds = 0;
+};
+
+// As JSON; appears only when complete.
+void write_stats(const std::filesystem::path& path, const RenderReport& report);
+
+}  // namespace splotchcl::cli
