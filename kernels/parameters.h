@@ -51,7 +51,8 @@ struct ProjectParameters {
   float weight_scale;
   float peak_colour;   // the largest of E and A per unit weight
 
-  float inverse_truncation;  // 1 / (light left out where a splat ends, per unit peak)
+  float least_extent;  // sigmas drawn of a faint splat
+  float inverse_edge;  // 1 / (value at which a splat may end)
   float coarse_sigma;        // smallest sigma in pixels of a coarse grid
   int grid_count;
   float guard;  // of the coarse grids

@@ -91,15 +91,12 @@ inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
   return p.weight_scale / (h * p.length_scale);
 }
 
-// How many sigma a splat is drawn: the light outside the square of that half side,
-// 2 erfc(k), is 1 / inverse_truncation of a splat's, less for peaks above 1. With
-// erfc(k) ~ exp(-k^2) / (k sqrt(pi)) one step of iteration is close enough.
+// How many sigma a splat is drawn (docs/accuracy.md): at least so far that the light
+// outside the square does not show in a sum of many, and for a bright one so far that
+// its own edge does not show.
 inline VALUE truncation_extent(VALUE peak, const ProjectParameters p) {
-  const VALUE logarithm =
-      0.693147181f * log2_positive(p.inverse_truncation * max(peak, (VALUE)(1.0f)));
-  const VALUE first = sqrt(max(logarithm, (VALUE)(0.8f)));
-  const VALUE corrected = logarithm - 0.693147181f * log2_positive(0.886226925f * first);
-  return sqrt(max(corrected, (VALUE)(0.0f)));
+  const VALUE excess = log2_positive(max(peak * p.inverse_edge, (VALUE)(1.0f)));
+  return max((VALUE)(p.least_extent), sqrt(0.693147181f * excess));
 }
 
 // The splats of LANES particles.

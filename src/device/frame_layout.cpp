@@ -57,6 +57,17 @@ bool may_use_coarse_grids(const Frame& frame, const Plan& plan) {
   return plan.light != LightPlan::ordered && plan.coarse_share > 0 && !frame.kernel.cut;
 }
 
+// The half side, in sigma, of the square outside which a splat has this fraction of its
+// light: 1 - erf(k)^2 < 2 erfc(k) = loss.
+double extent_of_loss(double loss) {
+  double low = 0, high = 8;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (2 * std::erfc(middle) > loss ? low : high) = middle;
+  }
+  return high;
+}
+
 // Largest E / A of the component: what shines through an opacity o is at most
 // (1 - o) times this.
 double brightest_source(const DrawnComponent& component) {
@@ -94,7 +105,7 @@ float opaque_limit(const Frame& frame, double share) {
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
   layout.tile_width = rows ? 32 : 16;
-  layout.tile_height = 16;
+  layout.tile_height = rows ? 16 : 16;
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
   append_grid(layout, frame.crop.width, frame.crop.height, 0);
   if (may_use_coarse_grids(frame, plan)) {
@@ -112,7 +123,9 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   const double arithmetic = std::max(plan.arithmetic_share, smallest);
   const double truncation = std::max(plan.truncation_share, smallest);
   layout.exact = frame.tolerance < 1e-4;
-  layout.inverse_truncation = static_cast<float>(std::max(1.0, picture_error / truncation));
+  layout.least_extent = static_cast<float>(extent_of_loss(truncation / picture_error));
+  // Two bright edges may fall on one pixel.
+  layout.inverse_edge = static_cast<float>(2 / truncation);
   if (frame.kernel.sampling == Sampling::mean) {
     // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
     const double sigma = std::pow(7.7e-3 * picture_error / (0.75 * arithmetic), 0.25);

@@ -22,7 +22,8 @@ struct FrameLayout {
   float mean_sigma = 0;    // narrower splats take the pixel mean by erf
   float widening = 0;      // of sigma^2, for wider ones
   float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
-  float inverse_truncation = 0;
+  float least_extent = 0;  // sigmas drawn of a faint splat
+  float inverse_edge = 0;  // 1 / (value at which a splat may end)
   float phi_series = 0;
   float opaque = 0;
   bool exact = false;  // polynomials of full single precision

@@ -130,7 +130,8 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
       break;
   }
   p.peak_colour = static_cast<float>(peak_colour(component));
-  p.inverse_truncation = layout_.inverse_truncation;
+  p.least_extent = layout_.least_extent;
+  p.inverse_edge = layout_.inverse_edge;
   p.coarse_sigma = layout_.coarse_sigma;
   p.grid_count = static_cast<int>(layout_.grids.size());
   p.guard = static_cast<float>(layout_.grids.back().guard);
