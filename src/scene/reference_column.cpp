@@ -23,15 +23,15 @@ constexpr std::size_t particle_limit = 500000;
 
 // A pixel is lit when it shows at least this part of what the brightest pixels show;
 // what is dimmer is black in any picture and says nothing about its exposure.
-constexpr double lit_fraction = 0.01;
+constexpr double lit_fraction = 0.002;
 constexpr double brightest_percentile = 0.999;
 
 // The reference is the column that this part of the lit pixels stays below.
-constexpr double exposed_percentile = 0.93;
+constexpr double exposed_percentile = 0.9;
 
 struct Cloud {
   double x, y, sigma;  // in coarse pixels
-  double column;       // through its centre
+  double column;       // through its centre, times the strength of its colour
 };
 
 struct Grid {
@@ -101,6 +101,24 @@ class ColumnPyramid {
   std::vector<Grid> levels_;
 };
 
+// How much of a column the particle's colour lets through to the picture: its brightest
+// channel, of emission or absorption. Black palette entries count a little, so that a
+// component without any light still has a reference.
+double color_strength(const DrawnComponent& component, std::size_t i) {
+  constexpr double least = 0.02;
+  const Column& color = component.particles.color;
+  const double place =
+      color.is_absent() ? 0.0 : normalised(static_cast<double>(color[i]), component.color);
+  double strength = least;
+  for (const std::vector<Rgb>* knots :
+       {&component.palette.emission, &component.palette.absorption}) {
+    if (knots->empty()) continue;
+    for (const double channel : sample_knots(*knots, place))
+      strength = std::max(strength, channel);
+  }
+  return strength;
+}
+
 // Nothing for particles that are bad or outside the camera's limits.
 std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& frame, std::size_t i) {
   using namespace boost::qvm;
@@ -129,6 +147,7 @@ std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& fram
   if (!particles.intensity.is_absent()) {
     cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);
   }
+  cloud.column *= color_strength(component, i);
   const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) && cloud.sigma > 0 &&
                        std::isfinite(cloud.sigma) && cloud.column > 0 &&
                        std::isfinite(cloud.column);
