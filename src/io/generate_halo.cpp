@@ -10,7 +10,7 @@ namespace splotchcl {
 namespace {
 
 // Lengths in kpc/h, speeds in km/s, masses in 1e10 solar masses/h.
-constexpr double virial_radius = 150;
+constexpr double virial_radius = 100;
 constexpr double halo_speed = 170;  // of circular orbits, the same at every radius
 constexpr double disc_scale = 4, disc_height = 0.25, disc_edge = 25;
 constexpr double bulge_scale = 0.7;
@@ -21,9 +21,9 @@ constexpr double gas_mass = 4, star_mass = 3;
 
 struct Galaxy {
   // The axes of its disc, inclined to every axis of the picture.
-  Vec3 first = {{0.8164965809277260, -0.4082482904638630, -0.4082482904638630}};
-  Vec3 second = {{0, 0.7071067811865475, -0.7071067811865475}};
-  Vec3 normal = {{0.5773502691896258, 0.5773502691896258, 0.5773502691896258}};
+  Vec3 first = {{0.7071067811865475, 0.7071067811865475, 0}};
+  Vec3 second = {{-0.4082482904638630, 0.4082482904638630, 0.8164965809277260}};
+  Vec3 normal = {{0.5773502691896258, -0.5773502691896258, 0.5773502691896258}};
 };
 
 Vec3 in_disc(double along_first, double along_second, double height) {
@@ -123,10 +123,10 @@ void add_gas(GeneratedParticles& gas, const std::vector<Satellite>& all, std::ui
   for (std::uint64_t i = 0; i < count; ++i) {
     const double kind = random.uniform();
     double energy = 0;  // (km/s)^2: the disc's gas is cold, the halo's at virial temperature
-    if (kind < 0.5) {
+    if (kind < 0.7) {
       add(gas, place_in_disc(disc_scale * 1.3, disc_height, 4, 0.12, random));
       energy = 150;
-    } else if (kind < 0.9) {
+    } else if (kind < 0.85) {
       const double radius = virial_radius * profile.radius(random.uniform());
       add(gas, place_in_ball({{0, 0, 0}}, {{0, 0, 0}}, radius, halo_speed * M_SQRT1_2, random));
       energy = 0.75 * halo_speed * halo_speed * (1.2 - 0.6 * radius / virial_radius);

@@ -5,6 +5,7 @@
 #include "io/generate_haloes.h"
 #include "io/generate_profile.h"
 #include "io/generate_web.h"
+#include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 
 namespace splotchcl {
@@ -12,8 +13,8 @@ namespace {
 
 constexpr double box = 50000;  // kpc/h
 constexpr double critical_density = cosmology::critical_density;
-constexpr double largest_birth_radius = 0.2, smallest_birth_radius = 0.035;  // of haloes
-constexpr double overdensity = 200;  // of a halo, over the mean
+constexpr double largest_birth_radius = 0.2;  // of haloes
+constexpr double overdensity = 200;           // of a halo, over the mean
 constexpr double gas_concentration = 7, star_concentration = 12;
 constexpr double star_extent = 0.35;   // of the virial radius
 constexpr double stars_per_gas = 0.1;  // in mass
@@ -78,17 +79,20 @@ void settle(PlacedGas& gas, const Halo& halo, const Vec3& birthplace, Random& ra
   gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * std::exp(0.25 * random.normal());
 }
 
-std::vector<Halo> make_haloes(const Web& web) {
+// The smallest hold some thirty particles, and are born of peaks that the waves resolve.
+std::vector<Halo> make_haloes(const Web& web, double spacing) {
   std::vector<Halo> haloes = find_haloes([&](double radius) { return web.contrast(radius); },
-                                         largest_birth_radius, smallest_birth_radius);
+                                         largest_birth_radius, std::clamp(2 * spacing, 0.02, 0.05));
+  if (haloes.empty()) {
+    throw UsageError("this seed makes a universe in which nothing has collapsed; choose another");
+  }
   for (Halo& halo : haloes)
     halo.centre = web.displaced(halo.birthplace);
   return haloes;
 }
 
 std::vector<PlacedGas> place_gas(const Web& web, std::vector<Halo>& haloes, std::uint64_t count,
-                                 Random& random) {
-  const double spacing = 1 / std::cbrt(static_cast<double>(count));
+                                 double spacing, Random& random) {
   std::vector<Vec3> birthplaces, places;
   for (std::uint64_t i = 0; i < count; ++i) {
     birthplaces.push_back(even_place(i, random, 0.5 * spacing));
@@ -145,8 +149,9 @@ GeneratedSnapshot generate_universe(const GenerateSettings& settings) {
   const ParticleShares shares = share_particles(settings);
   Random random(settings.seed);
   const Web web(box, random);
-  std::vector<Halo> haloes = make_haloes(web);
-  const std::vector<PlacedGas> placed = place_gas(web, haloes, shares.gas, random);
+  const double spacing = 1 / std::cbrt(static_cast<double>(shares.gas));
+  std::vector<Halo> haloes = make_haloes(web, spacing);
+  const std::vector<PlacedGas> placed = place_gas(web, haloes, shares.gas, spacing, random);
 
   GeneratedSnapshot snapshot;
   snapshot.box_size = box;
