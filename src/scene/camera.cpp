@@ -1,6 +1,8 @@
 #include "splotchcl/camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "splotchcl/error.h"
@@ -14,9 +16,15 @@ constexpr double pi = 3.14159265358979323846;
 // direction is lost in the rounding of the inputs.
 constexpr double smallest_sky_sine = 1e-9;
 
+// Six digits, small and large numbers alike.
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
 std::string text(const Vec3& v) {
-  return "(" + std::to_string(v.a[0]) + ", " + std::to_string(v.a[1]) + ", " +
-         std::to_string(v.a[2]) + ")";
+  return "(" + text(v.a[0]) + ", " + text(v.a[1]) + ", " + text(v.a[2]) + ")";
 }
 
 void check_finite(const Vec3& v, const char* key) {
@@ -25,11 +33,14 @@ void check_finite(const Vec3& v, const char* key) {
   }
 }
 
+double largest_component(const Vec3& v) {
+  return std::max({std::abs(v.a[0]), std::abs(v.a[1]), std::abs(v.a[2])});
+}
+
 void check_limits(const Camera& camera) {
   if (camera.near_limit && camera.far_limit && !(*camera.near_limit < *camera.far_limit)) {
-    throw UsageError("camera.near: found " + std::to_string(*camera.near_limit) +
-                     ", expected less than camera.far, which is " +
-                     std::to_string(*camera.far_limit));
+    throw UsageError("camera.near: found " + text(*camera.near_limit) +
+                     ", expected less than camera.far, which is " + text(*camera.far_limit));
   }
 }
 
@@ -42,8 +53,7 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   check_finite(camera.sky, "camera.sky");
   check_limits(camera);
   if (!(camera.field_of_view_degrees > 0 && camera.field_of_view_degrees < 180)) {
-    throw UsageError("camera.field_of_view: found " +
-                     std::to_string(camera.field_of_view_degrees) +
+    throw UsageError("camera.field_of_view: found " + text(camera.field_of_view_degrees) +
                      " degrees, expected more than 0 and less than 180");
   }
 
@@ -53,19 +63,27 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
     throw UsageError("camera.look_at: found the camera's own position " + text(camera.look_at) +
                      ", expected another point, so that there is a view direction");
   }
-  const double sky_length = mag(camera.sky);
-  const Vec3 right = cross(view, camera.sky);
-  if (!(sky_length > 0) || !(mag(right) > smallest_sky_sine * distance * sky_length)) {
+  if (!std::isfinite(distance)) {
+    throw UsageError("camera.look_at: found " + text(camera.look_at) +
+                     ", too far from the camera to compute with, expected a nearer point");
+  }
+  const Vec3 forward = view / distance;
+  // By its largest component first, so that no square overflows or underflows.
+  const double sky_size = largest_component(camera.sky);
+  const Vec3 sky = sky_size > 0 ? Vec3(camera.sky / sky_size) : camera.sky;
+  const Vec3 right = cross(forward, sky);
+  if (!(mag(right) > smallest_sky_sine)) {
     throw UsageError("camera.sky: found " + text(camera.sky) +
-                     ", parallel to the view direction " + text(view) +
+                     (sky_size > 0 ? ", parallel to the view direction " + text(view)
+                                   : std::string(", which is no direction")) +
                      ", expected any other direction");
   }
 
   CameraFrame frame;
   frame.position = camera.position;
-  frame.forward = view / distance;
+  frame.forward = forward;
   frame.right = normalized(right);
-  frame.down = cross(frame.forward, frame.right);
+  frame.down = cross(forward, frame.right);
   frame.focal_pixels = 0.5 * width / std::tan(0.5 * camera.field_of_view_degrees * pi / 180);
   frame.look_at_distance = distance;
   frame.pixels_per_length = frame.focal_pixels / distance;

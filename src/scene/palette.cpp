@@ -7,8 +7,9 @@ namespace splotchcl {
 
 std::array<double, 3> sample_knots(const std::vector<Rgb>& knots, double position) {
   const double last = static_cast<double>(knots.size() - 1);
-  const double place = std::clamp(position, 0.0, 1.0) * last;
-  const std::size_t below = static_cast<std::size_t>(std::min(std::floor(place), last));
+  // Not std::clamp: a position that is not a number takes the first knot.
+  const double place = position > 0 ? std::min(position, 1.0) * last : 0.0;
+  const std::size_t below = static_cast<std::size_t>(std::floor(place));
   const std::size_t above = std::min(below + 1, knots.size() - 1);
   const double fraction = place - static_cast<double>(below);
   std::array<double, 3> color;

@@ -1,0 +1,128 @@
+#include "splotchcl/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace splotchcl {
+namespace {
+
+using Kind = Absorption::Kind;
+using ::testing::HasSubstr;
+
+DrawnComponent component(Kind kind, double factor = 0) {
+  DrawnComponent component;
+  component.palette.emission = {{1, 1, 1}};
+  component.absorption = {kind, factor};
+  return component;
+}
+
+DrawnComponent with_own_absorption(DrawnComponent component) {
+  component.palette.absorption = component.palette.emission;
+  return component;
+}
+
+Frame frame_of(const std::vector<DrawnComponent>& components) {
+  Frame frame;
+  frame.components = components;
+  return frame;
+}
+
+LightPlan light_of(const std::vector<DrawnComponent>& components) {
+  return make_plan(frame_of(components)).light;
+}
+
+TEST(Plan, AddsUpEmissionWhereNothingAbsorbs) {
+  EXPECT_EQ(light_of({component(Kind::none)}), LightPlan::emission);
+  EXPECT_EQ(light_of({component(Kind::none), component(Kind::none)}), LightPlan::emission);
+}
+
+TEST(Plan, AddsUpEmissionWhereThePalettesAbsorptionIsSwitchedOff) {
+  EXPECT_EQ(light_of({with_own_absorption(component(Kind::none))}), LightPlan::emission);
+}
+
+TEST(Plan, NeedsNoOrderWhereEverythingAbsorbsWhatItEmits) {
+  DrawnComponent bright = component(Kind::as_emission);
+  bright.brightness = 7;
+  const Plan plan = make_plan(frame_of({component(Kind::as_emission), bright}));
+  EXPECT_EQ(plan.light, LightPlan::proportional);
+  EXPECT_EQ(plan.source, (std::array<double, 3>{1, 1, 1}));
+}
+
+TEST(Plan, NeedsNoOrderWhereOneComponentAbsorbsAFactorOfWhatItEmits) {
+  DrawnComponent gas = component(Kind::factor, 4);
+  gas.brightness = 3;
+  const Plan plan = make_plan(frame_of({gas}));
+  EXPECT_EQ(plan.light, LightPlan::proportional);
+  // E = brightness I palette, A = factor I palette.
+  EXPECT_EQ(plan.source, (std::array<double, 3>{0.75, 0.75, 0.75}));
+}
+
+TEST(Plan, NeverComparesTheFactorsOfTwoComponents) {
+  EXPECT_EQ(light_of({component(Kind::factor, 4), component(Kind::factor, 4)}), LightPlan::ordered);
+}
+
+TEST(Plan, OrdersWhatEmitsAndAbsorbsByItsOwnColours) {
+  EXPECT_EQ(light_of({with_own_absorption(component(Kind::as_emission))}), LightPlan::ordered);
+  EXPECT_EQ(light_of({with_own_absorption(component(Kind::factor, 1))}), LightPlan::ordered);
+}
+
+TEST(Plan, OrdersGrayAbsorption) {
+  EXPECT_EQ(light_of({component(Kind::gray, 0.2)}), LightPlan::ordered);
+}
+
+TEST(Plan, OrdersComponentsThatAbsorbDifferently) {
+  const std::vector<DrawnComponent> kinds = {component(Kind::as_emission), component(Kind::none),
+                                             component(Kind::factor, 2), component(Kind::gray, 1)};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    for (std::size_t j = 0; j < kinds.size(); ++j) {
+      if (i == j) continue;
+      EXPECT_EQ(light_of({kinds[i], kinds[j]}), LightPlan::ordered) << i << " and " << j;
+    }
+  }
+}
+
+TEST(Plan, SortsOnlyWhatItOrders) {
+  EXPECT_FALSE(make_plan(frame_of({component(Kind::none)})).needs_sort);
+  EXPECT_FALSE(make_plan(frame_of({component(Kind::as_emission)})).needs_sort);
+  EXPECT_TRUE(make_plan(frame_of({component(Kind::gray, 1)})).needs_sort);
+}
+
+TEST(Plan, SharesOutTheWholeTolerance) {
+  for (const Kind kind : {Kind::none, Kind::as_emission, Kind::gray}) {
+    for (const double tolerance : {0.0, 1e-6, 1e-3, 1.0}) {
+      Frame frame = frame_of({component(kind, 1)});
+      frame.tolerance = tolerance;
+      const Plan plan = make_plan(frame);
+      EXPECT_GE(plan.truncation_share, 0);
+      EXPECT_GE(plan.coarse_share, 0);
+      EXPECT_GE(plan.arithmetic_share, 0);
+      EXPECT_NEAR(plan.truncation_share + plan.coarse_share + plan.arithmetic_share, tolerance,
+                  1e-15 * tolerance);
+    }
+  }
+}
+
+TEST(Plan, HasNoCoarseGridsWhereOrderMatters) {
+  EXPECT_EQ(make_plan(frame_of({component(Kind::gray, 1)})).coarse_share, 0);
+}
+
+TEST(Plan, ExplainsItselfByName) {
+  for (const Kind kind : {Kind::none, Kind::as_emission, Kind::gray}) {
+    const Frame frame = frame_of({component(kind, 1)});
+    const Plan plan = make_plan(frame);
+    EXPECT_THAT(explain(plan, frame), HasSubstr(std::string("plan: ") + name(plan.light)));
+  }
+}
+
+TEST(Plan, ExplainsWhatItSortsBy) {
+  Frame frame = frame_of({component(Kind::gray, 1)});
+  EXPECT_THAT(explain(make_plan(frame), frame), HasSubstr("sort by depth"));
+  frame.sort.by = SortOrder::By::field;
+  frame.sort.field = "temperature";
+  EXPECT_THAT(explain(make_plan(frame), frame), HasSubstr("sort by temperature"));
+}
+
+}  // namespace
+}  // namespace splotchcl
