@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/scene_file_check.h"
 #include "io/scene_file_keys.h"
 #include "splotchcl/scene_file.h"
 
@@ -48,6 +49,9 @@ std::string format_table(const std::string& table, const Scene& scene, std::size
 }  // namespace
 
 std::string format_scene(const Scene& scene) {
+  // A scene made by hand may hold what no scene file can say.
+  const std::string name = "the scene to write";
+  scene_file::check_scene(scene, {name, {}});
   std::string text = format_table("", scene, 0);
   for (const std::string table : {"image", "camera", "kernel", "sort"}) {
     if (table == "camera" && !scene.camera) continue;
@@ -56,8 +60,7 @@ std::string format_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.components.size(); ++i) {
     text += fmt::format("\n[[component]]\n{}", format_table("component", scene, i));
   }
-  // A scene made by hand may hold what no scene file can say.
-  parse_scene(text, "the scene to write");
+  parse_scene(text, name);
   return text;
 }
 

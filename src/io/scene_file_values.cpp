@@ -14,10 +14,12 @@ namespace {
 const std::vector<std::string> type_names = {"gas", "halo", "disk", "bulge", "stars", "boundary"};
 constexpr int largest_type = 31;
 
-// Integers are numbers too: 45 and 45.0 mean the same.
+// Integers are numbers too: 45 and 45.0 mean the same, with any number of digits.
 std::optional<double> read_number(const toml::node& node, const Range& range) {
-  if (!node.is_number()) return std::nullopt;
-  const std::optional<double> value = node.value<double>();
+  std::optional<double> value = node.value_exact<double>();
+  if (const auto integer = node.value_exact<std::int64_t>()) {
+    value = static_cast<double>(*integer);
+  }
   if (!value || !range.contains(*value)) return std::nullopt;
   return value;
 }
@@ -211,7 +213,9 @@ std::string one_line(const std::string& text, std::size_t longest) {
     const auto code = static_cast<unsigned char>(c);
     const bool continues_a_letter = (code & 0xc0) == 0x80;  // of UTF-8
     if (line.size() >= longest && !continues_a_letter) return line + "...";
-    line += code < 0x20 || code == 0x7f ? ' ' : c;
+    const char shown = code < 0x20 || code == 0x7f ? ' ' : c;
+    const bool is_spare = shown == ' ' && !line.empty() && line.back() == ' ';
+    if (!is_spare) line += shown;
   }
   return line;
 }

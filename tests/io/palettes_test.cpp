@@ -1,0 +1,194 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "io/palette_file.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+namespace fs = std::filesystem;
+
+std::string message_for(const std::string& name) {
+  try {
+    load_palette(name);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+double lightness(const Rgb& rgb) {
+  return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+         0.0722 * static_cast<double>(rgb[2]);
+}
+
+TEST(BuiltInPalettes, HaveTheUsualOnesAndOnesForMatter) {
+  EXPECT_THAT(palette_names(),
+              IsSupersetOf({"viridis", "magma", "inferno", "plasma", "cividis", "gas", "hot_gas",
+                            "stars", "temperature", "dust", "nebula", "gray", "fire", "veil"}));
+}
+
+TEST(BuiltInPalettes, AreListedInAlphabeticalOrder) {
+  const std::vector<std::string> names = palette_names();
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST(BuiltInPalettes, AllLoadUnderTheirNames) {
+  for (const std::string& name : palette_names()) {
+    const Palette palette = load_palette(name);
+    EXPECT_EQ(palette.name, name);
+    EXPECT_GE(palette.emission.size(), 2u) << name;
+  }
+}
+
+TEST(BuiltInPalettes, AreTheFilesOfThePalettesFolder) {
+  for (const auto& entry : fs::directory_iterator(SPLOTCHCL_SOURCE_DIR "/palettes")) {
+    if (entry.path().extension() != ".txt") continue;
+    const Palette from_file = load_palette(entry.path().string());
+    EXPECT_EQ(load_palette(entry.path().stem().string()).emission, from_file.emission);
+  }
+}
+
+TEST(BuiltInPalettes, HaveNamesThatAreNoPaths) {
+  for (const std::string& name : palette_names())
+    EXPECT_FALSE(is_palette_path(name)) << name;
+}
+
+// A denser or hotter place must never look darker.
+TEST(BuiltInPalettes, ForDensityGrowLighterAllTheWay) {
+  for (const char* name : {"viridis", "magma", "inferno", "plasma", "cividis", "gas", "hot_gas",
+                           "nebula", "halo", "fire", "ice", "gray", "dust", "veil"}) {
+    const Palette palette = load_palette(name);
+    for (std::size_t i = 1; i < palette.emission.size(); ++i) {
+      EXPECT_GT(lightness(palette.emission[i]), lightness(palette.emission[i - 1]))
+          << name << ", knot " << i;
+    }
+  }
+}
+
+TEST(VeilPalette, TurnsTransparentTowardsHighValues) {
+  const Palette veil = load_palette("veil");
+  ASSERT_TRUE(veil.has_own_absorption());
+  EXPECT_GT(lightness(veil.absorption.front()), 0.5);
+  EXPECT_EQ(veil.absorption.back(), (Rgb{0, 0, 0}));
+  for (std::size_t i = 1; i < veil.absorption.size(); ++i) {
+    EXPECT_LE(lightness(veil.absorption[i]), lightness(veil.absorption[i - 1]));
+  }
+}
+
+TEST(DustPalette, AbsorbsBlueMost) {
+  for (const Rgb& knot : load_palette("dust").absorption) {
+    EXPECT_LT(knot[0], knot[1]);
+    EXPECT_LT(knot[1], knot[2]);
+  }
+}
+
+TEST(StarsPalette, GoesFromRedToBlue) {
+  const Palette stars = load_palette("stars");
+  EXPECT_GT(stars.emission.front()[0], stars.emission.front()[2]);
+  EXPECT_LT(stars.emission.back()[0], stars.emission.back()[2]);
+}
+
+class PaletteFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / "splotchcl_palettes_test";
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    unsetenv("SPLOTCHCL_PALETTES");
+    fs::remove_all(folder_);
+  }
+  void use_folder() const { setenv("SPLOTCHCL_PALETTES", folder_.c_str(), 1); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  fs::path folder_;
+};
+
+TEST_F(PaletteFolder, HoldsPalettesOfItsOwn) {
+  write("mine.txt", "0.25 0.5 0.75\n");
+  write("old.pal", "Old\n0100\n1\n255 0 0\n");
+  use_folder();
+  EXPECT_THAT(load_palette("mine").emission, ElementsAre(Rgb{0.25f, 0.5f, 0.75f}));
+  EXPECT_THAT(load_palette("old").emission, ElementsAre(Rgb{1, 0, 0}));
+}
+
+TEST_F(PaletteFolder, ComesBeforeTheBuiltInPalettes) {
+  write("magma.txt", "0.25 0.5 0.75\n");
+  EXPECT_GT(load_palette("magma").emission.size(), 1u);
+  use_folder();
+  EXPECT_EQ(load_palette("magma").emission.size(), 1u);
+}
+
+TEST_F(PaletteFolder, LeavesTheBuiltInPalettesInPlace) {
+  use_folder();
+  EXPECT_EQ(load_palette("magma").name, "magma");
+}
+
+TEST_F(PaletteFolder, IsSearchedForNamesNearby) {
+  write("swirl.txt", "1 1 1\n");
+  use_folder();
+  EXPECT_THAT(message_for("swril"), HasSubstr("; did you mean swirl?"));
+}
+
+TEST_F(PaletteFolder, IsRefusedWhenItIsNone) {
+  setenv("SPLOTCHCL_PALETTES", (folder_ / "nowhere").c_str(), 1);
+  EXPECT_THAT(message_for("magma"), HasSubstr("SPLOTCHCL_PALETTES: found"));
+}
+
+TEST_F(PaletteFolder, MayHoldAFileGivenByPath) {
+  write("mine.txt", "1 1 1\n");
+  EXPECT_EQ(load_palette("mine.txt", folder_).emission.size(), 1u);
+  EXPECT_EQ(load_palette((folder_ / "mine.txt").string()).emission.size(), 1u);
+}
+
+TEST_F(PaletteFolder, NamesFileAndLineOfABadPalette) {
+  write("bad.txt", "0 0 0\n0 0 x\n");
+  EXPECT_THAT(message_for((folder_ / "bad.txt").string()), HasSubstr("bad.txt:2: found \"x\""));
+}
+
+TEST(UnknownPalettes, AreRefusedWithTheNearestName) {
+  EXPECT_THAT(message_for("infreno"), HasSubstr("; did you mean inferno?"));
+  EXPECT_THAT(message_for("Magma"), HasSubstr("; did you mean magma?"));
+  EXPECT_THAT(message_for("veil.txt"), HasSubstr("; did you mean veil?"));
+  EXPECT_THAT(message_for("palettes/gray.pal"), HasSubstr("; did you mean gray?"));
+}
+
+TEST(UnknownPalettes, AreRefusedWithAListOfAll) {
+  EXPECT_THAT(message_for("mauve"), HasSubstr("cividis, dust, fire, gas"));
+}
+
+TEST(UnknownPalettes, AreAMistakeOfTheScene) {
+  EXPECT_THROW(load_palette("mauve"), UsageError);
+  EXPECT_THROW(load_palette("mauve.txt"), UsageError);
+  EXPECT_THROW(load_palette(""), UsageError);
+}
+
+TEST(UnknownPalettes, ThatAreFoldersAreRefused) {
+  EXPECT_THROW(load_palette(::testing::TempDir()), DataError);
+}
+
+TEST(OriginalPalettes, OfTheOriginalProgramAreRead) {
+  const fs::path folder = fs::path(SPLOTCHCL_TEST_DATA) / "splotch_par";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no data in " << SPLOTCHCL_TEST_DATA;
+  EXPECT_EQ(load_palette("M51.pal", folder).emission.size(), 256u);
+  EXPECT_EQ(load_palette("OrionNew1.pal", folder).emission.size(), 7u);
+  EXPECT_THAT(load_palette("OldSplotch.pal", folder).emission,
+              ElementsAre(Rgb{0, 0, 1}, Rgb{128 / 255.f, 1, 128 / 255.f}, Rgb{1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace splotchcl

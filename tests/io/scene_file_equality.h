@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "splotchcl/scene.h"
+
+// Every member of a scene, one by one, so that a failure says which.
+namespace splotchcl::test {
+
+inline bool same(const Vec3& a, const Vec3& b) {
+  return a.a[0] == b.a[0] && a.a[1] == b.a[1] && a.a[2] == b.a[2];
+}
+
+inline void expect_same(const FieldMap& a, const FieldMap& b) {
+  EXPECT_EQ(a.field, b.field);
+  EXPECT_EQ(a.scaling, b.scaling);
+  EXPECT_EQ(a.minimum, b.minimum);
+  EXPECT_EQ(a.maximum, b.maximum);
+}
+
+inline void expect_same(const Component& a, const Component& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.types, b.types);
+  EXPECT_EQ(a.size_field, b.size_field);
+  EXPECT_EQ(a.size_factor, b.size_factor);
+  EXPECT_EQ(a.size_fixed, b.size_fixed);
+  expect_same(a.color, b.color);
+  expect_same(a.intensity, b.intensity);
+  EXPECT_EQ(a.weight, b.weight);
+  EXPECT_EQ(a.palette, b.palette);
+  EXPECT_EQ(a.brightness, b.brightness);
+  EXPECT_EQ(a.absorption.kind, b.absorption.kind);
+  EXPECT_EQ(a.absorption.factor, b.absorption.factor);
+  EXPECT_EQ(a.reference_column, b.reference_column);
+}
+
+inline void expect_same(const Camera& a, const Camera& b) {
+  EXPECT_TRUE(same(a.position, b.position));
+  EXPECT_TRUE(same(a.look_at, b.look_at));
+  EXPECT_TRUE(same(a.sky, b.sky));
+  EXPECT_EQ(a.field_of_view_degrees, b.field_of_view_degrees);
+  EXPECT_EQ(a.projection, b.projection);
+  EXPECT_EQ(a.near_limit, b.near_limit);
+  EXPECT_EQ(a.far_limit, b.far_limit);
+}
+
+inline void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.snapshot, b.snapshot);
+  EXPECT_EQ(a.tolerance, b.tolerance);
+  EXPECT_EQ(a.image.width, b.image.width);
+  EXPECT_EQ(a.image.height, b.image.height);
+  EXPECT_EQ(a.image.background, b.image.background);
+  EXPECT_EQ(a.image.gamma, b.image.gamma);
+  ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
+  if (a.camera) expect_same(*a.camera, *b.camera);
+  EXPECT_EQ(a.kernel.width, b.kernel.width);
+  EXPECT_EQ(a.kernel.cut, b.kernel.cut);
+  EXPECT_EQ(a.kernel.sampling, b.kernel.sampling);
+  EXPECT_EQ(a.kernel.min_radius_pixels, b.kernel.min_radius_pixels);
+  EXPECT_EQ(a.sort.by, b.sort.by);
+  EXPECT_EQ(a.sort.field, b.sort.field);
+  EXPECT_EQ(a.sort.descending, b.sort.descending);
+  ASSERT_EQ(a.components.size(), b.components.size());
+  for (std::size_t i = 0; i < a.components.size(); ++i) {
+    expect_same(a.components[i], b.components[i]);
+  }
+}
+
+}  // namespace splotchcl::test

@@ -1,0 +1,105 @@
+#include "io/scene_file_keys.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+using scene_file::all_keys;
+using scene_file::find_key;
+using scene_file::is_table;
+using scene_file::Key;
+using ::testing::HasSubstr;
+
+std::string read(const std::string& path) {
+  std::ifstream file(std::string(SPLOTCHCL_SOURCE_DIR) + "/" + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(SceneKeys, AreAllExplained) {
+  for (const Key& key : all_keys()) {
+    EXPECT_FALSE(key.expected.empty()) << key.path;
+    EXPECT_FALSE(key.meaning.empty()) << key.path;
+  }
+}
+
+TEST(SceneKeys, HaveADefaultOrSayWhatCountsWithoutThem) {
+  Scene scene;
+  scene.camera.emplace();
+  scene.components.emplace_back();
+  for (const Key& key : all_keys()) {
+    EXPECT_TRUE(!key.absent.empty() || key.get(scene, 0)) << key.path;
+  }
+}
+
+TEST(SceneKeys, AreNeverTablesAsWell) {
+  for (const Key& key : all_keys())
+    EXPECT_FALSE(is_table(key.path)) << key.path;
+}
+
+TEST(SceneKeys, StandInTheListOnce) {
+  std::set<std::string> paths;
+  for (const Key& key : all_keys())
+    EXPECT_TRUE(paths.insert(key.path).second) << key.path;
+}
+
+TEST(SceneKeys, ExcludeOnlyKeysThatExist) {
+  for (const Key& key : all_keys()) {
+    for (const std::string& excluded : key.excludes)
+      EXPECT_NE(find_key(excluded), nullptr);
+  }
+}
+
+TEST(SceneKeys, RefuseValuesOfNoType) {
+  const toml::table nested = toml::parse("value = { no = { key = 'takes' } }");
+  for (const Key& key : all_keys()) {
+    Scene scene;
+    scene.camera.emplace();
+    scene.components.emplace_back();
+    EXPECT_FALSE(key.set(scene, 0, *nested.get("value"))) << key.path;
+  }
+}
+
+// The reference in docs/scene.md is made from the list of keys. When this fails, put the
+// text that is expected between the page's two marks.
+TEST(SceneDocumentation, HoldsTheReferenceOfAllKeysAsItIs) {
+  const std::string page = read("docs/scene.md");
+  const std::string begin = "<!-- keys -->\n\n", end = "<!-- end of keys -->";
+  const std::size_t first = page.find(begin), last = page.find(end);
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(last, std::string::npos);
+  EXPECT_EQ(page.substr(first + begin.size(), last - first - begin.size()),
+            scene_file::key_reference());
+}
+
+TEST(SceneDocumentation, ShowsTheExamplesAsTheyAre) {
+  const std::string page = read("docs/scene.md");
+  for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml"}) {
+    const std::string example = read(std::string("examples/") + name);
+    ASSERT_FALSE(example.empty()) << name;
+    EXPECT_THAT(page, HasSubstr("```toml\n" + example + "```")) << name;
+  }
+}
+
+TEST(Examples, AreScenesWithPalettesThatExist) {
+  for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml"}) {
+    const Scene scene = read_scene_file(std::string(SPLOTCHCL_SOURCE_DIR) + "/examples/" + name);
+    EXPECT_FALSE(scene.components.empty()) << name;
+    for (const Component& component : scene.components) {
+      EXPECT_NO_THROW(load_palette(component.palette)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "splotchcl/scene.h"
+
+namespace splotchcl::test {
+
+// Scenes with every kind of value that a scene file can hold, awkward ones included.
+class RandomScenes {
+ public:
+  explicit RandomScenes(unsigned seed) : random_(seed) {}
+
+  Scene next() {
+    Scene scene;
+    if (coin()) scene.snapshot = word();
+    scene.tolerance = unit();
+    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma()};
+    if (coin()) scene.camera = camera();
+    scene.kernel = {positive(1e-6, 1e6), maybe(positive()),
+                    coin() ? Sampling::mean : Sampling::center, coin() ? 0 : unit()};
+    if (coin()) {
+      scene.sort.by = SortOrder::By::field;
+      scene.sort.field = word();
+    }
+    scene.sort.descending = coin();
+    const int components = integer(0, 4);
+    for (int i = 0; i < components; ++i)
+      scene.components.push_back(component(i));
+    return scene;
+  }
+
+ private:
+  bool coin() { return integer(0, 1) == 1; }
+  int integer(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random_); }
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  // Over many powers of ten, with all digits.
+  double positive(double from = 1e-290, double to = 1e290) {
+    return std::exp(std::log(from) + unit() * (std::log(to) - std::log(from)));
+  }
+  double any() { return coin() ? positive() : -positive(); }
+  double length() { return coin() ? integer(-1000, 1000) : positive(1e-20, 1e20); }
+  double light() { return coin() ? integer(0, 3) : positive(1e-30, 1e29); }
+  double gamma() { return coin() ? 2.2 : positive(0.011, 99); }
+  std::optional<double> maybe(double value) {
+    return coin() ? std::optional<double>(value) : std::nullopt;
+  }
+
+  std::string word() {
+    static const std::vector<std::string> parts = {
+        "U", "snap_092.hdf5", "a b", "\"", "\\", "\n", "\t",   "\x01", "\x7f", "é",  "#",
+        "'", "[x]",           "= 3", "/",  ".",  "\r", "\"\"", "銀河", "0",    "{}", "\b\f",
+    };
+    std::string text;
+    const int count = integer(1, 4);
+    for (int i = 0; i < count; ++i) {
+      text += parts[static_cast<std::size_t>(integer(0, static_cast<int>(parts.size()) - 1))];
+    }
+    return text;
+  }
+
+  Camera camera() {
+    Camera camera;
+    do {
+      camera.position = {{length(), length(), length()}};
+      camera.look_at = {{length(), length(), length()}};
+      camera.sky = {{unit(), unit(), unit()}};
+    } while (!is_usable(camera));
+    camera.field_of_view_degrees = 0.001 + 179 * unit();
+    camera.projection = coin() ? Projection::perspective : Projection::orthographic;
+    const bool may_be_behind = camera.projection == Projection::orthographic;
+    camera.near_limit = maybe(may_be_behind && coin() ? -unit() : unit());
+    camera.far_limit = maybe(1 + positive());
+    return camera;
+  }
+  static bool is_usable(const Camera& camera) {
+    try {
+      make_camera_frame(camera, 1, 1);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  FieldMap field_map() {
+    if (coin()) return {};
+    FieldMap map;
+    map.field = word();
+    map.scaling = static_cast<Scaling>(integer(0, 2));
+    const double low = map.scaling == Scaling::log ? positive(1e-290, 1) : any();
+    map.minimum = maybe(low);
+    map.maximum = maybe(low + positive(1, 1e280));
+    return map;
+  }
+
+  Absorption absorption() {
+    switch (integer(0, 3)) {
+      case 0:
+        return {Absorption::Kind::none, 0};
+      case 1:
+        return {Absorption::Kind::factor, positive()};
+      case 2:
+        return {Absorption::Kind::gray, light()};
+      default:
+        return {Absorption::Kind::as_emission, 0};
+    }
+  }
+
+  Component component(int index) {
+    Component component;
+    if (coin()) component.name = word() + "-" + std::to_string(index);
+    component.types = {integer(0, 31)};
+    if (coin()) component.types.push_back((component.types[0] + integer(1, 31)) % 32);
+    component.size_factor = positive();
+    if (coin()) {
+      component.size_fixed = positive();
+    } else {
+      component.size_field = word();
+    }
+    component.color = field_map();
+    component.intensity = field_map();
+    if (coin()) component.weight = static_cast<WeightModel>(integer(0, 2));
+    component.palette = word();
+    component.brightness = light();
+    component.absorption = absorption();
+    component.reference_column = maybe(positive());
+    return component;
+  }
+
+  std::mt19937 random_;
+};
+
+}  // namespace splotchcl::test
