@@ -53,10 +53,14 @@ class RowPainter {
       profile_x_.push_back(splat.weight * axis_profile(splat.x, splat.sigma, x, sampling));
     }
     for (int y = own_row_from(rows.first); y < rows.end; y += row_step_) {
+      // The row's part of a circle; a pixel more, since dy is to the pixel's centre.
+      const double dy = std::min(std::abs(y + 0.5 - splat.y), radius);
+      const Range row_columns = pixels_within(splat.x, std::sqrt(radius * radius - dy * dy) + 1,
+                                              columns.first, columns.end);
       const double profile_y = axis_profile(splat.y, splat.sigma, y, sampling);
       Layer* row = layers.data() +
                    static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
-      for (int x = columns.first; x < columns.end; ++x) {
+      for (int x = row_columns.first; x < row_columns.end; ++x) {
         const double column = profile_x_[static_cast<std::size_t>(x - columns.first)] * profile_y;
         if (!(column > 0) || is_cut(splat, x, y, frame_.kernel)) continue;
         Layer& pixel = row[x - crop.x];
@@ -94,12 +98,14 @@ std::vector<Layer> composite(const std::vector<Splat>& splats, const Frame& fram
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (int t = 1; t < thread_count; ++t)
-    threads.emplace_back(draw_rows, t);
+  // Futures carry an exception of any thread here, after all have ended.
+  std::vector<std::future<void>> others;
+  for (int t = 1; t < thread_count; ++t) {
+    others.push_back(std::async(std::launch::async, draw_rows, t));
+  }
   draw_rows(0);
-  for (std::thread& thread : threads)
-    thread.join();
+  for (std::future<void>& other : others)
+    other.get();
   return layers;
 }
 
