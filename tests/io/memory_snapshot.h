@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/field_names.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl::test {
+
+// A snapshot that was never a file. It remembers what was read from it.
+class MemorySnapshot : public Snapshot {
+ public:
+  MemorySnapshot() {
+    info_.format = "memory";
+    info_.files = {"memory"};
+  }
+
+  void add(int type, const std::string& field, std::vector<float> values,
+           int values_per_particle = 1) {
+    ParticleTypeInfo& particles = type_info(type);
+    particles.count = values.size() / static_cast<std::size_t>(values_per_particle);
+    FieldInfo info;
+    info.name = field;
+    info.file_name = field;
+    info.values_per_particle = values_per_particle;
+    particles.fields.push_back(info);
+    columns_[{type, field}] = Column::owning(std::move(values));
+  }
+  void set_table_mass(int type, double mass) { type_info(type).table_mass = mass; }
+  void set_box_size(double size) { info_.box_size = size; }
+  void set_origin(const Vec3& origin) { origin_ = origin; }
+
+  const std::vector<std::string>& fields_read() const { return fields_read_; }
+
+  const SnapshotInfo& info() const override { return info_; }
+  Vec3 position_origin() const override { return origin_; }
+  Column read(int type, const std::string& field) const override {
+    const ParticleTypeInfo* const particles = info_.find_type(type);
+    if (particles == nullptr) throw_missing_type(info_, type);
+    const FieldInfo* const found = find_field(*particles, field);
+    if (found == nullptr) throw_missing_field(info_, *particles, field);
+    fields_read_.push_back(found->name);
+    return columns_.at({type, found->name});
+  }
+
+ private:
+  ParticleTypeInfo& type_info(int type) {
+    auto place = std::find_if(info_.types.begin(), info_.types.end(),
+                              [type](const ParticleTypeInfo& t) { return t.type >= type; });
+    if (place == info_.types.end() || place->type != type) {
+      ParticleTypeInfo added;
+      added.type = type;
+      place = info_.types.insert(place, added);
+    }
+    return *place;
+  }
+
+  SnapshotInfo info_;
+  std::map<std::pair<int, std::string>, Column> columns_;
+  Vec3 origin_ = {{0, 0, 0}};
+  mutable std::vector<std::string> fields_read_;
+};
+
+}  // namespace splotchcl::test
