@@ -181,7 +181,8 @@ TEST(Project, LeavesNothingOutForLyingOffThePicture) {
 TEST(BadParticles, AreLeftOutAndCounted) {
   Frame frame = perspective_frame(std::vector<Cloud>(12, Cloud{0, 0, 10, 1, 1}));
   Particles& particles = frame.components[0].particles;
-  std::vector<float> position(36, 1), h(12, 1), weight(12, 1), color(12, 1), intensity(12, 1);
+  std::vector<float> position(36, 1), h(12, 1), weight(12, 1), color(12, 1), intensity(12, 1),
+      key(12, 1);
   position[3 * 1 + 2] = nan;
   position[3 * 2] = infinity;
   h[3] = 0;
@@ -192,13 +193,15 @@ TEST(BadParticles, AreLeftOutAndCounted) {
   color[8] = nan;
   intensity[9] = -infinity;
   weight[10] = 0;  // odd, not bad
+  key[11] = nan;
   particles.position = Column::owning(position);
   particles.smoothing_length = Column::owning(h);
   particles.weight = Column::owning(weight);
   particles.color = Column::owning(color);
   particles.intensity = Column::owning(intensity);
-  EXPECT_EQ(drawn(frame), (std::vector<std::uint64_t>{0, 10, 11}));
-  EXPECT_EQ(reference::count_bad(frame), 9u);
+  particles.sort_field = Column::owning(key);
+  EXPECT_EQ(drawn(frame), (std::vector<std::uint64_t>{0, 10}));
+  EXPECT_EQ(reference::count_bad(frame), 10u);
 }
 
 TEST(Project, NumbersParticlesThroughAllComponents) {
