@@ -186,8 +186,8 @@ Column ComponentFields::find_lengths(const ParticleTypeInfo& type) const {
                                           snapshot_.read(type.type, "density"), count);
   }
   note(
-      fmt::format("type {} has no smoothing lengths in the file; each particle reaches to its "
-                  "{}th neighbour",
+      fmt::format("type {} has no smoothing lengths in the file; each particle is given one that "
+                  "reaches to neighbour {}",
                   type.type, neighbours));
   const Column position = snapshot_.read(type.type, "position");
   return find_smoothing_lengths(position, count, periodic_box(position), neighbours);
