@@ -31,7 +31,11 @@ Column joined(const std::vector<Column>& columns, const std::vector<const Partic
         return column.is_uniform() && column.uniform_value() == first.uniform_value();
       });
   if (all_the_same) return first;
+  std::size_t total = 0;
+  for (const ParticleTypeInfo* const type : types)
+    total += static_cast<std::size_t>(type->count);
   std::vector<float> values;
+  values.reserve(total * values_per_particle);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::size_t size = static_cast<std::size_t>(types[k]->count) * values_per_particle;
     for (std::size_t i = 0; i < size; ++i)
