@@ -137,21 +137,22 @@ std::vector<StoredValues> GadgetBinarySnapshot::find_parts(int type,
 }
 
 void GadgetBinarySnapshot::choose_origin() {
-  std::uint64_t total = 0;
-  bool is_double = false;
   std::vector<StoredValues> parts;
+  std::vector<std::uint64_t> sizes;
   for (const ParticleTypeInfo& type : info_.types) {
     for (const StoredValues& part : find_parts(type.type, "POS")) {
       parts.push_back(part);
-      total += part.particles;
-      is_double = is_double || part.kind == ValueKind::float64;
+      sizes.push_back(part.particles);
     }
   }
-  if (!is_double) return;
-  const std::uint64_t step = std::max<std::uint64_t>(1, total / origin_sample_size);
+  const bool has_doubles = std::any_of(parts.begin(), parts.end(), [](const StoredValues& part) {
+    return part.kind == ValueKind::float64;
+  });
+  if (!has_doubles) return;
   std::vector<std::array<double, 3>> sample;
-  for (const StoredValues& part : parts) {
-    for (std::uint64_t i = 0; i < part.particles; i += step) {
+  for (const SampleRange& range : sample_ranges(sizes)) {
+    const StoredValues& part = parts[range.part];
+    for (std::uint64_t i = range.first; i < range.first + range.count; ++i) {
       sample.push_back({value_at(part, i, 0), value_at(part, i, 1), value_at(part, i, 2)});
     }
   }

@@ -65,25 +65,6 @@ bool is_double(const Hdf5Values& part) {
   return part.dataset.kind == Hdf5Dataset::Kind::real && part.dataset.bytes_per_value > 4;
 }
 
-// Rows at a few places, evenly over the dataset.
-void add_sample(const Hdf5Values& part, std::uint64_t total,
-                std::vector<std::array<double, 3>>& sample) {
-  constexpr std::uint64_t places = 16;
-  const std::uint64_t rows = part.dataset.rows();
-  const std::uint64_t wanted =
-      std::min(rows, rows * origin_sample_size / total + 1);  // in proportion to its size
-  const std::uint64_t at_a_time = (wanted + places - 1) / places;
-  const std::uint64_t step = std::max(at_a_time, rows / places);
-  const Hdf5File file(part.file);
-  for (std::uint64_t first = 0; first + at_a_time <= rows; first += step) {
-    std::vector<double> values(3 * at_a_time);
-    file.read_rows(part.dataset, first, at_a_time, values.data());
-    for (std::size_t i = 0; i < at_a_time; ++i) {
-      sample.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
-    }
-  }
-}
-
 }  // namespace
 
 Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin, double factor) {
@@ -114,12 +95,17 @@ Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin, dou
 
 Vec3 find_position_origin(const std::vector<Hdf5Values>& positions) {
   if (std::none_of(positions.begin(), positions.end(), is_double)) return {{0, 0, 0}};
-  std::uint64_t total = 0;
+  std::vector<std::uint64_t> sizes;
   for (const Hdf5Values& part : positions)
-    total += part.dataset.rows();
+    sizes.push_back(part.dataset.rows());
   std::vector<std::array<double, 3>> sample;
-  for (const Hdf5Values& part : positions) {
-    if (part.dataset.rows() > 0) add_sample(part, total, sample);
+  for (const SampleRange& range : sample_ranges(sizes)) {
+    const Hdf5Values& part = positions[range.part];
+    std::vector<double> values(3 * range.count);
+    Hdf5File(part.file).read_rows(part.dataset, range.first, range.count, values.data());
+    for (std::size_t i = 0; i < range.count; ++i) {
+      sample.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+    }
   }
   return choose_position_origin(sample);
 }

@@ -1,14 +1,25 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "splotchcl/vector.h"
 
 namespace splotchcl {
 
-// About how many positions a reader takes, evenly over the file, to choose an origin.
-constexpr int origin_sample_size = 4096;
+// Consecutive particles of one part of a snapshot.
+struct SampleRange {
+  std::size_t part = 0;
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
+// The particles from which an origin is chosen, some thousands evenly over all. The parts
+// are the types' particles in each file, in the order of types and then of files: so the
+// same state gives the same sample in any format and in any number of files.
+std::vector<SampleRange> sample_ranges(const std::vector<std::uint64_t>& part_sizes);
 
 // The origin from which double-precision positions become single-precision offsets: the
 // median of a sample per axis, rounded to single precision. In a zoom simulation most

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "io/field_names.h"
+#include "io/snapshot_files.h"
+#include "io/unit_names.h"
+
+namespace splotchcl {
+namespace {
+
+ParticleTypeInfo type_with(const std::vector<std::string>& labels) {
+  ParticleTypeInfo type;
+  for (const std::string& label : labels)
+    type.fields.push_back({"", label, 1, ""});
+  name_fields(type);
+  return type;
+}
+
+TEST(FieldNames, LabelsOfAllDialectsMeanTheCanonicalField) {
+  for (const char* label : {"U", "u", "U   ", "InternalEnergy", "INTERNALENERGY",
+                            "InternalEnergies", "internal_energy"}) {
+    EXPECT_EQ(canonical_field_name(label), "internal_energy") << label;
+  }
+  EXPECT_EQ(canonical_field_name("HSMS"), "star_smoothing_length");
+  EXPECT_EQ(canonical_field_name("Voronoi"), "");
+}
+
+TEST(FieldNames, AFieldIsFoundByCanonicalNameAndByAnyLabel) {
+  const ParticleTypeInfo type = type_with({"Coordinates", "HSML"});
+  for (const char* name : {"smoothing_length", "HSML", "hsml", "SmoothingLengths"}) {
+    ASSERT_NE(find_field(type, name), nullptr) << name;
+    EXPECT_EQ(find_field(type, name)->file_name, "HSML");
+  }
+  EXPECT_EQ(find_field(type, "density"), nullptr);
+}
+
+TEST(FieldNames, UnknownLabelsKeepTheirSpellingAndAreFoundInAnyCase) {
+  const ParticleTypeInfo type = type_with({"Voronoi_Volume"});
+  EXPECT_EQ(type.fields[0].name, "Voronoi_Volume");
+  EXPECT_NE(find_field(type, "voronoi_volume"), nullptr);
+}
+
+TEST(FieldNames, TheSecondFieldOfTheSameQuantityKeepsItsOwnName) {
+  const ParticleTypeInfo type = type_with({"Metallicity", "GFM_Metallicity"});
+  EXPECT_EQ(find_field(type, "metallicity")->file_name, "Metallicity");
+  EXPECT_EQ(find_field(type, "GFM_Metallicity")->file_name, "GFM_Metallicity");
+}
+
+TEST(FieldNames, StarSmoothingLengthsStandInOnlyWhereThereAreNoOthers) {
+  EXPECT_EQ(find_field(type_with({"HSMS"}), "smoothing_length")->file_name, "HSMS");
+  EXPECT_EQ(find_field(type_with({"HSMS", "HSML"}), "smoothing_length")->file_name, "HSML");
+}
+
+TEST(MemberNames, AreTakenApart) {
+  const auto plain = parse_member_name("folder/snap_002.1");
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->base, "folder/snap_002");
+  EXPECT_EQ(plain->index, 1);
+  EXPECT_EQ(plain->ending, "");
+  const auto hdf5 = parse_member_name("snap_002.12.hdf5");
+  ASSERT_TRUE(hdf5);
+  EXPECT_EQ(hdf5->base, "snap_002");
+  EXPECT_EQ(hdf5->index, 12);
+  EXPECT_EQ(hdf5->ending, ".hdf5");
+}
+
+TEST(MemberNames, OthersAreNotMistakenForThem) {
+  for (const char* name : {"snap_002", "snap_002.hdf5", "tiny.000640", "snap.1a", "snap.", ".1",
+                           "snap.99999999999999999999"}) {
+    EXPECT_FALSE(parse_member_name(name)) << name;
+  }
+}
+
+TEST(UnitNames, AreComposedOfTheNamesThatPeopleUse) {
+  const BaseUnits gadget = {3.085678e21, 1.989e43, 1e5};
+  UnitPowers density;
+  density.mass = 1;
+  density.length = -3;
+  density.hubble = 2;
+  EXPECT_EQ(unit_name(density, gadget), "1e10 M_sun kpc^-3 h^2");
+  UnitPowers energy;
+  energy.velocity = 2;
+  EXPECT_EQ(unit_name(energy, gadget), "(km/s)^2");
+}
+
+TEST(UnitNames, OfAnUnnamedUnitIsItsSize) {
+  UnitPowers length;
+  length.length = 1;
+  EXPECT_EQ(unit_name(length, {2.5e20, 1, 1}), "2.5e+20 cm");
+}
+
+TEST(UnitNames, AreEmptyWhereTheFileSaysNothing) {
+  UnitPowers length;
+  length.length = 1;
+  EXPECT_EQ(unit_name(length, {}), "");
+  EXPECT_EQ(unit_name({}, {3.085678e21, 1.989e43, 1e5}), "");
+}
+
+}  // namespace
+}  // namespace splotchcl
