@@ -86,7 +86,7 @@ Keys absorption_keys() {
               },
               [](Component& component, const Absorption& value) { component.absorption = value; },
               {"What the matter swallows. `\"emission\"`: as much as it emits, A = E. "
-               "`\"none\"` or 0: nothing. A number: A = number * I * palette_A."}),
+               "`\"none\"` or 0: nothing. A number: A = number * palette_A."}),
           {"component.gray_absorption"}),
       key<Component, double>(
           "component.gray_absorption", number(light()),
@@ -98,8 +98,9 @@ Keys absorption_keys() {
           [](Component& component, double value) {
             component.absorption = {Kind::gray, value};
           },
-          {"Instead of `absorption`, the original program's rule: A = e and E = e * e / (e + "
-           "gray_absorption) per channel.",
+          {"Instead of `absorption`, the original program's rule: the source fades where a cloud "
+           "is "
+           "faint against gray_absorption; see the model of light.",
            "", "not used"}),
   };
 }
@@ -123,7 +124,7 @@ Keys component_keys() {
   append(keys, size_keys());
   append(keys, field_map_keys("component.color", &Component::color,
                               {"The field that is looked up in the palette.", "",
-                               "none: the palette's first colour for all"}));
+                               "none: the palette's first colour for all, black in many"}));
   append(keys, field_map_keys("component.intensity", &Component::intensity,
                               {"The field that becomes I, a factor on emission and absorption.", "",
                                "none: I = 1"}));

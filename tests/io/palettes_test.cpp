@@ -49,7 +49,7 @@ TEST(BuiltInPalettes, AllLoadUnderTheirNames) {
   for (const std::string& name : palette_names()) {
     const Palette palette = load_palette(name);
     EXPECT_EQ(palette.name, name);
-    EXPECT_GE(palette.emission.size(), 2u) << name;
+    EXPECT_FALSE(palette.emission.empty()) << name;
   }
 }
 
