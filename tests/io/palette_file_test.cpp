@@ -114,8 +114,8 @@ TEST(OriginalPaletteFile, MayHaveSpacesAroundItsNumbersAndAnyLineEnding) {
 
 TEST(PaletteFile, IsReadOrRefusedWhateverItHolds) {
   std::mt19937 random(9);
-  const std::string letters("0123456789.eE+- \n\r\t#ax\0\xff", 26);
-  std::uniform_int_distribution<std::size_t> letter(0, letters.size() - 1), size(0, 60);
+  constexpr char letters[] = "0123456789.eE+- \n\r\t#ax\0\xff";
+  std::uniform_int_distribution<std::size_t> letter(0, sizeof(letters) - 2), size(0, 60);
   for (int i = 0; i < 20000; ++i) {
     std::string text = i % 2 == 0 ? "" : "Name\n0100\n";
     for (std::size_t k = size(random); k > 0; --k)

@@ -29,8 +29,9 @@ class DamagedSceneFiles : public ::testing::Test {
     return std::uniform_int_distribution<std::size_t>(0, size - 1)(random_);
   }
   char letter() {
-    static const std::string letters("=[]{}\"'.,#\n\r\t -+_0123456789eEnaif\\u\0\x80\xc3\xff", 46);
-    return letters[below(letters.size())];
+    // The last of these are no UTF-8.
+    static constexpr char letters[] = "=[]{}\"'.,#\n\r\t -+_0123456789eEnaif\\u\0\x80\xc3\xff";
+    return letters[below(sizeof(letters) - 1)];
   }
   std::mt19937 random_{1};
 };
