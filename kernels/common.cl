@@ -38,9 +38,14 @@ inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile)
 }
 
 // First and last pixel whose centre (index + 1/2) lies within `radius` of `centre`,
-// clamped to [0, size - 1]; first > last where there is none.
+// clamped to [0, size - 1]; first > last where there is none. Clamped before the
+// conversion: a splat close to the camera may lie anywhere.
 inline int2 pixel_range(float centre, float radius, int size) {
-  const int first = convert_int_sat_rtp(centre - radius - 0.5f);
-  const int last = convert_int_sat_rtn(centre + radius - 0.5f);
-  return (int2)(max(first, 0), min(last, size - 1));
+  const float low = centre - radius - 0.5f, high = centre + radius - 0.5f;
+  const float end = (float)size;
+  const float first = low > 0.0f ? (low < end ? low : end) : 0.0f;
+  const float last = high < end - 1.0f ? (high > -1.0f ? high : -1.0f) : end - 1.0f;
+  // Up and down by comparison: ceil and floor are calls on PoCL.
+  const int2 truncated = (int2)((int)first, (int)last);
+  return (int2)(truncated.x + ((float)truncated.x < first), truncated.y - ((float)truncated.y > last));
 }

@@ -62,20 +62,17 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
 // The splat's layer behind what is already there: with u = (1 - opacity) X phi(A X),
 // S grows by E u and opacity by A u. Opacity, not transmittance, is carried: it keeps
 // optical depths of 1e-8.
-#define COMPOSITE_ROWS(PHI)                                                      \
-  for (int y = rows.x; y <= rows.y; ++y) {                                       \
-    const int k = y - rows.x;                                                    \
-    const float8 shape =                                                         \
-        cut_shape(across * along_y[k], dx, dy0 + (float)k, cut2);                \
-    float* pixel = tile + y * ROW + x;                                           \
-    for (int c = 0; c < 3; ++c) {                                                \
-      float* source = pixel + c * TILE_PIXELS;                                   \
-      float* opacity = pixel + (c + 3) * TILE_PIXELS;                            \
-      const float8 o = vload8(0, opacity);                                       \
-      const float8 u = (1.0f - o) * (shape * PHI(shape * splat->light[c]));      \
-      vstore8(vload8(0, source) + u * splat->emission[c], 0, source);            \
-      vstore8(o + u * splat->light[c], 0, opacity);                              \
-    }                                                                            \
+#define LAYER_ROWS(PHI)                                                             \
+  for (int k = 0; k < window.rows; ++k, pixel += ROW) {                             \
+    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2);     \
+    for (int c = 0; c < 3; ++c) {                                                   \
+      float* source = pixel + c * TILE_PIXELS;                                      \
+      float* opacity = pixel + (c + 3) * TILE_PIXELS;                               \
+      const float8 o = vload8(0, opacity);                                          \
+      const float8 u = (1.0f - o) * (shape * PHI(shape * splat->light[c]));         \
+      vstore8(vload8(0, source) + u * splat->emission[c], 0, source);               \
+      vstore8(o + u * splat->light[c], 0, opacity);                                 \
+    }                                                                               \
   }
 #endif
 
@@ -104,55 +101,82 @@ inline void fill_axis(float* values, float first, int count, float sigma, float 
   }
 }
 
+// The window that one splat updates: `count` rows of eight pixels from (x, y) on.
+typedef struct Window {
+  int x, y, rows;
+} Window;
+
+// Updates the window with across[8] * along[rows].
+inline void update_window(float* tile, Window window, float8 across, const float* along,
+                          __global const TileSplat* splat, float deepest,
+                          const CompositeParameters p) {
+#ifdef KERNEL_CUT
+  const float8 dx = (float)window.x + 0.5f - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float dy = (float)window.y + 0.5f - splat->y;
+  const float cut2 = p.kernel_cut * p.kernel_cut * splat->sigma * splat->sigma;
+#endif
+  float* pixel = tile + window.y * ROW + window.x;
+#ifdef LIGHT_ORDERED
+  if (deepest <= p.phi_short) {
+    LAYER_ROWS(phi_short)
+  } else if (deepest <= p.phi_series) {
+    LAYER_ROWS(phi_series)
+  } else {
+    LAYER_ROWS(phi_full)
+  }
+#else
+  const float8 light0 = across * splat->light[0];
+  const float8 light1 = across * splat->light[1];
+  const float8 light2 = across * splat->light[2];
+  for (int k = 0; k < window.rows; ++k, pixel += ROW) {
+    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2);
+    vstore8(vload8(0, pixel) + shape * light0, 0, pixel);
+    vstore8(vload8(0, pixel + TILE_PIXELS) + shape * light1, 0, pixel + TILE_PIXELS);
+    vstore8(vload8(0, pixel + 2 * TILE_PIXELS) + shape * light2, 0, pixel + 2 * TILE_PIXELS);
+  }
+#endif
+}
+
+// Pixel means of seven pixels, the first one's centre at distance `first`; the eighth is 0.
+inline float8 seven_means(float first, float sigma) {
+  const float8 edges = error_function((first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) / sigma);
+  return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
+}
+
 inline void add_splat(float* tile, __global const TileSplat* splat, const CompositeParameters p) {
   const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, splat->radius, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return;
   const float sigma = splat->sigma;
+  float deepest = 0.0f;
+#ifdef LIGHT_ORDERED
+  deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
+            (sigma < p.mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
+#endif
+  Window window;
+  const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+  if (sigma < p.mean_sigma && columns_count <= 7 && rows_count <= 7) {
+    // Most splats of a large snapshot: one window, and row counts that are easy to predict.
+    // Rows beside the splat take its tails, which is no less exact.
+    window.rows = rows_count <= 4 ? 4 : 7;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    float along[8];
+    vstore8(seven_means((float)window.y + 0.5f - splat->y, sigma), 0, along);
+    const float8 across = seven_means((float)window.x + 0.5f - splat->x, sigma);
+    update_window(tile, window, across, along, splat, deepest, p);
+    return;
+  }
   const float inverse = 1.44269504f / (sigma * sigma);
-  const float dx0 = (float)columns.x + 0.5f - splat->x;
-  const float dy0 = (float)rows.x + 0.5f - splat->y;
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
-  fill_axis(along_x, dx0, columns.y - columns.x + 1, sigma, inverse, p.mean_sigma);
-  fill_axis(along_y, dy0, rows.y - rows.x + 1, sigma, inverse, p.mean_sigma);
-#ifdef KERNEL_CUT
-  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float cut2 = p.kernel_cut * p.kernel_cut * sigma * sigma;
-#endif
-#ifdef LIGHT_ORDERED
-  const float deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
-                        (sigma < p.mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
-#endif
-  for (int x = columns.x; x <= columns.y; x += 8) {
-    const float8 across = vload8(0, along_x + (x - columns.x));
-#ifdef KERNEL_CUT
-    const float8 dx = dx0 + (float)(x - columns.x) + ramp;
-#endif
-#ifdef LIGHT_ORDERED
-    if (deepest <= p.phi_series) {
-      COMPOSITE_ROWS(phi_series)
-    } else {
-      COMPOSITE_ROWS(phi_full)
-    }
-#else
-    const float8 light0 = across * splat->light[0];
-    const float8 light1 = across * splat->light[1];
-    const float8 light2 = across * splat->light[2];
-    for (int y = rows.x; y <= rows.y; ++y) {
-      const float along = along_y[y - rows.x];
-      float* pixel = tile + y * ROW + x;
-#ifdef KERNEL_CUT
-      const float8 shape = cut_shape(along, dx, dy0 + (float)(y - rows.x), cut2);
-#else
-      const float8 shape = (float8)(along);
-#endif
-      vstore8(vload8(0, pixel) + shape * light0, 0, pixel);
-      pixel += TILE_PIXELS;
-      vstore8(vload8(0, pixel) + shape * light1, 0, pixel);
-      pixel += TILE_PIXELS;
-      vstore8(vload8(0, pixel) + shape * light2, 0, pixel);
-    }
-#endif
+  fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma, inverse,
+            p.mean_sigma);
+  fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, p.mean_sigma);
+  window.y = rows.x;
+  window.rows = rows_count;
+  for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
+    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along_y, splat,
+                  deepest, p);
   }
 }
 

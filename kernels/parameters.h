@@ -130,7 +130,8 @@ struct CompositeParameters {
   unsigned int grid_count;
   float kernel_cut;   // in sigma
   float mean_sigma;
-  float phi_series;   // optical depth up to which the short series for phi serves
+  float phi_short;    // optical depth up to which two terms of phi's series serve
+  float phi_series;   // and four
   float opaque;       // stop where every pixel's opacity is at least this; > 1: never
 };
 

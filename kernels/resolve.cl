@@ -1,14 +1,10 @@
 // The sums of all grids, brought to the picture's pixels, and the light that they are.
 
-// Interpolation to half the pixel size, cell-centred: Lagrange weights of the eight
-// nearest coarse pixels -3 .. 4 for a point a quarter of a pixel right of pixel 0; mirrored
-// for one to the left. On a Gaussian of width sigma coarse pixels the error is at most
-// 1.29 / sigma^8 of its peak per axis (docs/accuracy.md).
-__constant float refine_weights[8] = {
-    -0.001888275146484375f, 0.019092559814453125f, -0.10309982299804688f, 0.8591651916503906f,
-    0.2863883972167969f,    -0.07364273071289062f, 0.015621185302734375f, -0.001636505126953125f};
+// Weights of the ten nearest coarse pixels -4 .. 5 for a point a quarter of a pixel right of
+// pixel 0; mirrored for one to the left (refinement_filter.h).
+__constant float refine_weights[10] = REFINE_WEIGHTS;
 
-// Grids have even guards of at least eight pixels, so every pixel below is inside, and a
+// Grids have even guards of at least ten pixels, so every pixel below is inside, and a
 // finer pixel is left of its coarse pixel's centre where its index is even.
 
 // The coarse pixel under the finer grid's pixel `index`.
@@ -27,9 +23,9 @@ __kernel void refine_columns(uint coarse_index, __global const Grid* grids,
   __global const float* row = planes + first_float(coarse) + (size_t)c * coarse.plane_size +
                               (size_t)y * coarse.stride + coarse_place(x, fine, coarse);
   float8 even = (float8)(0.0f), odd = (float8)(0.0f);
-  for (int k = 0; k < 8; ++k) {
-    even += refine_weights[k] * vload8(0, row - (k - 3));
-    odd += refine_weights[k] * vload8(0, row + (k - 3));
+  for (int k = 0; k < 10; ++k) {
+    even += refine_weights[k] * vload8(0, row - (k - 4));
+    odd += refine_weights[k] * vload8(0, row + (k - 4));
   }
   __global float* target = temporary + ((size_t)c * coarse.height + y) * fine.stride + x;
   vstore8((float8)(even.s0, odd.s0, even.s1, odd.s1, even.s2, odd.s2, even.s3, odd.s3), 0, target);
@@ -49,8 +45,8 @@ __kernel void refine_rows(uint coarse_index, __global const Grid* grids, __globa
   __global float* target =
       planes + first_float(fine) + (size_t)c * fine.plane_size + (size_t)y * fine.stride + x;
   float8 sum = vload8(0, target);
-  for (int k = 0; k < 8; ++k) {
-    sum += refine_weights[k] * vload8(0, column + (k - 3) * side * (int)fine.stride);
+  for (int k = 0; k < 10; ++k) {
+    sum += refine_weights[k] * vload8(0, column + (k - 4) * side * (int)fine.stride);
   }
   vstore8(sum, 0, target);
 }

@@ -7,6 +7,7 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
   parameters_.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   parameters_.mean_sigma = layout.mean_sigma;
+  parameters_.phi_short = layout.phi_short;
   parameters_.phi_series = layout.phi_series;
   parameters_.opaque = layout.opaque;
   const std::string defines = kernel_defines(frame, plan, layout);

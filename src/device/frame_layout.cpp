@@ -2,33 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace splotchcl {
 namespace {
 
-// A pixel reads coarse pixels from four left of its own to four right: with eight pixels
-// of guard, (8 / 2) + 4, every pixel that refining reads exists. Even, so that a pixel's
-// index tells on which side of its coarse pixel's centre it lies.
-constexpr int guard_pixels = 8;
+// A pixel reads coarse pixels from five left of its own to five right: with ten pixels of
+// guard, 10 / 2 + 5, every pixel that refining reads exists. Even, so that a pixel's index
+// tells on which side of its coarse pixel's centre it lies.
+constexpr int guard_pixels = 10;
 
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
 constexpr int most_grids = 12;
-
-// What a relative error of every splat does to the picture, relative to max(1, I). Sums of
-// light err by as much; behind exp(-x) it is at most the maximum of x exp(-x) times the
-// range of the light.
-double response(const Frame& frame, const Plan& plan) {
-  if (plan.light != LightPlan::proportional) return 1;
-  constexpr double depth_to_light = 0.36787944117144233;
-  double range = 1;
-  for (std::size_t c = 0; c < 3; ++c) {
-    range = std::max(range, std::abs(plan.source[c] - frame.background[c]));
-  }
-  return range * depth_to_light;
-}
 
 int ceil_divide(int value, int by) {
   return (value + by - 1) / by;
@@ -90,6 +79,21 @@ double brightest_source(const DrawnComponent& component) {
   return largest;
 }
 
+// What a relative error of every splat does to the picture, relative to max(1, I). Light
+// that nothing absorbs errs by as much. Otherwise I = q (1 - exp(-x)) for source q and
+// depth x, and with x off by a part e the error is e q x exp(-x): at most q / e times
+// exp(-1), and never more than e I.
+double response(const Frame& frame) {
+  constexpr double depth_to_light = 0.36787944117144233;  // the maximum of x exp(-x)
+  double brightest = 1;
+  for (std::size_t c = 0; c < 3; ++c)
+    brightest = std::max(brightest, frame.background[c]);
+  for (const DrawnComponent& component : frame.components) {
+    brightest = std::max(brightest, brightest_source(component));
+  }
+  return std::min(1.0, depth_to_light * brightest);
+}
+
 float opaque_limit(const Frame& frame, double share) {
   double brightest = *std::max_element(frame.background.begin(), frame.background.end());
   for (const DrawnComponent& component : frame.components) {
@@ -104,8 +108,8 @@ float opaque_limit(const Frame& frame, double share) {
 
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
-  layout.tile_width = rows ? 32 : 16;
-  layout.tile_height = rows ? 16 : 16;
+  layout.tile_width = rows ? (plan.light == LightPlan::ordered ? 32 : 64) : 16;
+  layout.tile_height = rows ? 32 : 16;
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
   append_grid(layout, frame.crop.width, frame.crop.height, 0);
   if (may_use_coarse_grids(frame, plan)) {
@@ -117,7 +121,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     }
   }
 
-  const double picture_error = response(frame, plan);
+  const double picture_error = response(frame);
   // Tolerance 0 asks for the most that single precision gives.
   const double smallest = 1e-7;
   const double arithmetic = std::max(plan.arithmetic_share, smallest);
@@ -132,15 +136,14 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     layout.mean_sigma = static_cast<float>(std::clamp(sigma, 1.5, 64.0));
     layout.widening = 1.0f / 6.0f;
   }
+  layout.coarse_sigma = std::numeric_limits<float>::max();
   if (layout.grids.size() > 1) {
-    // Two axes, each 1.29 / sigma^8 of the peak.
+    layout.refinement = choose_refinement(plan.coarse_share / picture_error);
     layout.coarse_sigma =
-        static_cast<float>(std::max(std::pow(2.58 * picture_error / plan.coarse_share, 0.125),
-                                    static_cast<double>(layout.mean_sigma)));
-  } else {
-    layout.coarse_sigma = std::numeric_limits<float>::max();
+        std::max(static_cast<float>(layout.refinement.smallest_sigma), 0.5f * layout.mean_sigma);
   }
-  // The series errs by y^4 / 120 of phi.
+  // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
+  layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));
   layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * 0.25 * arithmetic, 0.25)));
   layout.opaque = opaque_limit(frame, 0.25 * plan.arithmetic_share);
   return layout;
@@ -156,6 +159,12 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (frame.kernel.cut) define("KERNEL_CUT");
   if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
   if (layout.exact) define("EXACT");
+  std::ostringstream weights;
+  weights << std::scientific << std::setprecision(9);
+  for (const double weight : layout.refinement.weights) {
+    weights << (weights.tellp() > 0 ? ", " : "{") << weight << "f";
+  }
+  define("REFINE_WEIGHTS " + weights.str() + "}");
   return defines;
 }
 

@@ -5,6 +5,7 @@
 
 #include "device/kernel_parameters.h"
 #include "device/quirks.h"
+#include "device/refinement_filter.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
@@ -19,12 +20,13 @@ struct FrameLayout {
   std::uint32_t planes = 0;        // 3 sums, or 3 sources and 3 opacities
   std::uint64_t plane_floats = 0;  // all planes of all grids
 
-  float mean_sigma = 0;    // narrower splats take the pixel mean by erf
-  float widening = 0;      // of sigma^2, for wider ones
-  float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
-  float least_extent = 0;  // sigmas drawn of a faint splat
-  float inverse_edge = 0;  // 1 / (value at which a splat may end)
-  float phi_series = 0;
+  float mean_sigma = 0;  // narrower splats take the pixel mean by erf
+  float widening = 0;    // of sigma^2, for wider ones
+  RefinementFilter refinement;
+  float coarse_sigma = 0;               // smallest sigma in pixels of a coarse grid
+  float least_extent = 0;               // sigmas drawn of a faint splat
+  float inverse_edge = 0;               // 1 / (value at which a splat may end)
+  float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;
   bool exact = false;  // polynomials of full single precision
 };

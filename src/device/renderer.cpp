@@ -148,11 +148,15 @@ void Renderer::State::draw_ordered(const Frame& frame, Projector& projector, Bin
     stats.particles += component.particles.count;
     buffers.push_back(particles.get(component.particles));
   }
+  // The last frame's lists make room for the sort.
+  device.buffers.release("tile entries");
   const std::uint32_t count = projector.project_all(frame.components, buffers);
   if (count == 0) return;
   Sorter sorter(device);
   const Sorter::Pairs sorted =
       sorter.sort({device.buffers.get("keys", 0), device.buffers.get("order", 0)}, count);
+  // What the sort alone needed makes room for the lists.
+  sorter.release_buffers();
 
   std::uint32_t length = device.traits.chunk_blocks * device.traits.project_block;
   for (std::uint32_t first = 0; first < count;) {

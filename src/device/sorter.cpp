@@ -53,4 +53,12 @@ Sorter::Pairs Sorter::sort(const Pairs& pairs, std::uint32_t count) {
   return from;
 }
 
+void Sorter::release_buffers() {
+  device_.queue.finish();
+  for (const char* name :
+       {"keys", "order", "keys (sorting)", "order (sorting)", "sort histograms"}) {
+    device_.buffers.release(name);
+  }
+}
+
 }  // namespace splotchcl

@@ -18,6 +18,9 @@ class Sorter {
   };
   Pairs sort(const Pairs& pairs, std::uint32_t count);
 
+  // Gives up the keys and all scratch; pairs still held by the caller stay valid.
+  void release_buffers();
+
  private:
   DeviceContext& device_;
 };
