@@ -28,9 +28,11 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
 void Resolver::refine(const compute::buffer& planes) {
   const std::size_t grid_count = layout_.grids.size();
   if (grid_count < 2) return;
-  const std::uint64_t largest = std::uint64_t{layout_.planes} *
-                                static_cast<std::uint32_t>(layout_.grids[1].height) *
-                                layout_.grids[0].stride;
+  std::uint64_t largest = 0;
+  for (std::size_t g = 1; g < grid_count; ++g) {
+    const auto height = static_cast<std::uint64_t>(layout_.grids[g].height);
+    largest = std::max(largest, layout_.planes * height * layout_.grids[g - 1].stride);
+  }
   const compute::buffer temporary = device_.buffers.get("refined columns", 4 * largest);
   for (std::size_t g = grid_count - 1; g > 0; --g) {
     const auto coarse_index = static_cast<std::uint32_t>(g);
