@@ -11,13 +11,14 @@
 
 namespace splotchcl::testing {
 
-// A folder of its own for one test, removed at its end.
+// A folder of its own for one test, removed at its end. Those of one test that live at the
+// same time differ by `label`.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
+  explicit TemporaryFolder(const std::string& label = "files") {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("splotchcl-") + test->test_suite_name() + "-" + test->name() +
-                       "-" + std::to_string(::getpid());
+                       "-" + label + "-" + std::to_string(::getpid());
     for (char& c : name) {
       if (c == '/') c = '-';
     }

@@ -1,0 +1,106 @@
+// Outputs of render: checked before anything is read, whole or not there at all.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// The snapshot does not even exist: an error about the output shows what was checked first.
+TEST(RenderOutput, IsCheckedBeforeTheSnapshotIsRead) {
+  const TemporaryFolder folder;
+  for (const std::string output : {"-o nowhere/a.png", "-o a.png --stats nowhere/s.json"}) {
+    const ProgramResult result = splotchcl_in(folder, "render missing_snapshot " + output);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("nowhere"), Not(HasSubstr("missing_snapshot"))));
+  }
+}
+
+TEST(RenderOutput, MustHaveAnEndingThatNamesAFormat) {
+  const TemporaryFolder folder;
+  const ProgramResult result = splotchcl_in(folder, "render missing_snapshot -o picture.xyz");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("picture.xyz"), HasSubstr(".png")));
+}
+
+class Snapshots : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    ASSERT_EQ(splotchcl_in(folder_, "generate halo -o h --particles 2000").exit_code, 0);
+  }
+  TemporaryFolder folder_;
+};
+using RenderedOutput = Snapshots;
+
+constexpr const char* small = " --set 'image.size=[64,48]'";
+
+TEST_F(RenderedOutput, HasTheSnapshotsNameInTheCurrentFolderByDefault) {
+  ASSERT_EQ(run_in(folder_, "mkdir there; cp h there/snap.gadget").exit_code, 0);
+  const ProgramResult result =
+      splotchcl_in(folder_, std::string("render there/snap.gadget") + small);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_image(folder_ / "snap.png").width, 64);
+}
+
+TEST_F(RenderedOutput, IsSilentInAPipe) {
+  const ProgramResult result = splotchcl_in(folder_, std::string("render h -o a.png") + small);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(RenderedOutput, LeavesNothingBehindWhenTheDiskIsFull) {
+  // By the reference, since the limit on files would stop a device's compiler too.
+  const ProgramResult result =
+      run_in(folder_,
+             "mkdir empty; ulimit -f 1; \"$splotchcl\" render h --reference -o empty/a.exr --set "
+             "'image.size=[60,60]'; code=$?; ls -A empty; exit $code");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("empty/a.exr"));
+}
+
+TEST_F(RenderedOutput, NeverShowsAnUnfinishedPictureWhenKilled) {
+  // Killed after ever longer times, the picture is whole or absent; the last run finishes.
+  for (const char* delay : {"0.1", "0.3", "0.5", "60"}) {
+    const std::string command = std::string("rm -f a.png; timeout -s KILL ") + delay +
+                                " \"$splotchcl\" render h -o a.png --set 'image.size=[900,900]'; "
+                                "true";
+    run_in(folder_, command);
+    if (std::filesystem::exists(folder_ / "a.png")) {
+      EXPECT_EQ(read_image(folder_ / "a.png").height, 900);
+    }
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+TEST_F(RenderedOutput, KeepsLinearLightAndTheSceneInExr) {
+  const ProgramResult result = splotchcl_in(folder_, std::string("render h -o a.exr") + small);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const ImageFileInfo info = read_image_info(folder_ / "a.exr");
+  EXPECT_TRUE(info.has_alpha);
+  EXPECT_EQ(info.metadata.count("splotchcl:version"), 1U);
+  const std::string explained =
+      splotchcl_in(folder_, std::string("render h --explain") + small).out;
+  EXPECT_EQ(info.metadata.at("splotchcl:scene"), explained.substr(explained.find("snapshot = ")));
+}
+
+TEST_F(RenderedOutput, OfTheSameCallIsTheSameFile) {
+  for (const std::string name : {"a", "b"}) {
+    ASSERT_EQ(splotchcl_in(folder_, "render h -o " + name + ".png" + small).exit_code, 0);
+  }
+  EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
+}
+
+}  // namespace
+}  // namespace splotchcl::testing

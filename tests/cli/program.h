@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "temporary_folder.h"
+
+namespace splotchcl::testing {
+
+struct ProgramResult {
+  int exit_code = -1;  // 128 and more: ended by a signal
+  std::string out, err;
+};
+
+// Runs a shell command in `folder`, in which $splotchcl is the program.
+inline ProgramResult run_in(const TemporaryFolder& folder, const std::string& command) {
+  const TemporaryFolder captured("output");
+  const std::string script =
+      "export splotchcl='" SPLOTCHCL_PROGRAM "' data='" SPLOTCHCL_TEST_DATA "'; cd '" +
+      folder.path().string() + "' || exit 99; (" + command + ") > '" + (captured / "out").string() +
+      "' 2> '" + (captured / "err").string() + "' < /dev/null";
+  const int status = std::system(script.c_str());
+  ProgramResult result;
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.out = read_text(captured / "out");
+  result.err = read_text(captured / "err");
+  return result;
+}
+
+// Runs the program with these arguments, which the shell splits.
+inline ProgramResult splotchcl_in(const TemporaryFolder& folder, const std::string& arguments) {
+  return run_in(folder, "\"$splotchcl\" " + arguments);
+}
+
+inline bool is_one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+inline bool has_test_data() {
+  return std::filesystem::exists(SPLOTCHCL_TEST_DATA);
+}
+
+inline bool has_device() {
+  static const bool found = std::system("'" SPLOTCHCL_PROGRAM "' devices > /dev/null 2>&1") == 0;
+  return found;
+}
+
+}  // namespace splotchcl::testing
+
+#define SKIP_WITHOUT_TEST_DATA()                            \
+  if (!::splotchcl::testing::has_test_data()) {             \
+    GTEST_SKIP() << "no snapshots in " SPLOTCHCL_TEST_DATA; \
+  }                                                         \
+  static_assert(true)
+
+#define SKIP_WITHOUT_DEVICE()                                                         \
+  if (!::splotchcl::testing::has_device()) {                                          \
+    GTEST_SKIP() << "no OpenCL device here; splotchcl devices tells what to install"; \
+  }                                                                                   \
+  static_assert(true)

@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A small universe, 3400 gas and 600 star particles.
+class Render : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    ASSERT_EQ(splotchcl_in(folder_, "generate universe -o u --particles 4000").exit_code, 0);
+  }
+  ProgramResult render(const std::string& arguments) {
+    return splotchcl_in(folder_, "render " + arguments);
+  }
+  // Of a call that must succeed.
+  Image picture(const std::string& arguments) {
+    const ProgramResult result = render(arguments + " -o picture.exr");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_image(folder_ / "picture.exr");
+  }
+  void expect_wrong_call(const std::string& arguments, const std::string& part_of_message) {
+    const ProgramResult result = render(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, AllOf(StartsWith("splotchcl: "), HasSubstr(part_of_message)));
+  }
+  TemporaryFolder folder_;
+};
+
+constexpr const char* small = " --set 'image.size=[80,60]'";
+
+TEST_F(Render, ExplainsThePlanAndTheSceneWithoutDrawing) {
+  const ProgramResult result = render("u --explain");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, AllOf(StartsWith("# plan: "), HasSubstr("[[component]]")));
+  EXPECT_EQ(folder_.count_files(), 1U);  // the snapshot
+}
+
+TEST_F(Render, ExplainsAndDrawsWithAnOutput) {
+  const ProgramResult result = render(std::string("u --explain -o a.png") + small);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, StartsWith("# plan: "));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+TEST_F(Render, DrawsTheSamePictureFromTheSceneThatIsExplained) {
+  ASSERT_EQ(render(std::string("u --explain > scene.toml") + small).exit_code, 0);
+  EXPECT_EQ(picture("scene.toml").pixels, picture(std::string("u") + small).pixels);
+}
+
+TEST_F(Render, TakesASceneFileOfAnyName) {
+  ASSERT_EQ(render(std::string("u --explain > scene") + small).exit_code, 0);
+  EXPECT_EQ(picture("scene").width, 80);
+}
+
+TEST_F(Render, OverridesKeysOfTheScene) {
+  const Image image = picture("u --set 'image.size=[31,17]' --set image.gamma=2");
+  EXPECT_EQ(image.width, 31);
+  EXPECT_EQ(image.height, 17);
+}
+
+TEST_F(Render, SuggestsTheKeyThatWasMeant) {
+  expect_wrong_call("u --set image.gama=2", "gamma");
+}
+
+TEST_F(Render, RefusesAToleranceBelowZero) {
+  expect_wrong_call("u --tolerance=-1", "tolerance");
+}
+
+TEST_F(Render, RefusesADeviceThatDoesNotExist) {
+  expect_wrong_call(std::string("u --device abacus") + small, "abacus");
+}
+
+TEST_F(Render, RefusesACropOutsideThePicture) {
+  for (const char* crop :
+       {"0,0,81,10", "70,0,20,10", "-1,0,5,5", "0,0,0,5", "2147483647,0,2147483647,1"}) {
+    expect_wrong_call(std::string("u --crop=") + crop + small, "80x60");
+  }
+}
+
+TEST_F(Render, DrawsACropAsThatPartOfThePicture) {
+  const Image whole = picture(std::string("u --set 'image.size=[160,120]'"));
+  const Image part = picture(std::string("u --set 'image.size=[160,120]' --crop 37,21,70,50"));
+  ASSERT_EQ(part.width, 70);
+  ASSERT_EQ(part.height, 50);
+  // Tiles and grids may start elsewhere, so each may use up the tolerance: twice 1e-3.
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      for (int c = 0; c < 4; ++c) {
+        EXPECT_NEAR(part.at(x, y)[c], whole.at(x + 37, y + 21)[c], 2e-3) << x << "," << y;
+      }
+    }
+  }
+}
+
+TEST_F(Render, RefusesParameterFilesOfTheOriginalClearly) {
+  std::ofstream(folder_ / "old.par") << "infile=u\n";
+  expect_wrong_call("old.par", "not supported yet");
+}
+
+TEST_F(Render, NamesFileAndLineOfAWrongScene) {
+  std::ofstream(folder_ / "scene.toml") << "snapshot = \"u\"\n\n[image]\nsize = \"large\"\n";
+  expect_wrong_call("scene.toml", "scene.toml:4");
+}
+
+TEST_F(Render, CountsBadParticlesInOneNote) {
+  {
+    // The first of the positions: after HEAD (16 + 264) and the label of POS (16 + 4).
+    std::fstream file(folder_ / "u", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(16 + 264 + 16 + 4);
+    const float bad[6] = {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0,
+                          std::numeric_limits<float>::infinity(),  0};
+    file.write(reinterpret_cast<const char*>(bad), sizeof bad);
+  }
+  for (const std::string renderer : {"", " --reference"}) {
+    const ProgramResult result = render("u -o a.png" + renderer + small);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("2 of 4000 particles are left out"));
+  }
+}
+
+TEST_F(Render, TellsTimesAndCountsAsJson) {
+  ASSERT_EQ(render(std::string("u -o a.png --stats s.json --crop 8,8,32,16") + small).exit_code, 0);
+  const auto json = nlohmann::json::parse(read_text(folder_ / "s.json"));
+  EXPECT_EQ(json["output"], "a.png");
+  EXPECT_EQ(json["particles"]["total"], 4000);
+  EXPECT_EQ(json["tolerance"], 1e-3);
+  EXPECT_EQ(json["plan"]["light"], "proportional");
+  EXPECT_EQ(json["crop"], nlohmann::json({8, 8, 32, 16}));
+  EXPECT_GT(json["seconds"]["draw"], 0);
+  EXPECT_FALSE(json["stages"].empty());
+}
+
+TEST_F(Render, DrawsWithTheReferenceTheSamePictureWithinTheTolerance) {
+  for (const std::string absorption : {"emission", "none", "0.5"}) {
+    SCOPED_TRACE(absorption);
+    const std::string scene = std::string("u") + small +
+                              " --set component.gas.absorption=" + absorption +
+                              " --set component.stars.absorption=" + absorption;
+    ASSERT_EQ(render(scene + " -o device.exr").exit_code, 0);
+    ASSERT_EQ(render(scene + " --reference -o reference.exr").exit_code, 0);
+    const ProgramResult result =
+        splotchcl_in(folder_, "compare device.exr reference.exr --limit 1e-3");
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::testing
