@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -210,22 +211,27 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+// The first argument that looks like an option and is none. CLI11 may complain about
+// something else that is missing just because of it.
+std::optional<std::string> unknown_option(const CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  const auto found = std::find_if(left.begin(), left.end(),
+                                  [](const std::string& word) { return word.rfind("-", 0) == 0; });
+  if (found == left.end()) return std::nullopt;
+  return found->substr(0, found->find('='));
+}
+
 // What the parser did not understand, as a line that says what to do.
 std::string explain(const CLI::ParseError& error, const CLI::App& app) {
   const auto used = app.get_subcommands();
   const CLI::App& command = used.empty() ? app : *used.front();
   std::string text = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    const std::vector<std::string> unknown = app.remaining(true);
-    text = "'" + (unknown.empty() ? "" : unknown.front()) + "' is not expected here";
-    if (!unknown.empty()) {
-      const std::string name = unknown.front().substr(0, unknown.front().find('='));
-      text += did_you_mean(nearest_name(name, option_names(command)));
-    }
+  if (const std::optional<std::string> option = unknown_option(app)) {
+    text = "there is no option " + *option +
+           did_you_mean(nearest_name(*option, option_names(command)));
   }
-  const std::string name = used.empty() ? "" : command.get_name() + " ";
-  return (used.empty() ? "" : command.get_name() + ": ") + text + "; see splotchcl " + name +
-         "--help";
+  if (used.empty()) return text + "; see splotchcl --help";
+  return command.get_name() + ": " + text + "; see splotchcl " + command.get_name() + " --help";
 }
 
 }  // namespace
