@@ -173,7 +173,9 @@ Column GadgetBinarySnapshot::read(int type, const std::string& name) const {
 
 class GadgetBinaryFormat : public SnapshotFormat {
  public:
-  bool recognises(const MappedFile& file) const override { return is_gadget_binary(file); }
+  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+    return is_gadget_binary(*file);
+  }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
     return std::make_unique<GadgetBinarySnapshot>(path);
   }

@@ -49,20 +49,19 @@ std::string child_path(const std::string& group, const std::string& name) {
   return group == "/" ? group + name : group + "/" + name;
 }
 
-std::vector<std::string> children(hid_t file, const std::string& group, H5O_type_t wanted) {
+std::vector<std::string> children(hid_t file, const std::string& group, H5I_type_t wanted) {
   struct Search {
-    H5O_type_t wanted;
+    H5I_type_t wanted;
     std::vector<std::string> names;
   } search = {wanted, {}};
   const Group handle(H5Gopen2(file, group.c_str(), H5P_DEFAULT));
   const auto visit = [](hid_t id, const char* name, const H5L_info_t*, void* data) -> herr_t {
     auto& found = *static_cast<Search*>(data);
-    H5O_info_t info;
     // A link may lead nowhere; what does not exist is not listed.
-    const bool is_wanted =
-        H5Oget_info_by_name2(id, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
-        info.type == found.wanted;
-    if (is_wanted) found.names.emplace_back(name);
+    const Object object(H5Oopen(id, name, H5P_DEFAULT));
+    if (object.is_valid() && H5Iget_type(object.id()) == found.wanted) {
+      found.names.emplace_back(name);
+    }
     return 0;
   };
   H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &search);
@@ -121,13 +120,13 @@ bool Hdf5File::has(const std::string& object) const {
 
 std::vector<std::string> Hdf5File::groups(const std::string& group) const {
   const Hdf5Silence silence;
-  return children(file_.id(), group, H5O_TYPE_GROUP);
+  return children(file_.id(), group, H5I_GROUP);
 }
 
 std::vector<Hdf5Dataset> Hdf5File::datasets(const std::string& group) const {
   const Hdf5Silence silence;
   std::vector<Hdf5Dataset> result;
-  for (const std::string& name : children(file_.id(), group, H5O_TYPE_DATASET)) {
+  for (const std::string& name : children(file_.id(), group, H5I_DATASET)) {
     result.push_back(dataset(child_path(group, name)));
   }
   return result;

@@ -1,6 +1,5 @@
 #include "io/hdf5_formats.h"
 
-#include "io/hdf5_file.h"
 #include "io/snapshot_format.h"
 
 namespace splotchcl {
@@ -8,11 +7,11 @@ namespace {
 
 class Hdf5Formats : public SnapshotFormat {
  public:
-  bool recognises(const MappedFile& file) const override {
-    return Hdf5File::has_signature(file.data(), file.size());
+  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+    return Hdf5File::has_signature(file->data(), file->size());
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
-    return open_gadget_hdf5(path);
+    return is_phantom_hdf5(Hdf5File(path)) ? open_phantom_hdf5(path) : open_gadget_hdf5(path);
   }
 };
 

@@ -16,7 +16,7 @@ namespace {
 const SnapshotFormat* find_format(const fs::path& path) {
   const auto file = MappedFile::open(path);
   for (const SnapshotFormat* const format : snapshot_formats()) {
-    if (format->recognises(*file)) return format;
+    if (format->recognises(file)) return format;
   }
   return nullptr;
 }
@@ -38,7 +38,7 @@ std::unique_ptr<Snapshot> open_file(const fs::path& path) {
   }
   throw DataError(
       fmt::format("{}: not a known snapshot format (it starts with the bytes {}); expected Gadget "
-                  "format 1 or 2, Gadget HDF5 or a relative of these",
+                  "format 1 or 2, HDF5 of Gadget, SWIFT or Phantom, or Tipsy",
                   path.string(), first_bytes(path)));
 }
 
@@ -91,7 +91,7 @@ const ParticleTypeInfo* SnapshotInfo::find_type(int type) const {
 }
 
 std::vector<const SnapshotFormat*> snapshot_formats() {
-  return {&gadget_binary_format(), &hdf5_formats()};
+  return {&gadget_binary_format(), &hdf5_formats(), &tipsy_format()};
 }
 
 std::unique_ptr<Snapshot> open_snapshot(const fs::path& path) try {
