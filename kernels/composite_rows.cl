@@ -155,27 +155,44 @@ inline void add_splat(float* tile, __global const TileSplat* splat, const Compos
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
-  if (sigma < p.mean_sigma && columns_count <= 7 && rows_count <= 7) {
+  const float inverse = 1.44269504f / (sigma * sigma);
+  if (columns_count <= 7 && rows_count <= 7) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
     // Rows beside the splat take its tails, which is no less exact.
     window.rows = rows_count <= 4 ? 4 : 7;
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     float along[8];
-    vstore8(seven_means((float)window.y + 0.5f - splat->y, sigma), 0, along);
-    const float8 across = seven_means((float)window.x + 0.5f - splat->x, sigma);
+    const float dx = (float)window.x + 0.5f - splat->x, dy = (float)window.y + 0.5f - splat->y;
+    float8 across;
+    if (sigma < p.mean_sigma) {
+      across = seven_means(dx, sigma);
+      vstore8(seven_means(dy, sigma), 0, along);
+    } else {
+      across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse);
+      vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse), 0, along);
+    }
     update_window(tile, window, across, along, splat, deepest, p);
     return;
   }
-  const float inverse = 1.44269504f / (sigma * sigma);
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma, inverse,
             p.mean_sigma);
   fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, p.mean_sigma);
   window.y = rows.x;
   window.rows = rows_count;
+  const float* along = along_y;
   for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
-    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along_y, splat,
+#ifdef KERNEL_CUT
+    // The disc's part of these columns.
+    const float nearest = clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
+    const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+    const int2 part = pixel_range(splat->y, half_height, TILE_HEIGHT);
+    window.y = part.x;
+    window.rows = part.y - part.x + 1;
+    along = along_y + (part.x - rows.x);
+#endif
+    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat,
                   deepest, p);
   }
 }

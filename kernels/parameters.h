@@ -54,6 +54,7 @@ struct ProjectParameters {
   float least_extent;  // sigmas drawn of a faint splat
   float inverse_edge;  // 1 / (value at which a splat may end)
   float coarse_sigma;        // smallest sigma in pixels of a coarse grid
+  float coarse_peak;         // brighter splats stay on the picture's own grid
   int grid_count;
   float guard;  // of the coarse grids
 

@@ -168,6 +168,7 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
   const INTEGER level = (AS_INTEGER(widened / amplified) >> 23) - 127;
   s.grid = clamp(level, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
+  s.grid = select(s.grid, (INTEGER)(0), peak > p.coarse_peak);
   const VALUE shrink = AS_VALUE((127 - s.grid) << 23);
   s.sigma = widened * shrink;
   s.radius = extent * s.sigma + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean);

@@ -40,10 +40,19 @@ void append_grid(FrameLayout& layout, int width, int height, int guard) {
   layout.plane_floats += std::uint64_t{layout.planes} * grid.plane_size;
 }
 
-// The disc's edge is part of the model when the scene cuts the kernel, and a coarse grid
-// cannot show it.
-bool may_use_coarse_grids(const Frame& frame, const Plan& plan) {
-  return plan.light != LightPlan::ordered && plan.coarse_share > 0 && !frame.kernel.cut;
+bool may_use_coarse_grids(const Plan& plan) {
+  return plan.light != LightPlan::ordered && plan.coarse_share > 0;
+}
+
+// Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
+// is exp(-cut^2) of the peak. Where many such edges cross, their errors have either sign:
+// at optical depth 1 there are 1 / peak splats, and the sum errs by about half the step
+// times sqrt(peak). An estimate, not a bound (docs/accuracy.md).
+double brightest_coarse_peak(const Frame& frame, double error) {
+  if (!frame.kernel.cut) return std::numeric_limits<float>::max();
+  const double step = std::exp(-*frame.kernel.cut * *frame.kernel.cut);
+  const double root = 2 * error / step;
+  return root * root;
 }
 
 // The half side, in sigma, of the square outside which a splat has this fraction of its
@@ -112,7 +121,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   layout.tile_height = rows ? 32 : 16;
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
   append_grid(layout, frame.crop.width, frame.crop.height, 0);
-  if (may_use_coarse_grids(frame, plan)) {
+  if (may_use_coarse_grids(plan)) {
     for (int g = 1; g < most_grids; ++g) {
       const int width = ceil_divide(frame.crop.width, 1 << g);
       const int height = ceil_divide(frame.crop.height, 1 << g);
@@ -139,6 +148,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   layout.coarse_sigma = std::numeric_limits<float>::max();
   if (layout.grids.size() > 1) {
     layout.refinement = choose_refinement(plan.coarse_share / picture_error);
+    layout.coarse_peak =
+        static_cast<float>(brightest_coarse_peak(frame, plan.coarse_share / picture_error));
     layout.coarse_sigma =
         std::max(static_cast<float>(layout.refinement.smallest_sigma), 0.5f * layout.mean_sigma);
   }

@@ -23,6 +23,7 @@ struct FrameLayout {
   float mean_sigma = 0;  // narrower splats take the pixel mean by erf
   float widening = 0;    // of sigma^2, for wider ones
   RefinementFilter refinement;
+  float coarse_peak = 0;                // brighter splats stay on grid 0
   float coarse_sigma = 0;               // smallest sigma in pixels of a coarse grid
   float least_extent = 0;               // sigmas drawn of a faint splat
   float inverse_edge = 0;               // 1 / (value at which a splat may end)

@@ -133,6 +133,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.least_extent = layout_.least_extent;
   p.inverse_edge = layout_.inverse_edge;
   p.coarse_sigma = layout_.coarse_sigma;
+  p.coarse_peak = layout_.coarse_peak;
   p.grid_count = static_cast<int>(layout_.grids.size());
   p.guard = static_cast<float>(layout_.grids.back().guard);
   p.color = scaling_of(component.color);

@@ -14,7 +14,7 @@ DeviceTraits traits_of(const compute::device& device) {
     traits.segment_length = 4096;
   } else {
     traits.rows = true;
-    traits.project_block = 16384;
+    traits.project_block = 8192;
     traits.chunk_blocks = 64;
     traits.sort_blocks = 32;
     traits.segment_length = 8192;
