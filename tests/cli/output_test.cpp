@@ -31,7 +31,7 @@ TEST(RenderOutput, MustHaveAnEndingThatNamesAFormat) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("picture.xyz"), HasSubstr(".png")));
 }
 
-class Snapshots : public ::testing::Test {
+class RenderedOutput : public ::testing::Test {
  protected:
   void SetUp() override {
     SKIP_WITHOUT_DEVICE();
@@ -39,7 +39,6 @@ class Snapshots : public ::testing::Test {
   }
   TemporaryFolder folder_;
 };
-using RenderedOutput = Snapshots;
 
 constexpr const char* small = " --set 'image.size=[64,48]'";
 
