@@ -1,0 +1,231 @@
+// What a frame costs against how far it lies from the oracle, at every tolerance. The error
+// is that of the very picture that was timed, over all of its pixels.
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arguments.h"
+#include "exact.h"
+#include "machine.h"
+#include "measure.h"
+#include "splotchcl/plan.h"
+#include "splotchcl/reference.h"
+#include "synthetic.h"
+#include "table.h"
+#include "yardstick.h"
+
+namespace splotchcl::bench {
+namespace {
+
+// What tolerance 0 keeps (docs/accuracy.md).
+constexpr double bound_at_zero = 1e-6;
+const std::vector<double> tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 0};
+
+double promise(double tolerance) {
+  return tolerance > 0 ? tolerance : bound_at_zero;
+}
+
+struct Size {
+  int width = 800, height = 600;
+  double particles = 1;  // factor on the numbers below
+};
+
+struct Matter {
+  std::string name;
+  std::size_t count;
+  double sigma_low, sigma_high;    // pixels
+  double column_low, column_high;  // optical depth or light through a cloud's centre
+};
+
+const Matter small_stars = {"sparse stars", 20000, 0.2, 1.2, 0.05, 3};
+const Matter large_stars = {"sparse stars", 500, 3, 10, 0.05, 3};
+const Matter small_thin_gas = {"thin gas", 200000, 0.5, 2, 0.003, 0.03};
+const Matter large_thin_gas = {"thin gas", 5000, 5, 30, 0.001, 0.02};
+const Matter small_thick_gas = {"thick gas", 200000, 0.5, 2, 0.3, 10};
+const Matter large_thick_gas = {"thick gas", 5000, 5, 30, 0.1, 3};
+
+struct SceneToTime {
+  std::string name, splats;
+  Frame frame;
+};
+
+DrawnComponent make_component(const Matter& matter, const Size& size, Palette palette) {
+  CloudSetup setup;
+  setup.count = static_cast<std::size_t>(static_cast<double>(matter.count) * size.particles);
+  setup.width = size.width;
+  setup.height = size.height;
+  setup.sigma_low = matter.sigma_low;
+  setup.sigma_high = matter.sigma_high;
+  setup.column_low = matter.column_low;
+  setup.column_high = matter.column_high;
+  DrawnComponent component = make_clouds(setup);
+  component.name = matter.name;
+  component.palette = std::move(palette);
+  return component;
+}
+
+SceneToTime single(const Matter& matter, const std::string& splats, const Size& size) {
+  return {matter.name, splats,
+          cloud_frame(size.width, size.height, {make_component(matter, size, three_colors())})};
+}
+
+SceneToTime mixed(const Matter& gas, const Matter& stars, const std::string& splats,
+                  const Size& size) {
+  return {"gas and stars", splats,
+          cloud_frame(size.width, size.height,
+                      {make_component(gas, size, three_colors()),
+                       make_component(stars, size, warm_white())})};
+}
+
+std::vector<SceneToTime> make_scenes(const Size& size) {
+  UniverseSetup universe;
+  universe.particles = static_cast<std::size_t>(150000 * size.particles);
+  return {single(small_stars, "small", size),
+          single(large_stars, "large", size),
+          single(small_thin_gas, "small", size),
+          single(large_thin_gas, "large", size),
+          single(small_thick_gas, "small", size),
+          single(large_thick_gas, "large", size),
+          mixed(small_thin_gas, small_stars, "small", size),
+          mixed(large_thick_gas, large_stars, "large", size),
+          {"universe", "all", universe_frame(make_universe(universe), size.width, size.height)}};
+}
+
+// The same particles in another light. Where order matters, stars only emit.
+void set_light(Frame& frame, LightPlan light) {
+  for (DrawnComponent& component : frame.components) {
+    switch (light) {
+      case LightPlan::emission:
+        component.absorption = {Absorption::Kind::none, 0};
+        break;
+      case LightPlan::proportional:
+        component.absorption = {Absorption::Kind::as_emission, 0};
+        break;
+      case LightPlan::ordered:
+        component.absorption = {Absorption::Kind::gray, 0.2};
+        if (&component != &frame.components.front()) {
+          component.absorption = {Absorption::Kind::none, 0};
+        }
+        break;
+    }
+  }
+}
+
+std::size_t count_particles(const Frame& frame) {
+  std::size_t count = 0;
+  for (const DrawnComponent& component : frame.components)
+    count += component.particles.count;
+  return count;
+}
+
+std::string text_of_tolerance(double tolerance) {
+  return tolerance > 0 ? "1e" + fixed(std::log10(tolerance), 0) : "0";
+}
+
+// One row per frame to read, one per point to plot.
+class SpeedAndError {
+ public:
+  SpeedAndError(const std::string& device, int runs)
+      : renderer_(RendererOptions{device, CompositeShape::automatic}),
+        runs_(runs),
+        summary_(summary_columns()) {}
+
+  void add_scene(const SceneToTime& scene, LightPlan light) {
+    std::fprintf(stderr, "%s, %s splats, %s\n", scene.name.c_str(), scene.splats.c_str(),
+                 name(light));
+    Frame frame = scene.frame;
+    set_light(frame, light);
+    const Stopwatch stopwatch;
+    const ExactImage exact = reference::render(frame);
+    const Cost oracle = stopwatch.elapsed();
+    std::vector<std::string> cells = {scene.name, scene.splats, name(light),
+                                      std::to_string(count_particles(frame))};
+    for (const double tolerance : tolerances) {
+      frame.tolerance = tolerance;
+      Image image;
+      const Runs runs = measure(runs_, [&] { image = renderer_.render(frame); });
+      const FrameError error = measure_error(image, frame.crop, exact, frame.crop);
+      cells.push_back(milliseconds(runs.median().wall_seconds) + "  " + scientific(error.maximum) +
+                      "  " + scientific(error.rms()));
+      add_point(scene, light, frame, runs, error, oracle);
+    }
+    cells.push_back(milliseconds(oracle.wall_seconds));
+    summary_.add(cells);
+  }
+
+  const Table& points() const { return points_; }
+  const Table& summary() const { return summary_; }
+  int point_count() const { return point_count_; }
+  int points_beyond() const { return points_beyond_; }
+
+ private:
+  static std::vector<std::string> summary_columns() {
+    std::vector<std::string> columns = {"scene", "splats", "plan", "particles"};
+    for (const double tolerance : tolerances)
+      columns.push_back("ms, max, rms at " + text_of_tolerance(tolerance));
+    columns.push_back("oracle ms");
+    return columns;
+  }
+
+  void add_point(const SceneToTime& scene, LightPlan light, const Frame& frame, const Runs& runs,
+                 const FrameError& error, const Cost& oracle) {
+    const bool kept = error.maximum <= promise(frame.tolerance);
+    ++point_count_;
+    points_beyond_ += kept ? 0 : 1;
+    const std::size_t count = count_particles(frame);
+    const double rate = static_cast<double>(count) / runs.median().wall_seconds;
+    points_.add({scene.name, scene.splats, name(light), text_of_tolerance(frame.tolerance),
+                 scientific(promise(frame.tolerance)), std::to_string(count),
+                 std::to_string(frame.width), std::to_string(frame.height),
+                 milliseconds(runs.median().wall_seconds),
+                 milliseconds(runs.minimum().wall_seconds), milliseconds(runs.median().cpu_seconds),
+                 fixed(rate, 0), scientific(error.maximum), scientific(error.rms()),
+                 scientific(error.brightest), kept ? "yes" : "no",
+                 milliseconds(oracle.wall_seconds), milliseconds(oracle.cpu_seconds)});
+  }
+
+  Renderer renderer_;
+  int runs_;
+  int point_count_ = 0, points_beyond_ = 0;
+  Table summary_;
+  Table points_{{"scene", "splats", "plan", "tolerance", "promise", "particles", "width", "height",
+                 "median_ms", "minimum_ms", "cpu_ms", "particles_per_s", "max_error", "rms_error",
+                 "brightest", "kept", "oracle_ms", "oracle_cpu_ms"}};
+};
+
+void run(const Arguments& arguments) {
+  const std::string device = arguments.text("device", "");
+  const Machine machine = describe_machine(device);
+  std::printf("%s\n", describe(machine).c_str());
+
+  Size size;
+  if (arguments.has("quick")) size = {320, 240, 0.1};
+  const int runs = arguments.number("runs", 5);
+  SpeedAndError results(device, runs);
+  for (const SceneToTime& scene : make_scenes(size)) {
+    for (const LightPlan light :
+         {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
+      results.add_scene(scene, light);
+    }
+  }
+  const Yardstick yardstick = measure_yardstick(machine.threads());
+  std::printf("\n%dx%d pixels, medians of %d runs\n\n%s\n%s\n", size.width, size.height, runs,
+              results.summary().text().c_str(), describe(yardstick).c_str());
+  std::printf("%d of %d points lie beyond their promise (tolerance 0 promises %g)\n",
+              results.points_beyond(), results.point_count(), bound_at_zero);
+  if (arguments.has("csv")) results.points().write_csv(arguments.text("csv", ""));
+}
+
+}  // namespace
+}  // namespace splotchcl::bench
+
+int main(int count, char** words) {
+  return splotchcl::bench::run_main(
+      count, words,
+      {"quick: small pictures with a tenth of the particles",
+       "runs=COUNT: how often each frame is timed (5)", "device=NAME: part of a device's name",
+       "csv=FILE: where the table goes, for scripts/plot_bench"},
+      splotchcl::bench::run);
+}

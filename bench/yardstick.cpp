@@ -1,0 +1,246 @@
+#include "yardstick.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "measure.h"
+
+namespace splotchcl::bench {
+namespace {
+
+using Floats = float __attribute__((vector_size(32)));
+using Integers = std::int32_t __attribute__((vector_size(32)));
+constexpr int lanes = 8;
+
+Floats all(float value) {
+  return Floats{} + value;
+}
+
+constexpr Floats ramp = {0, 1, 2, 3, 4, 5, 6, 7};
+
+// exp(x) for -80 < x <= 0: 2^n by the exponent's bits, 2^f on [-1/2, 1/2] by its series.
+Floats exp_negative(Floats x) {
+  const Floats t = x * 1.44269504f;
+  constexpr float to_integer = 12582912.0f;  // 1.5 * 2^23
+  const Floats shifted = t + to_integer;
+  const Floats f = t - (shifted - to_integer);
+  Floats p = f * 1.3333558e-3f + 9.6181291e-3f;
+  p = p * f + 5.5504109e-2f;
+  p = p * f + 2.4022651e-1f;
+  p = p * f + 6.9314718e-1f;
+  p = p * f + 1.0f;
+  Integers bits, exponent;
+  std::memcpy(&bits, &p, sizeof(bits));
+  std::memcpy(&exponent, &shifted, sizeof(exponent));
+  bits += exponent << 23;
+  std::memcpy(&p, &bits, sizeof(p));
+  return p;
+}
+
+struct Disc {
+  float x, y, radius, inverse_sigma2;
+  float absorption[3];
+  float source;
+};
+
+constexpr int tile_width = 32, tile_height = 16;
+constexpr int image_width = 1408, image_height = 1056;
+constexpr int tiles_x = image_width / tile_width, tiles_y = image_height / tile_height;
+constexpr int tile_count = tiles_x * tiles_y;
+constexpr int blocks = tile_width / lanes;  // of eight pixels, per row
+
+struct Range {
+  int first, last;
+};
+
+// Pixels (centre at i + 1/2) within `radius` of `centre`.
+Range pixels_within(float centre, float radius, int size) {
+  return {std::max(0, static_cast<int>(std::ceil(centre - radius - 0.5f))),
+          std::min(size - 1, static_cast<int>(std::floor(centre + radius - 0.5f)))};
+}
+
+struct Lists {
+  std::vector<std::uint32_t> starts;  // tile_count + 1
+  std::vector<Disc> discs;            // tile by tile
+};
+
+template <class Visit>
+void for_each_tile(const Disc& disc, Visit visit) {
+  const Range columns = pixels_within(disc.x, disc.radius, image_width);
+  const Range rows = pixels_within(disc.y, disc.radius, image_height);
+  if (columns.first > columns.last || rows.first > rows.last) return;
+  for (int y = rows.first / tile_height; y <= rows.last / tile_height; ++y) {
+    for (int x = columns.first / tile_width; x <= columns.last / tile_width; ++x) {
+      visit(static_cast<std::size_t>(y * tiles_x + x));
+    }
+  }
+}
+
+Lists make_lists(const std::vector<Disc>& discs) {
+  Lists lists;
+  lists.starts.assign(tile_count + 1, 0);
+  for (const Disc& disc : discs) {
+    for_each_tile(disc, [&](std::size_t tile) { ++lists.starts[tile + 1]; });
+  }
+  for (std::size_t t = 0; t < tile_count; ++t)
+    lists.starts[t + 1] += lists.starts[t];
+  std::vector<std::uint32_t> next(lists.starts.begin(), lists.starts.end() - 1);
+  lists.discs.resize(lists.starts.back());
+  for (const Disc& disc : discs) {
+    for_each_tile(disc, [&](std::size_t tile) { lists.discs[next[tile]++] = disc; });
+  }
+  return lists;
+}
+
+std::vector<Disc> random_discs(float mean_radius, int count) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  std::vector<Disc> discs(static_cast<std::size_t>(count));
+  for (Disc& disc : discs) {
+    disc.radius = mean_radius * (0.5f + uniform(engine));
+    const float sigma = disc.radius / 1.8f;
+    disc.inverse_sigma2 = 1 / (sigma * sigma);
+    disc.x = uniform(engine) * image_width;
+    disc.y = uniform(engine) * image_height;
+    for (float& absorption : disc.absorption)
+      absorption = 0.05f * uniform(engine);
+    disc.source = 1;
+  }
+  return discs;
+}
+
+double count_updates(const std::vector<Disc>& discs) {
+  double updates = 0;
+  for (const Disc& disc : discs) {
+    const auto radius = static_cast<double>(disc.radius);
+    updates += 3.14159265358979323846 * radius * radius;
+  }
+  return updates;
+}
+
+// A tile's three channels, the channels of eight pixels side by side.
+using Tile = std::array<Floats, tile_height * blocks * 3>;
+
+template <bool ordered>
+void add_disc(Tile& tile, const Disc& disc, float tile_x, float tile_y) {
+  const float x = disc.x - tile_x, y = disc.y - tile_y;
+  const Range columns = pixels_within(x, disc.radius, tile_width);
+  const Range rows = pixels_within(y, disc.radius, tile_height);
+  const float scale = -disc.inverse_sigma2;
+  alignas(32) float along_y[tile_height + lanes];
+  for (int row = rows.first; row <= rows.last; row += lanes) {
+    const Floats dy = ramp + (static_cast<float>(row) + 0.5f - y);
+    const Floats profile = exp_negative(dy * dy * scale);
+    std::memcpy(along_y + (row - rows.first), &profile, sizeof(profile));
+  }
+  for (int block = columns.first / lanes; block <= columns.last / lanes; ++block) {
+    const Floats dx = ramp + (static_cast<float>(block * lanes) + 0.5f - x);
+    const Floats along_x = exp_negative(dx * dx * scale);
+    for (int row = rows.first; row <= rows.last; ++row) {
+      Floats* pixels = tile.data() + (row * blocks + block) * 3;
+      const Floats shape = along_x * along_y[row - rows.first];
+      for (int c = 0; c < 3; ++c) {
+        const Floats depth = shape * disc.absorption[c];
+        if constexpr (ordered) {
+          const Floats opacity =
+              depth * (1.0f - depth * (0.5f - depth * (0.16666667f - depth * 0.041666667f)));
+          pixels[c] += opacity * (disc.source - pixels[c]);
+        } else {
+          pixels[c] += depth;
+        }
+      }
+    }
+  }
+}
+
+template <bool ordered>
+void draw_tile(const Lists& lists, std::size_t index, std::vector<float>& image) {
+  Tile tile;
+  tile.fill(all(0));
+  const auto corner_x = static_cast<float>(static_cast<int>(index) % tiles_x * tile_width);
+  const auto corner_y = static_cast<float>(static_cast<int>(index) / tiles_x * tile_height);
+  for (std::uint32_t i = lists.starts[index]; i < lists.starts[index + 1]; ++i) {
+    add_disc<ordered>(tile, lists.discs[i], corner_x, corner_y);
+  }
+  std::memcpy(image.data() + index * tile.size() * lanes, tile.data(), sizeof(tile));
+}
+
+// Threads take the next four tiles until none is left.
+template <bool ordered>
+void draw(const Lists& lists, int thread_count, std::vector<float>& image) {
+  constexpr std::size_t at_once = 4;
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t first; (first = next.fetch_add(at_once)) < tile_count;) {
+      for (std::size_t tile = first; tile < std::min<std::size_t>(first + at_once, tile_count);
+           ++tile) {
+        draw_tile<ordered>(lists, tile, image);
+      }
+    }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < thread_count; ++t)
+    others.emplace_back(work);
+  work();
+  for (std::thread& other : others)
+    other.join();
+}
+
+template <bool ordered>
+double best_of(int runs, const Lists& lists, int threads, std::vector<float>& image) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < runs; ++i) {
+    const Stopwatch stopwatch;
+    draw<ordered>(lists, threads, image);
+    best = std::min(best, stopwatch.elapsed().wall_seconds);
+  }
+  return best;
+}
+
+}  // namespace
+
+YardstickCost measure_yardstick(float radius_pixels, int splat_count, int threads, int runs) {
+  const std::vector<Disc> discs = random_discs(radius_pixels, splat_count);
+  const Lists lists = make_lists(discs);
+  const double to_ns = 1e9 / count_updates(discs);
+  std::vector<float> image(3ul * image_width * image_height);
+  YardstickCost cost;
+  cost.radius_pixels = radius_pixels;
+  cost.additive_ns = to_ns * best_of<false>(runs, lists, threads, image);
+  cost.ordered_ns = to_ns * best_of<true>(runs, lists, threads, image);
+  return cost;
+}
+
+double Yardstick::additive_ns() const {
+  return std::sqrt(small.additive_ns * large.additive_ns);
+}
+
+double Yardstick::ordered_ns() const {
+  return std::sqrt(small.ordered_ns * large.ordered_ns);
+}
+
+Yardstick measure_yardstick(int threads) {
+  constexpr int runs = 5;
+  return {measure_yardstick(5, 1000000, threads, runs),
+          measure_yardstick(20, 200000, threads, runs), threads};
+}
+
+std::string describe(const Yardstick& yardstick) {
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                "yardstick, ns per pixel update, %d threads: additive %.3f (5 px) %.3f (20 px), "
+                "ordered %.3f (5 px) %.3f (20 px)",
+                yardstick.threads, yardstick.small.additive_ns, yardstick.large.additive_ns,
+                yardstick.small.ordered_ns, yardstick.large.ordered_ns);
+  return text;
+}
+
+}  // namespace splotchcl::bench
