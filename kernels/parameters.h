@@ -52,6 +52,7 @@ struct ProjectParameters {
   float peak_colour;   // the largest of E and A per unit weight
 
   float least_extent;  // sigmas drawn of a faint splat
+  float restored_light;  // factor on the weight of such a splat
   float inverse_edge;  // 1 / (value at which a splat may end)
   float coarse_sigma;        // smallest sigma in pixels of a coarse grid
   float coarse_peak;         // brighter splats stay on the picture's own grid

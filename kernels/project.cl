@@ -177,7 +177,10 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.y = y * shrink + guard;
   s.visible &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f &
                s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
-  s.weight = weight;
+  // Half of the light beyond the square goes back into it: the sum of many errs by as much
+  // above as below.
+  const INTEGER faint = extent <= p.least_extent;
+  s.weight = choose(weight, weight * p.restored_light, faint);
   s.color = normalised(raw_color, p.color);
   return s;
 }
