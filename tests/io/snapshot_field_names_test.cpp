@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <regex>
+#include <set>
+
 #include "io/field_names.h"
 #include "io/snapshot_files.h"
 #include "io/unit_names.h"
@@ -22,6 +26,23 @@ TEST(FieldNames, LabelsOfAllDialectsMeanTheCanonicalField) {
   }
   EXPECT_EQ(canonical_field_name("HSMS"), "star_smoothing_length");
   EXPECT_EQ(canonical_field_name("Voronoi"), "");
+}
+
+TEST(FieldNames, AreAsTheDocumentationSays) {
+  std::ifstream document(SPLOTCHCL_SOURCE_DIR "/docs/formats.md");
+  const std::regex row(R"(\| `(\w+)` \| ([\w, ]+) \|)");
+  const std::regex word(R"(\w+)");
+  std::set<std::string> names;
+  for (std::string line; std::getline(document, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    const std::string name = cells[1], labels = cells[2];
+    names.insert(name);
+    EXPECT_EQ(canonical_field_name(name), name);
+    for (std::sregex_iterator label(labels.begin(), labels.end(), word), end; label != end; ++label)
+      EXPECT_EQ(canonical_field_name(label->str()), name) << label->str();
+  }
+  EXPECT_EQ(names.count("smoothing_length"), 1U);
 }
 
 TEST(FieldNames, AFieldIsFoundByCanonicalNameAndByAnyLabel) {
