@@ -8,7 +8,7 @@
 namespace splotchcl::cli {
 
 int run_generate(const GenerateOptions& options, Console& console) {
-  check_folder_of(options.output);
+  check_output_path(options.output);
   const Stopwatch stopwatch;
   console.status(fmt::format("making {} particles", options.settings.particles));
   const GeneratedSnapshot snapshot = options.what == "halo" ? generate_halo(options.settings)

@@ -142,7 +142,7 @@ int run_render(const RenderOptions& options, Console& console) {
   // Whatever would fail at the end is tried first.
   const std::optional<std::filesystem::path> output = choose_output(options);
   if (output) check_image_path(*output);
-  if (options.stats) check_folder_of(*options.stats);
+  if (options.stats) check_output_path(*options.stats);
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
 
   const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));

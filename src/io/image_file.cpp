@@ -180,7 +180,7 @@ ChannelPlaces find_channels(const OIIO::ImageSpec& spec) {
 
 void check_image_path(const std::filesystem::path& path) {
   (void)format_of(path);
-  check_folder_of(path);
+  check_output_path(path);
 }
 
 void check_image_size(const std::filesystem::path& path, int width, int height) {

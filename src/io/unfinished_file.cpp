@@ -36,10 +36,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& target) {
   return folder_of(target) / ("." + target.filename().string() + "." + unique + ".part");
 }
 
-}  // namespace
-
-void check_folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path target = follow_links(path);
+// What open() would only call "no such file or folder".
+void check_folder(const std::filesystem::path& path, const std::filesystem::path& target) {
   const std::filesystem::path folder = folder_of(target);
   std::error_code error;
   if (std::filesystem::is_directory(target, error)) {
@@ -49,15 +47,17 @@ void check_folder_of(const std::filesystem::path& path) {
     throw DataError(path.string() + ": cannot be written: there is no folder " + folder.string() +
                     "; create it first");
   }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw DataError(path.string() + ": cannot be written: folder " + folder.string() + ": " +
-                    reason(errno));
-  }
+}
+
+}  // namespace
+
+void check_output_path(const std::filesystem::path& path) {
+  const UnfinishedFile file(path);
 }
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
     : path_(path), target_(follow_links(path)), temporary_(temporary_name(target_)) {
-  check_folder_of(path);
+  check_folder(path_, target_);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
 }

@@ -5,9 +5,9 @@
 
 namespace splotchcl {
 
-// Throws DataError when no file can be created beside `path`: the folder is missing or
-// not writable, or `path` is itself a folder.
-void check_folder_of(const std::filesystem::path& path);
+// Creates a file beside `path` and removes it. Throws DataError when that fails: the folder
+// is missing or not writable, or `path` is itself a folder.
+void check_output_path(const std::filesystem::path& path);
 
 // A file that appears under its name only when it is complete. Until finish() it has a
 // temporary name in the same folder, and is removed when it is abandoned. A symbolic link
