@@ -41,15 +41,13 @@ class Numbers {
       : file_(std::move(file)), is_swapped_(is_swapped) {}
 
   std::uint32_t uint32(std::uint64_t offset) const {
-    return static_cast<std::uint32_t>(value(offset, ValueKind::uint32));
+    return static_cast<std::uint32_t>(number_at(file_, offset, ValueKind::uint32, is_swapped_));
   }
-  double float64(std::uint64_t offset) const { return value(offset, ValueKind::float64); }
+  double float64(std::uint64_t offset) const {
+    return number_at(file_, offset, ValueKind::float64, is_swapped_);
+  }
 
  private:
-  double value(std::uint64_t offset, ValueKind kind) const {
-    return value_at(StoredValues{file_, offset, 1, 1, 0, kind, is_swapped_}, 0, 0);
-  }
-
   std::shared_ptr<const MappedFile> file_;
   bool is_swapped_;
 };

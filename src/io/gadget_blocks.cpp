@@ -15,8 +15,8 @@ using Notes = std::vector<std::string>;
 constexpr std::uint64_t description_bytes = 40;  // label, type name, dimensions, six flags
 
 std::uint32_t load_uint32(const GadgetBinaryFile& file, std::uint64_t offset) {
-  const StoredValues value = {file.file, offset, 1, 1, 0, ValueKind::uint32, file.is_swapped};
-  return static_cast<std::uint32_t>(value_at(value, 0, 0));
+  return static_cast<std::uint32_t>(
+      number_at(file.file, offset, ValueKind::uint32, file.is_swapped));
 }
 
 std::string text_at(const GadgetBinaryFile& file, std::uint64_t offset, std::size_t length) {

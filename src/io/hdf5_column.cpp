@@ -11,10 +11,6 @@
 namespace splotchcl {
 namespace {
 
-bool is_zero(const Vec3& v) {
-  return v.a[0] == 0 && v.a[1] == 0 && v.a[2] == 0;
-}
-
 std::size_t number_of_values(const Hdf5Values& part) {
   return part.dataset.rows() * part.dataset.values_per_row();
 }
@@ -68,7 +64,7 @@ bool is_double(const Hdf5Values& part) {
 }  // namespace
 
 Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin, double factor) {
-  const bool is_as_stored = is_zero(origin) && factor == 1;
+  const bool is_as_stored = origin == Vec3{{0, 0, 0}} && factor == 1;
   std::size_t size = 0;
   // Before any memory is claimed, all of it must be there.
   for (const Hdf5Values& part : parts) {

@@ -44,9 +44,7 @@ std::uint64_t stride_of(const StoredValues& part) {
   return part.stride != 0 ? part.stride : part.packed_bytes_per_particle();
 }
 
-bool is_zero(const Vec3& v) {
-  return v.a[0] == 0 && v.a[1] == 0 && v.a[2] == 0;
-}
+constexpr Vec3 zero = {{0, 0, 0}};
 
 bool can_point_into_file(const StoredValues& part) {
   const std::byte* const first = part.file->data() + part.offset;
@@ -57,7 +55,7 @@ bool can_point_into_file(const StoredValues& part) {
 
 template <typename T>
 float* convert_as(const StoredValues& part, const Vec3& origin, float* out) {
-  const bool has_origin = part.values_per_particle == 3 && !is_zero(origin);
+  const bool has_origin = part.values_per_particle == 3 && origin != zero;
   const std::byte* particle = part.file->data() + part.offset;
   const std::uint64_t stride = stride_of(part);
   for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride) {
@@ -90,6 +88,11 @@ double value_at(const StoredValues& values, std::uint64_t particle, int axis) {
   });
 }
 
+double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t offset,
+                 ValueKind kind, bool is_swapped) {
+  return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped}, 0, 0);
+}
+
 Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origin) {
   std::vector<StoredValues> parts;
   std::copy_if(all_parts.begin(), all_parts.end(), std::back_inserter(parts),
@@ -98,7 +101,7 @@ Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origi
   for (const StoredValues& part : parts) {
     size += part.particles * static_cast<std::size_t>(part.values_per_particle);
   }
-  if (parts.size() == 1 && can_point_into_file(parts[0]) && is_zero(origin)) {
+  if (parts.size() == 1 && can_point_into_file(parts[0]) && origin == zero) {
     const std::byte* const first = parts[0].file->data() + parts[0].offset;
     return Column(parts[0].file, reinterpret_cast<const float*>(first), size);
   }

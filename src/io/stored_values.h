@@ -38,6 +38,10 @@ Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin = 
 // One value in double; `particle` and `axis` must exist.
 double value_at(const StoredValues& values, std::uint64_t particle, int axis);
 
+// The number at a place in a file, in double; it must lie inside.
+double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t offset,
+                 ValueKind kind, bool is_swapped);
+
 // Whether this machine stores the lowest byte first.
 bool is_little_endian_host();
 

@@ -75,15 +75,12 @@ struct TipsyHeader {
 // A header in one endianness; none when its numbers do not agree with each other.
 std::optional<TipsyHeader> parse_header(const std::shared_ptr<const MappedFile>& file,
                                         bool is_swapped) {
-  const auto number = [&](std::uint64_t offset, ValueKind kind) {
-    return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped}, 0, 0);
-  };
   const auto count = [&](std::uint64_t offset) {
-    return static_cast<std::uint64_t>(number(offset, ValueKind::uint32));
+    return static_cast<std::uint64_t>(number_at(file, offset, ValueKind::uint32, is_swapped));
   };
   TipsyHeader header;
   header.is_swapped = is_swapped;
-  header.time = number(0, ValueKind::float64);
+  header.time = number_at(file, 0, ValueKind::float64, is_swapped);
   header.particles = count(8);
   const std::uint64_t dimensions = count(12);
   for (std::size_t i = 0; i < 3; ++i)
