@@ -49,3 +49,12 @@ inline int2 pixel_range(float centre, float radius, int size) {
   const int2 truncated = (int2)((int)first, (int)last);
   return (int2)(truncated.x + ((float)truncated.x < first), truncated.y - ((float)truncated.y > last));
 }
+
+// The radius of a cut disc: the drawn one, less the half pixel of pixel means.
+inline float cut_radius(float radius) {
+#ifdef SAMPLING_MEAN
+  return radius - 0.5f;
+#else
+  return radius;
+#endif
+}

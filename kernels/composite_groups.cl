@@ -22,7 +22,7 @@ inline float pixel_shape(float dx, float dy, const TileSplat splat, const Compos
   const float sigma = splat.sigma;
   const float inverse = 1.44269504f / (sigma * sigma);
 #ifdef KERNEL_CUT
-  const float cut = p.kernel_cut * sigma;
+  const float cut = cut_radius(splat.radius);
   int inside = dx * dx + dy * dy <= cut * cut;
 #ifdef SAMPLING_MEAN
   inside |= fabs(dx) <= 0.5f && fabs(dy) <= 0.5f;

@@ -113,7 +113,7 @@ inline void update_window(float* tile, Window window, float8 across, const float
 #ifdef KERNEL_CUT
   const float8 dx = (float)window.x + 0.5f - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float dy = (float)window.y + 0.5f - splat->y;
-  const float cut2 = p.kernel_cut * p.kernel_cut * splat->sigma * splat->sigma;
+  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
 #endif
   float* pixel = tile + window.y * ROW + window.x;
 #ifdef LIGHT_ORDERED

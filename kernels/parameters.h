@@ -19,7 +19,7 @@
 // A field's way to [0, 1] (frame.h, ScalarMap).
 struct FieldScaling {
   int scaling;
-  float minimum;
+  float minimum, minimum_low;  // a pair: ranges may be far narrower than their values
   float inverse_range;  // 0 where the range is empty
 };
 
@@ -29,6 +29,9 @@ struct ProjectParameters {
   float position_high[3];
   float position_low[3];
   float forward[3];
+  float look_at_high[3];
+  float look_at_low[3];
+  float far_away;  // z from which x and y are measured from the look-at point
   float right[3];
   float down[3];
   float pixels_per_length;  // perspective: at z = 1
@@ -48,7 +51,7 @@ struct ProjectParameters {
 
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
-  float weight_scale;
+  float weight_scale;  // for masses its square root: it may be too small for a float
   float peak_colour;   // the largest of E and A per unit weight
 
   float least_extent;  // sigmas drawn of a faint splat
@@ -110,7 +113,6 @@ struct BinParameters {
   unsigned int tile_count;
   unsigned int grid_count;
   unsigned int segment_length;
-  float kernel_cut;
   float mean_sigma;
   float widening;
 };
@@ -130,7 +132,6 @@ struct BinTotals {
 
 struct CompositeParameters {
   unsigned int grid_count;
-  float kernel_cut;   // in sigma
   float mean_sigma;
   float phi_short;    // optical depth up to which two terms of phi's series serve
   float phi_series;   // and four

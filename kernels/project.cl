@@ -58,11 +58,11 @@ inline Offset load_positions(__global const float* positions, uint i, uint end) 
   return p;
 }
 
-inline Offset camera_offset(Offset position, const ProjectParameters p) {
+inline Offset offset_from(Offset position, const float* high, const float* low) {
   Offset d;
-  d.x = (position.x - p.position_high[0]) - p.position_low[0];
-  d.y = (position.y - p.position_high[1]) - p.position_low[1];
-  d.z = (position.z - p.position_high[2]) - p.position_low[2];
+  d.x = (position.x - high[0]) - low[0];
+  d.y = (position.y - high[1]) - low[1];
+  d.z = (position.z - high[2]) - low[2];
   return d;
 }
 
@@ -79,14 +79,16 @@ inline VALUE normalised(VALUE value, const FieldScaling map) {
                     value > 0.0f);
   }
   if (map.scaling == SCALING_ASINH) scaled = asinh(value);
-  const VALUE place = clamp((scaled - map.minimum) * map.inverse_range, (VALUE)(0.0f), (VALUE)(1.0f));
+  const VALUE place = clamp(((scaled - map.minimum) - map.minimum_low) * map.inverse_range, (VALUE)(0.0f), (VALUE)(1.0f));
   return choose((VALUE)(0.0f), place, is_finite(scaled));
 }
 
 // w (scene.h, WeightModel); sigma_scaled is sigma in world units times length_scale.
 inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
   const VALUE sigma_scaled = p.kernel_width * h * p.length_scale;
-  if (p.weight_model == WEIGHT_MASS) return raw * p.weight_scale / sigma_scaled / sigma_scaled;
+  if (p.weight_model == WEIGHT_MASS) {
+    return raw * p.weight_scale / sigma_scaled * p.weight_scale / sigma_scaled;
+  }
   if (p.weight_model == WEIGHT_DENSITY) return raw * p.weight_scale * sigma_scaled;
   return p.weight_scale / (h * p.length_scale);
 }
@@ -125,7 +127,8 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE raw_color = load_values(colors, i, end, p.color_stride);
   const VALUE raw_intensity = load_values(intensities, i, end, p.intensity_stride);
   const VALUE raw_sort = load_values(sort_fields, i, end, p.sort_stride);
-  const Offset d = camera_offset(load_positions(positions, i, end), p);
+  const Offset position = load_positions(positions, i, end);
+  const Offset d = offset_from(position, p.position_high, p.position_low);
   const VALUE z = chain_dot(d, p.forward);
   s.sort_value = p.sort_by_field ? raw_sort : z;
 
@@ -140,14 +143,21 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const float sigma_floor = p.kernel_width * p.min_radius;
   const VALUE sigma =
       p.min_radius > 0.0f ? sqrt(sigma_true * sigma_true + sigma_floor * sigma_floor) : sigma_true;
-  const VALUE x = p.centre_x + chain_dot(d, p.right) * scale;
-  const VALUE y = p.centre_y + chain_dot(d, p.down) * scale;
+  // Across the view the look-at point serves as well as the camera. Seen from afar it is
+  // much closer to the particle, and less is lost in the difference.
+  const Offset l = offset_from(position, p.look_at_high, p.look_at_low);
+  const INTEGER far_away = z > p.far_away;
+  const VALUE across = choose(chain_dot(d, p.right), chain_dot(l, p.right), far_away);
+  const VALUE along = choose(chain_dot(d, p.down), chain_dot(l, p.down), far_away);
+  const VALUE x = p.centre_x + across * scale;
+  const VALUE y = p.centre_y + along * scale;
 
   // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
   // amplitude that single precision can hold against the smallest tolerance.
   const VALUE far_reach = 7.0f * sigma + 2.0f;
   const float width = (float)grids[0].width, height = (float)grids[0].height;
-  s.visible = exists & good & z >= max(p.near_factor * h, (VALUE)(p.near_limit)) &
+  s.visible = exists & good & z >= (p.near_factor > 0.0f ? max(p.near_factor * h, (VALUE)(p.near_limit))
+                                       : (VALUE)(p.near_limit)) &
               z <= p.far_limit & x + far_reach >= 0.0f & x - far_reach <= width &
               y + far_reach >= 0.0f & y - far_reach <= height;
   if (!ANY(s.visible)) return s;
@@ -171,7 +181,11 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.grid = select(s.grid, (INTEGER)(0), peak > p.coarse_peak);
   const VALUE shrink = AS_VALUE((127 - s.grid) << 23);
   s.sigma = widened * shrink;
-  s.radius = extent * s.sigma + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean);
+  // A pixel mean sees a splat that reaches the pixel's edge. A cut disc has the radius of
+  // the model's sigma, not of the widened one, and means always keep the pixel at its centre.
+  s.radius = p.kernel_cut > 0.0f
+                 ? p.kernel_cut * sigma * shrink + (p.widening > 0.0f ? 0.5f : 0.0f)
+                 : extent * s.sigma + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean);
   const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
   s.x = x * shrink + guard;
   s.y = y * shrink + guard;

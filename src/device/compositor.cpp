@@ -5,7 +5,6 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
                        const Plan& plan, const compute::buffer& grids, bool rows)
     : device_(device), layout_(layout), grids_(grids), rows_(rows) {
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
-  parameters_.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   parameters_.mean_sigma = layout.mean_sigma;
   parameters_.phi_short = layout.phi_short;
   parameters_.phi_series = layout.phi_series;

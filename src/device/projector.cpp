@@ -44,6 +44,7 @@ kernel::FieldScaling scaling_of(const ScalarMap& map) {
                     : map.scaling == Scaling::asinh ? SCALING_ASINH
                                                     : SCALING_LINEAR;
   scaling.minimum = static_cast<float>(map.minimum);
+  scaling.minimum_low = static_cast<float>(map.minimum - static_cast<double>(scaling.minimum));
   const double range = map.maximum - map.minimum;
   scaling.inverse_range = range > 0 ? static_cast<float>(1 / range) : 0.0f;
   return scaling;
@@ -61,6 +62,22 @@ kernel::FieldScaling intensity_scaling(const DrawnComponent& component) {
 void copy(const Vec3& from, float (&to)[3]) {
   for (int axis = 0; axis < 3; ++axis)
     to[axis] = static_cast<float>(from.a[axis]);
+}
+
+// A float is at or above the limit exactly when it is at or above this one.
+float smallest_float_from(double limit) {
+  const auto nearest = static_cast<float>(limit);
+  return static_cast<double>(nearest) < limit
+             ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+             : nearest;
+}
+
+// The same axes with the look-at point for a position.
+CameraFrame at_look_at(CameraFrame camera) {
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.position.a[axis] += camera.look_at_distance * camera.forward.a[axis];
+  }
+  return camera;
 }
 
 std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
@@ -81,6 +98,11 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   std::copy(std::begin(chain.position_high), std::end(chain.position_high), p.position_high);
   std::copy(std::begin(chain.position_low), std::end(chain.position_low), p.position_low);
   std::copy(std::begin(chain.forward), std::end(chain.forward), p.forward);
+  const DepthChain look_at =
+      make_depth_chain(at_look_at(frame_.camera), component.particles.origin);
+  std::copy(std::begin(look_at.position_high), std::end(look_at.position_high), p.look_at_high);
+  std::copy(std::begin(look_at.position_low), std::end(look_at.position_low), p.look_at_low);
+  p.far_away = static_cast<float>(0.5 * frame_.camera.look_at_distance);
   copy(frame_.camera.right, p.right);
   copy(frame_.camera.down, p.down);
   p.perspective = frame_.projection == Projection::perspective;
@@ -94,12 +116,12 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.near_limit = lowest;
   p.near_factor = 0;
   if (frame_.near_limit) {
-    p.near_limit = static_cast<float>(*frame_.near_limit);
+    p.near_limit = smallest_float_from(*frame_.near_limit);
     if (p.perspective) p.near_limit = std::max(p.near_limit, lowest);
   } else if (p.perspective) {
     p.near_factor = 0.1f;
   }
-  p.far_limit = frame_.far_limit ? static_cast<float>(*frame_.far_limit)
+  p.far_limit = frame_.far_limit ? -smallest_float_from(-*frame_.far_limit)
                                  : std::numeric_limits<float>::infinity();
 
   p.size_factor = static_cast<float>(component.size_factor);
@@ -117,7 +139,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
     case WeightModel::mass:
       p.weight_model = WEIGHT_MASS;
       p.weight_scale =
-          static_cast<float>(length_scale * length_scale / (pi * component.reference_column));
+          static_cast<float>(length_scale / std::sqrt(pi * component.reference_column));
       break;
     case WeightModel::density:
       p.weight_model = WEIGHT_DENSITY;
