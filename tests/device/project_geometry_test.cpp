@@ -1,0 +1,247 @@
+// Centres, widths, weights and colours of the stage `project` against the oracle's, within
+// bounds that follow from the roundings of its operations in single precision.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr double unit = 0x1p-24;  // the relative error of one rounding
+
+// Clouds in a ball around `centre`, of widths from far below to far above a pixel when the
+// ball fills a picture of some hundred pixels.
+DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::uint64_t seed) {
+  constexpr std::size_t count = 2003;
+  Random random(seed);
+  std::vector<float> positions, sizes, weights;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = centre.a[axis] + radius * random.uniform(-0.55, 0.55);
+      positions.push_back(static_cast<float>(place - origin.a[axis]));
+    }
+    const double sigma = radius * random.logarithmic(1e-5, 0.3);
+    sizes.push_back(static_cast<float>(sigma));
+    weights.push_back(static_cast<float>(random.logarithmic(0.1, 1) * pi * sigma * sigma));
+  }
+  DrawnComponent component;
+  component.particles.count = count;
+  component.particles.origin = origin;
+  component.particles.position = Column::owning(positions);
+  component.particles.smoothing_length = Column::owning(sizes);
+  component.particles.weight = Column::owning(weights);
+  return component;
+}
+
+// The camera stands where a ball around the centre fills its field of view.
+Frame seen(const Vec3& centre, double radius, double field_of_view, const Vec3& origin,
+           std::uint64_t seed) {
+  Camera camera;
+  camera.look_at = centre;
+  const double distance = 1.2 * radius / std::sin(0.5 * field_of_view * pi / 180);
+  camera.position = centre + Vec3{{0.48, -0.6, 0.64}} * distance;
+  camera.sky = {{0.3, 1, 0.2}};
+  camera.field_of_view_degrees = field_of_view;
+  Frame frame = frame_of(1000, 900, {ball(centre, radius, origin, seed)});
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.projection = Projection::perspective;
+  return with_identities(frame);
+}
+
+// A splat as the oracle projects it, and what its rounding errors follow from.
+struct Expected {
+  reference::Splat splat;
+  double x, y;        // relative to the crop
+  double scale;       // pixels per length at the splat's depth
+  double distance;    // from the camera
+  double slant;       // distance / z: 0 in orthographic projection
+  double coordinate;  // the largest of the numbers that the camera's place is subtracted from
+};
+
+Expected expected_of(const reference::Splat& splat, const Frame& frame) {
+  const DrawnComponent& component = frame.components.front();
+  Expected expected{splat, splat.x - frame.crop.x, splat.y - frame.crop.y, 0, 0, 0, 0};
+  double squared = 0, z = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from_origin = frame.camera.position.a[axis] - component.particles.origin.a[axis];
+    const double d =
+        static_cast<double>(component.particles.position[3 * splat.particle + axis]) - from_origin;
+    squared += d * d;
+    z += d * frame.camera.forward.a[axis];
+    expected.coordinate = std::max(expected.coordinate, std::abs(from_origin));
+  }
+  expected.distance = std::sqrt(squared);
+  const bool perspective = frame.projection == Projection::perspective;
+  expected.scale = perspective ? frame.camera.focal_pixels / z : frame.camera.pixels_per_length;
+  expected.slant = perspective ? expected.distance / z : 0;
+  return expected;
+}
+
+// Roundings of x = centre + dot(d, right) * scale with d = (p - high) - low:
+//   d        two, and the low part's own, 2^-24 of what high leaves: 2^-48 of the coordinate
+//   dot      of the axis, the product and two sums: with those of d six, of |d| at most
+//   scale    z errs like dot, by six of |d| / z; focal length 1, division 5 (2.5 ulp)
+//   x        the product 1, the sum and the centre 1 each
+// and one each for adding the guard of a coarse grid and for taking the crop off the centre.
+double centre_bound(const Expected& e, double x, double centre, double guard) {
+  const double offset = x - centre;
+  const double lost_digits = 2 * std::sqrt(3.0) * unit * e.coordinate;
+  return unit * (6 * e.scale * (e.distance + lost_digits) + (6 * e.slant + 7) * std::abs(offset) +
+                 2 * (std::abs(x) + std::abs(centre)) + std::abs(x) + guard);
+}
+
+// Roundings of sigma: those of the scale, of h's and kernel's factors and products (5), and
+// for the widening a square, a sum and a square root of 3 ulp (10).
+double width_bound(const Expected& e) {
+  return unit * (6 * e.slant + 6 + 5 + 10);
+}
+
+// Widths of splats as they are stored: widened for those that take the centre's value.
+double stored_sigma(double sigma, const FrameLayout& layout) {
+  const bool by_mean = sigma < static_cast<double>(layout.mean_sigma);
+  return by_mean ? sigma : std::sqrt(sigma * sigma + static_cast<double>(layout.widening));
+}
+
+class ProjectGeometry : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  // Calls check(expected, splat, grid, 2^level) for every splat.
+  template <class Check>
+  void for_each_splat(const Frame& frame, Check check) const {
+    Stages stages(device(), frame, GetParam());
+    stages.project();
+    const std::vector<kernel::Splat> splats = stages.splats();
+    const std::vector<reference::Splat> oracle = reference::project(frame);
+    ASSERT_EQ(splats.size(), oracle.size()) << "every particle should be in view";
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      ASSERT_EQ(identity_of(splats[i]), oracle[i].particle);
+      const std::uint32_t level = splats[i].component_and_grid >> 16;
+      check(expected_of(oracle[i], frame), splats[i], stages.layout(), level);
+      if (HasFatalFailure()) return;
+    }
+  }
+
+  // The largest distance of a centre from the oracle's, in pixels.
+  double expect_centres_and_widths(const Frame& frame) const {
+    double farthest = 0;
+    for_each_splat(frame, [&](const Expected& e, const kernel::Splat& splat,
+                              const FrameLayout& layout, std::uint32_t level) {
+      const double pixel = std::ldexp(1.0, static_cast<int>(level));
+      const double guard = pixel * layout.grids[level].guard;
+      const double x = pixel * static_cast<double>(splat.x) - guard;
+      const double y = pixel * static_cast<double>(splat.y) - guard;
+      const double error = std::max(std::abs(x - e.x), std::abs(y - e.y));
+      farthest = std::max(farthest, error);
+      ASSERT_LE(std::abs(x - e.x),
+                centre_bound(e, e.x, frame.camera.centre_x - frame.crop.x, guard));
+      ASSERT_LE(std::abs(y - e.y),
+                centre_bound(e, e.y, frame.camera.centre_y - frame.crop.y, guard));
+      const double sigma = pixel * static_cast<double>(splat.sigma);
+      const double expected = stored_sigma(e.splat.sigma, layout);
+      // Either form is right where the width is at the limit between them.
+      const double limit = static_cast<double>(layout.mean_sigma);
+      if (std::abs(e.splat.sigma - limit) < 1e-3 * limit) return;
+      ASSERT_LE(std::abs(sigma - expected), width_bound(e) * expected);
+    });
+    RecordProperty("farthest_centre", std::to_string(farthest));
+    return farthest;
+  }
+};
+
+// In pixels, for pictures of 1000 pixels: the bound above at 45 degrees is 6 roundings of
+// 1207 * 1.13 pixels for the offset, 14 of 500 for the scale and 5 of 1000.
+constexpr double ordinary_bound = (6 * 1207 * 1.13 + 14 * 500 + 5 * 1000) * unit;
+
+TEST_P(ProjectGeometry, CentresLieWithinAThousandthOfAPixel) {
+  static_assert(ordinary_bound < 1.3e-3, "what the next line promises");
+  EXPECT_LE(expect_centres_and_widths(seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 1)),
+            ordinary_bound);
+}
+
+TEST_P(ProjectGeometry, CentresLieAsCloseInTheOrderedPlan) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 2);
+  frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
+  EXPECT_LE(expect_centres_and_widths(frame), ordinary_bound);
+}
+
+TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsForWideAndNarrowViews) {
+  for (const double field_of_view : {1.0, 10.0, 100.0, 140.0})
+    expect_centres_and_widths(seen({{12, -34, 56}}, 10, field_of_view, {{0, 0, 0}}, 3));
+}
+
+TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsInOrthographicProjection) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 4);
+  frame.projection = Projection::orthographic;
+  expect_centres_and_widths(frame);
+}
+
+TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsFarFromTheOriginOfCoordinates) {
+  const Vec3 far = {{1e8, -2e8, 3e8}};
+  EXPECT_LE(expect_centres_and_widths(seen(far, 10, 45, far, 5)), ordinary_bound);
+  // Stored positions in steps of up to 32 units, exact as far as they go.
+  EXPECT_LE(expect_centres_and_widths(seen(far, 1e4, 45, {{0, 0, 0}}, 6)), ordinary_bound);
+}
+
+TEST_P(ProjectGeometry, CentresAreRelativeToTheCrop) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 7);
+  // A margin is left out; every cloud is wide enough to reach into the crop.
+  for (DrawnComponent& component : frame.components) {
+    component.particles.smoothing_length = Column::uniform(3);
+    component.particles.weight = Column::uniform(1);
+  }
+  frame.crop = {300, 250, 400, 300};
+  EXPECT_LE(expect_centres_and_widths(frame), ordinary_bound);
+}
+
+TEST_P(ProjectGeometry, WidthsFollowTheSmallestRadius) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 8);
+  frame.kernel.min_radius_pixels = 1.5;
+  expect_centres_and_widths(frame);
+}
+
+// Roundings of w: sigma in world units 3, squared by two divisions of 5 each; the scale of
+// weights 2; for the narrowing the square of sigma / sigma', each within its bound; the
+// normalised intensity 4, of a value of at least 0.1 of its range; products 4.
+double weight_bound(const Expected& e) {
+  return unit * (2 * 3 + 2 * 5 + 2 + 2 * 5 + 4 / 0.1 + 4) + 4 * width_bound(e);
+}
+
+TEST_P(ProjectGeometry, WeightsAreTheOraclesInEveryModel) {
+  for (const WeightModel model : {WeightModel::mass, WeightModel::density, WeightModel::constant}) {
+    Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 9);
+    DrawnComponent& component = frame.components.front();
+    component.weight = model;
+    component.reference_column = 3.7;
+    component.size_factor = 1.3;
+    frame.kernel.min_radius_pixels = 0.4;
+    Random random(10);
+    std::vector<float> intensities;
+    for (std::size_t i = 0; i < component.particles.count; ++i)
+      intensities.push_back(static_cast<float>(random.uniform(-1.6, 2)));
+    component.particles.intensity = Column::owning(intensities);
+    component.intensity = {Scaling::linear, -2, 2};
+    // A faint splat may carry the light back that its end leaves out, at most the truncation's
+    // share of it as absorption shows it: share / 0.37.
+    const double restored = make_plan(frame).truncation_share / 0.36;
+    for_each_splat(frame, [&](const Expected& e, const kernel::Splat& splat,
+                              const FrameLayout& layout, std::uint32_t) {
+      const double sigma = e.splat.sigma;
+      const double narrowing = sigma / stored_sigma(sigma, layout);
+      const double limit = static_cast<double>(layout.mean_sigma);
+      if (std::abs(sigma - limit) < 1e-3 * limit) return;
+      const double expected = e.splat.weight * narrowing * narrowing;
+      ASSERT_GE(static_cast<double>(splat.weight), expected * (1 - weight_bound(e)));
+      ASSERT_LE(static_cast<double>(splat.weight), expected * (1 + restored + weight_bound(e)));
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, ProjectGeometry, testing::Bool(), [](const auto& info) {
+  return std::string(info.param ? "eight" : "one");
+});
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,138 @@
+// The sort keys of the stage `project` are the oracle's, bit for bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+// Unsigned integers in the order of floats: DESIGN's rule for keys, with -0 as +0.
+std::uint32_t ordered_bits(float value, bool descending) {
+  if (value == 0) value = 0;
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  const std::uint32_t ordered = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+  return descending ? ~ordered : ordered;
+}
+
+// Positions within `radius` of `centre`, stored relative to `origin`.
+DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::size_t count,
+                    std::uint64_t seed) {
+  Random random(seed);
+  std::vector<float> positions;
+  for (std::size_t i = 0; i < 3 * count; ++i) {
+    const double place = centre.a[i % 3] + radius * random.uniform(-1, 1);
+    positions.push_back(static_cast<float>(place - origin.a[i % 3]));
+  }
+  DrawnComponent component;
+  component.particles.count = count;
+  component.particles.origin = origin;
+  component.particles.position = Column::owning(positions);
+  component.particles.smoothing_length = Column::uniform(static_cast<float>(1e-3 * radius));
+  component.particles.weight = Column::uniform(1);
+  return component;
+}
+
+// A camera `distance` from the centre, in a direction that is no axis, that sees a ball of
+// half that radius in full.
+Frame seen_from(const Vec3& centre, double distance, Projection projection,
+                const std::vector<DrawnComponent>& components) {
+  Camera camera;
+  camera.look_at = centre;
+  camera.position = centre + Vec3{{0.48, -0.6, 0.64}} * distance;
+  camera.sky = {{0.3, 1, 0.2}};
+  camera.field_of_view_degrees = 120;
+  camera.projection = projection;
+  Frame frame = frame_of(200, 200, components);
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.projection = projection;
+  return with_identities(frame);
+}
+
+void expect_keys_of_the_oracle(DeviceContext& device, const Frame& frame, bool lanes) {
+  Stages stages(device, frame, lanes);
+  stages.project();
+  const std::vector<reference::Splat> expected = reference::project(stages.frame());
+  const std::vector<kernel::Splat> splats = stages.splats();
+  const std::vector<std::uint32_t> keys = stages.keys();
+  ASSERT_EQ(splats.size(), expected.size()) << "every particle should be in view";
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(identity_of(splats[i]), expected[i].particle);
+    ASSERT_EQ(keys[i], ordered_bits(expected[i].key, frame.sort.descending))
+        << "particle " << expected[i].particle << ", key " << expected[i].key;
+  }
+}
+
+// Eight particles at a time, and one at a time as on a GPU.
+class ProjectKeys : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  void expect(const Frame& frame) const { expect_keys_of_the_oracle(device(), frame, GetParam()); }
+};
+
+TEST_P(ProjectKeys, EqualTheOraclesInPerspective) {
+  const Vec3 centre = {{120, -340, 560}};
+  const DrawnComponent component = ball(centre, 100, {{0, 0, 0}}, 5003, 1);
+  expect(seen_from(centre, 300, Projection::perspective, {component}));
+}
+
+TEST_P(ProjectKeys, EqualTheOraclesInOrthographicProjection) {
+  const Vec3 centre = {{120, -340, 560}};
+  const DrawnComponent component = ball(centre, 100, {{0, 0, 0}}, 5003, 2);
+  expect(seen_from(centre, 300, Projection::orthographic, {component}));
+}
+
+TEST_P(ProjectKeys, EqualTheOraclesForADistantOrigin) {
+  const Vec3 centre = {{1e8 + 0.1, -2e8, 3e8}};
+  const DrawnComponent component = ball(centre, 1, {{1e8, -2e8, 3e8}}, 5003, 3);
+  expect(seen_from(centre, 3, Projection::perspective, {component}));
+}
+
+TEST_P(ProjectKeys, EqualTheOraclesForDistantPositions) {
+  const Vec3 centre = {{1e8, -2e8, 3e8}};
+  const DrawnComponent component = ball(centre, 1e4, {{0, 0, 0}}, 5003, 4);
+  expect(seen_from(centre, 3e4, Projection::perspective, {component}));
+}
+
+TEST_P(ProjectKeys, EqualTheOraclesForComponentsWithOriginsOfTheirOwn) {
+  const Vec3 centre = {{0.3, 0.61, 0.74}};
+  const DrawnComponent near = ball(centre, 1e-6, centre, 1001, 5);
+  const DrawnComponent box = ball(centre, 1e-6, {{0, 0, 0}}, 1001, 6);
+  expect(seen_from(centre, 3e-6, Projection::perspective, {near, box}));
+}
+
+TEST_P(ProjectKeys, TakeTheBitsOfAField) {
+  using Limits = std::numeric_limits<float>;
+  for (const bool descending : {false, true}) {
+    DrawnComponent component = ball({{0, 0, 0}}, 1, {{0, 0, 0}}, 17, 7);
+    component.particles.sort_field =
+        Column::owning({0.0f, -0.0f, Limits::denorm_min(), -Limits::denorm_min(), 1e-40f, -1e-40f,
+                        Limits::min(), -Limits::min(), Limits::max(), Limits::lowest(), 1.0f, -1.0f,
+                        0.1f, -0.1f, 3e9f, -3e9f, 1.00000012f});
+    Frame frame = seen_from({{0, 0, 0}}, 3, Projection::perspective, {component});
+    frame.sort = {SortOrder::By::field, "key", descending};
+    expect(frame);
+  }
+}
+
+TEST_P(ProjectKeys, AreOneKeyForDepthsOfMinusAndPlusZero) {
+  Frame frame = frame_of(20, 20, {component_of({{1, 2, 0.0}, {3, 4, -0.0}}, two_colors())});
+  frame = with_identities(frame);
+  Stages stages(device(), frame, GetParam());
+  stages.project();
+  const std::vector<std::uint32_t> keys = stages.keys();
+  ASSERT_EQ(keys.size(), 2u);
+  EXPECT_EQ(keys[0], keys[1]);
+  expect(frame);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, ProjectKeys, testing::Bool(), [](const auto& info) {
+  return std::string(info.param ? "eight" : "one");
+});
+
+}  // namespace
+}  // namespace splotchcl::test
