@@ -1,5 +1,9 @@
 #include "device/particle_buffers.h"
 
+#include <string>
+
+#include "splotchcl/error.h"
+
 namespace splotchcl {
 
 compute::buffer ParticleStore::buffer_of(const Column& column, float value_if_absent, int& stride) {
@@ -21,6 +25,13 @@ compute::buffer ParticleStore::buffer_of(const Column& column, float value_if_ab
     return found->second.buffer;
   }
   const std::size_t bytes = column.size() * sizeof(float);
+  const std::uint64_t largest = device_.device.max_memory_alloc_size();
+  if (bytes > largest) {
+    throw DeviceError("device " + device_.device.name() + ": one field of the particles has " +
+                      std::to_string(bytes >> 20) + " MiB, expected at most " +
+                      std::to_string(largest >> 20) +
+                      " MiB: draw a part of the particles, or another device (--device)");
+  }
   Entry entry;
   entry.column = column;
   entry.frame = frame_;
