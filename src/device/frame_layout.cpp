@@ -157,8 +157,9 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     layout.refinement = choose_refinement(plan.coarse_share / picture_error);
     layout.coarse_peak =
         static_cast<float>(brightest_coarse_peak(frame, plan.coarse_share / picture_error));
+    // Compositing knows pixel means by their width alone.
     layout.coarse_sigma =
-        std::max(static_cast<float>(layout.refinement.smallest_sigma), 0.5f * layout.mean_sigma);
+        std::max(static_cast<float>(layout.refinement.smallest_sigma), layout.mean_sigma);
   }
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));

@@ -43,7 +43,9 @@ class Agreement : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(Agreement, HoldsForCloudsOfAllSizes) { expect_within_tolerance(frame_for({})); }
+TEST_P(Agreement, HoldsForCloudsOfAllSizes) {
+  expect_within_tolerance(frame_for({}));
+}
 
 TEST_P(Agreement, HoldsForGrainsBelowAPixel) {
   CloudSetup setup;
@@ -83,6 +85,19 @@ TEST_P(Agreement, HoldsForCentreSamplesOfAnUncutKernel) {
   Frame frame = frame_for(setup);
   frame.kernel.sampling = Sampling::center;
   expect_within_tolerance(frame);
+}
+
+TEST_P(Agreement, HoldsForLooseAndTightTolerances) {
+  for (const double tolerance : {1e-2, 1e-4, 1e-5}) {
+    CloudSetup setup;
+    setup.count = 2000;
+    setup.sigma_low = 0.5;
+    setup.column_low = 1e-3;
+    setup.column_high = 1e-1;
+    Frame frame = frame_for(setup);
+    frame.tolerance = tolerance;
+    expect_within_tolerance(frame);
+  }
 }
 
 TEST_P(Agreement, HoldsForPicturesOfAwkwardSizes) {
