@@ -65,9 +65,17 @@ ComponentFields::ComponentFields(const Component& component, const Snapshot& sna
       note(fmt::format("the snapshot has no particles of type {}", type));
     }
   }
-  if (types_.empty()) {
-    throw_missing_type(snapshot.info(), component.types.empty() ? 0 : component.types.front());
-  }
+  if (types_.empty()) refuse_types();
+}
+
+void ComponentFields::refuse_types() const {
+  std::vector<int> present;
+  for (const ParticleTypeInfo& type : snapshot_.info().types)
+    present.push_back(type.type);
+  throw UsageError(
+      fmt::format("{}: {} has no particles of type {}, expected types with particles: {}", label(),
+                  snapshot_.info().files.front().string(), fmt::join(component_.types, " or "),
+                  fmt::join(present, ", ")));
 }
 
 std::size_t ComponentFields::count() const {

@@ -13,7 +13,7 @@ namespace splotchcl {
 // other. Messages name the component and the scene's key that asked for the field.
 class ComponentFields {
  public:
-  // Throws DataError when the snapshot has none of the component's types.
+  // Throws UsageError when the snapshot has none of the component's types.
   ComponentFields(const Component& component, const Snapshot& snapshot,
                   std::vector<std::string>& notes);
 
@@ -40,6 +40,7 @@ class ComponentFields {
   Column smoothing_lengths_of_type(const ParticleTypeInfo& type) const;
   Column find_lengths(const ParticleTypeInfo& type) const;
   std::optional<double> periodic_box(const Column& position) const;
+  [[noreturn]] void refuse_types() const;
   [[noreturn]] void refuse_field(const ParticleTypeInfo& type, const std::string& field,
                                  const std::string& key) const;
 
