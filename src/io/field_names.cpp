@@ -106,22 +106,23 @@ const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name)
   return find([](const FieldInfo& f) { return f.name == "star_smoothing_length"; });
 }
 
-void throw_missing_field(const SnapshotInfo& info, const ParticleTypeInfo& type,
-                         std::string_view name) {
-  std::vector<std::string> names;
-  for (const FieldInfo& field : type.fields)
-    names.push_back(field.name);
-  throw DataError(fmt::format("{}: particles of type {} have no field '{}'; they have {}",
-                              info.files.front().string(), type.type, name,
-                              fmt::join(names, ", ")));
-}
-
-void throw_missing_type(const SnapshotInfo& info, int type) {
+const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type) {
+  if (const ParticleTypeInfo* const found = info.find_type(type)) return *found;
   std::vector<int> types;
   for (const ParticleTypeInfo& present : info.types)
     types.push_back(present.type);
   throw DataError(fmt::format("{}: no particles of type {}; the types with particles are {}",
                               info.files.front().string(), type, fmt::join(types, ", ")));
+}
+
+const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_view name) {
+  const ParticleTypeInfo& particles = require_type(info, type);
+  if (const FieldInfo* const found = find_field(particles, name)) return *found;
+  std::vector<std::string> names;
+  for (const FieldInfo& field : particles.fields)
+    names.push_back(field.name);
+  throw DataError(fmt::format("{}: particles of type {} have no field '{}'; they have {}",
+                              info.files.front().string(), type, name, fmt::join(names, ", ")));
 }
 
 }  // namespace splotchcl

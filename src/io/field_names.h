@@ -20,11 +20,10 @@ void name_fields(ParticleTypeInfo& type);
 // star_smoothing_length where it has no other. Null when there is none.
 const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name);
 
-// Throws the DataError for a field that a type does not have: it lists those it has.
-[[noreturn]] void throw_missing_field(const SnapshotInfo& info, const ParticleTypeInfo& type,
-                                      std::string_view name);
-// Throws the DataError for a type without particles: it lists those with particles.
-[[noreturn]] void throw_missing_type(const SnapshotInfo& info, int type);
+// The type, or a DataError that lists those with particles.
+const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type);
+// The field as find_field has it, or a DataError that lists those the type has.
+const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_view name);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

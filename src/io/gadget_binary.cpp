@@ -5,8 +5,8 @@
 
 #include "io/field_names.h"
 #include "io/gadget_blocks.h"
+#include "io/gadget_members.h"
 #include "io/position_origin.h"
-#include "io/snapshot_files.h"
 #include "io/snapshot_format.h"
 #include "splotchcl/error.h"
 
@@ -17,7 +17,8 @@ struct Member {
   GadgetBinaryFile file;
   std::vector<GadgetBlock> blocks;
 
-  std::uint64_t count(int type) const { return file.header.counts[static_cast<std::size_t>(type)]; }
+  const GadgetHeader& header() const { return file.header; }
+  std::uint64_t count(int type) const { return header().counts[static_cast<std::size_t>(type)]; }
   // The values of one type in a block; nothing when the block is not for the type.
   std::optional<StoredValues> find_values(const std::string& label, int type) const;
 };
@@ -41,12 +42,8 @@ std::optional<StoredValues> Member::find_values(const std::string& label, int ty
 Member read_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
   Member member;
   member.file = read_gadget_records(MappedFile::open(path));
-  std::vector<std::string> own_notes;
-  member.blocks = understand_records(member.file, own_notes);
-  check_header(member.file.header, path);
-  for (std::string& note : own_notes) {  // members tend to have the same ones
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-  }
+  member.blocks = understand_records(member.file, notes);
+  check_header(member.header(), path);
   return member;
 }
 
@@ -70,21 +67,10 @@ class GadgetBinarySnapshot : public Snapshot {
 };
 
 GadgetBinarySnapshot::GadgetBinarySnapshot(const std::filesystem::path& path) {
-  // The named file first: what is wrong with it matters more than what is missing beside it.
-  Member named = read_member(path, info_.notes);
-  const GadgetHeader& header = named.file.header;
-  info_.files = is_complete_alone(header) ? std::vector<std::filesystem::path>{path}
-                                          : find_members(path, header.files);
-  for (const auto& file : info_.files) {
-    members_.push_back(file == path ? std::move(named) : read_member(file, info_.notes));
-  }
-  std::vector<GadgetHeader> headers;
-  for (const Member& member : members_)
-    headers.push_back(member.file.header);
+  members_ = read_members(path, read_member, info_);
   const GadgetBinaryFile& first = members_.front().file;
   info_.format = fmt::format("Gadget format {}, {}-endian", first.format,
                              first.is_swapped == is_little_endian_host() ? "big" : "little");
-  describe(merge_headers(headers, info_.files, info_.notes), info_);
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);
   choose_origin();
@@ -111,19 +97,7 @@ void GadgetBinarySnapshot::find_fields(ParticleTypeInfo& type) {
     }
     type.fields.push_back({"", block.label, block.layout.values_per_particle, ""});
   }
-  const bool has_mass_block =
-      std::any_of(type.fields.begin(), type.fields.end(),
-                  [](const FieldInfo& field) { return field.file_name == "MASS"; });
-  if (has_mass_block) {
-    type.table_mass.reset();  // particles have masses of their own
-  } else if (type.table_mass) {
-    type.fields.push_back({"", "mass table", 1, ""});
-  } else {
-    info_.notes.push_back(
-        fmt::format("particles of type {} have no masses: neither in the mass table of the header "
-                    "nor in a block",
-                    type.type));
-  }
+  add_table_mass(type, "mass table", info_.notes);
   name_fields(type);
 }
 
@@ -160,15 +134,13 @@ void GadgetBinarySnapshot::choose_origin() {
 }
 
 Column GadgetBinarySnapshot::read(int type, const std::string& name) const {
-  const ParticleTypeInfo* const particles = info_.find_type(type);
-  if (particles == nullptr) throw_missing_type(info_, type);
-  const FieldInfo* const field = find_field(*particles, name);
-  if (field == nullptr) throw_missing_field(info_, *particles, name);
-  if (field->name == "mass" && particles->table_mass) {
-    return Column::uniform(static_cast<float>(*particles->table_mass));
+  const FieldInfo& field = require_field(info_, type, name);
+  const std::optional<double> table_mass = require_type(info_, type).table_mass;
+  if (field.name == "mass" && table_mass) {
+    return Column::uniform(static_cast<float>(*table_mass));
   }
-  const Vec3 origin = field->name == "position" ? origin_ : Vec3{{0, 0, 0}};
-  return make_column(find_parts(type, field->file_name), origin);
+  const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
+  return make_column(find_parts(type, field.file_name), origin);
 }
 
 class GadgetBinaryFormat : public SnapshotFormat {

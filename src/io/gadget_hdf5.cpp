@@ -8,9 +8,9 @@
 #include "io/field_names.h"
 #include "io/gadget_hdf5_fields.h"
 #include "io/gadget_hdf5_header.h"
+#include "io/gadget_members.h"
 #include "io/hdf5_column.h"
 #include "io/hdf5_formats.h"
-#include "io/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -18,9 +18,10 @@ namespace {
 
 struct Member {
   std::filesystem::path path;
-  GadgetHeader header;
+  GadgetHeader own_header;
   std::map<int, std::vector<Hdf5Field>> fields;  // of the types with particles
 
+  const GadgetHeader& header() const { return own_header; }
   const Hdf5Field* find_field(int type, const std::string& label) const {
     const auto of_type = fields.find(type);
     if (of_type == fields.end()) return nullptr;
@@ -34,17 +35,13 @@ Member read_member(const std::filesystem::path& path, std::vector<std::string>& 
   const Hdf5File file(path);
   Member member;
   member.path = path;
-  member.header = read_hdf5_header(file);
-  check_header(member.header, path);
-  check_hdf5_groups(file, member.header);
-  std::vector<std::string> own_notes;
-  for (std::size_t type = 0; type < member.header.counts.size(); ++type) {
-    if (member.header.counts[type] == 0) continue;
+  member.own_header = read_hdf5_header(file);
+  check_header(member.header(), path);
+  check_hdf5_groups(file, member.header());
+  for (std::size_t type = 0; type < member.header().counts.size(); ++type) {
+    if (member.header().counts[type] == 0) continue;
     const auto number = static_cast<int>(type);
-    member.fields[number] = find_hdf5_fields(file, member.header, number, own_notes);
-  }
-  for (std::string& note : own_notes) {  // members tend to have the same ones
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    member.fields[number] = find_hdf5_fields(file, member.header(), number, notes);
   }
   return member;
 }
@@ -60,7 +57,6 @@ class GadgetHdf5Snapshot : public Snapshot {
  private:
   void read_dialect();
   void find_fields(ParticleTypeInfo& type);
-  void add_masses(ParticleTypeInfo& type);
   bool is_in_every_member(int type, const Hdf5Field& field) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
   void choose_origin();
@@ -72,17 +68,7 @@ class GadgetHdf5Snapshot : public Snapshot {
 };
 
 GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
-  // The named file first: what is wrong with it matters more than what is missing beside it.
-  Member named = read_member(path, info_.notes);
-  info_.files = is_complete_alone(named.header) ? std::vector<std::filesystem::path>{path}
-                                                : find_members(path, named.header.files);
-  for (const auto& file : info_.files) {
-    members_.push_back(file == path ? std::move(named) : read_member(file, info_.notes));
-  }
-  std::vector<GadgetHeader> headers;
-  for (const Member& member : members_)
-    headers.push_back(member.header);
-  describe(merge_headers(headers, info_.files, info_.notes), info_);
+  members_ = read_members(path, read_member, info_);
   read_dialect();
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);
@@ -121,23 +107,8 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
     const std::string unit = unit_name(read_unit_powers(file, field.dataset), units);
     type.fields.push_back({"", field.label, field.values_per_particle, unit});
   }
-  add_masses(type);
+  add_table_mass(type, "MassTable", info_.notes);
   name_fields(type);
-}
-
-void GadgetHdf5Snapshot::add_masses(ParticleTypeInfo& type) {
-  const bool has_masses = std::any_of(
-      type.fields.begin(), type.fields.end(),
-      [](const FieldInfo& field) { return canonical_field_name(field.file_name) == "mass"; });
-  if (has_masses) {
-    type.table_mass.reset();  // particles have masses of their own
-  } else if (type.table_mass) {
-    type.fields.push_back({"", "MassTable", 1, ""});
-  } else {
-    info_.notes.push_back(fmt::format(
-        "particles of type {} have no masses: neither in Header/MassTable nor as a dataset",
-        type.type));
-  }
 }
 
 std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {
@@ -161,16 +132,14 @@ void GadgetHdf5Snapshot::choose_origin() {
 }
 
 Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
-  const ParticleTypeInfo* const particles = info_.find_type(type);
-  if (particles == nullptr) throw_missing_type(info_, type);
-  const FieldInfo* const field = find_field(*particles, name);
-  if (field == nullptr) throw_missing_field(info_, *particles, name);
-  if (field->name == "mass" && particles->table_mass) {
-    return Column::uniform(static_cast<float>(*particles->table_mass));
+  const FieldInfo& field = require_field(info_, type, name);
+  const std::optional<double> table_mass = require_type(info_, type).table_mass;
+  if (field.name == "mass" && table_mass) {
+    return Column::uniform(static_cast<float>(*table_mass));
   }
-  const auto parts = find_parts(type, field->file_name);
-  if (field->name == "position") return read_column(parts, origin_);
-  if (field->name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
+  const auto parts = find_parts(type, field.file_name);
+  if (field.name == "position") return read_column(parts, origin_);
+  if (field.name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
   return read_column(parts);
 }
 

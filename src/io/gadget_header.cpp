@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/field_names.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -86,6 +87,21 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
       "the header's total number of particles ({}) is not the number in the file ({}); ignored",
       sum(merged.total_counts), merged.particles()));
   return merged;
+}
+
+void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::string>& notes) {
+  const bool has_own_masses = std::any_of(
+      type.fields.begin(), type.fields.end(),
+      [](const FieldInfo& field) { return canonical_field_name(field.file_name) == "mass"; });
+  if (has_own_masses) {
+    type.table_mass.reset();
+  } else if (type.table_mass) {
+    type.fields.push_back({"", label, 1, ""});
+  } else {
+    notes.push_back(fmt::format(
+        "particles of type {} have no masses: neither their own nor in the header's mass table",
+        type.type));
+  }
 }
 
 void describe(const GadgetHeader& header, SnapshotInfo& info) {

@@ -45,6 +45,10 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
                            const std::vector<std::filesystem::path>& paths,
                            std::vector<std::string>& notes);
 
+// Adds the field `label` to a type whose masses are in the header's table, and notes where
+// there are none at all. Masses of the particles' own go before the table.
+void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::string>& notes);
+
 // Fills what follows from the header: time, redshift, box, h, types with count and mass.
 void describe(const GadgetHeader& header, SnapshotInfo& info);
 

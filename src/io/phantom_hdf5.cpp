@@ -227,18 +227,16 @@ Column PhantomSnapshot::density(int type) const {
 }
 
 Column PhantomSnapshot::read(int type, const std::string& name) const {
-  const ParticleTypeInfo* const particles = info_.find_type(type);
-  if (particles == nullptr) throw_missing_type(info_, type);
-  const FieldInfo* const field = find_field(*particles, name);
-  if (field == nullptr) throw_missing_field(info_, *particles, name);
-  if (field->file_name == mass_label) {
-    if (!particles->table_mass) return Column::owning(types_.at(type).masses);
-    return Column::uniform(static_cast<float>(*particles->table_mass));
+  const FieldInfo& field = require_field(info_, type, name);
+  if (field.file_name == mass_label) {
+    const std::optional<double> table_mass = require_type(info_, type).table_mass;
+    if (!table_mass) return Column::owning(types_.at(type).masses);
+    return Column::uniform(static_cast<float>(*table_mass));
   }
-  if (field->file_name == density_label) return density(type);
-  const Vec3 origin = field->name == "position" ? origin_ : Vec3{{0, 0, 0}};
-  const double factor = field->name == "smoothing_length" ? kernel_radius_ : 1;
-  return read_dataset(type, field->file_name, origin, factor);
+  if (field.file_name == density_label) return density(type);
+  const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
+  const double factor = field.name == "smoothing_length" ? kernel_radius_ : 1;
+  return read_dataset(type, field.file_name, origin, factor);
 }
 
 }  // namespace

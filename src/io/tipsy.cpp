@@ -19,6 +19,7 @@ constexpr std::uint64_t header_bytes = 32;
 struct TipsyField {
   const char* label;
   int values_per_particle;
+  std::uint64_t bytes() const { return 4 * static_cast<unsigned>(values_per_particle); }
 };
 
 struct TipsyType {
@@ -28,7 +29,7 @@ struct TipsyType {
   std::uint64_t bytes_per_particle() const {
     std::uint64_t bytes = 0;
     for (const TipsyField& field : fields)
-      bytes += 4 * static_cast<unsigned>(field.values_per_particle);
+      bytes += field.bytes();
     return bytes;
   }
 };
@@ -114,7 +115,11 @@ class TipsySnapshot : public Snapshot {
 };
 
 TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFile::open(path)) {
-  header_ = find_header(file_).value();
+  const std::optional<TipsyHeader> header = find_header(file_);
+  if (!header) {  // it was one when it was recognised
+    throw DataError(path.string() + ": not a Tipsy file any more; is it being written?");
+  }
+  header_ = *header;
   info_.format = fmt::format("Tipsy, {}-endian",
                              header_.is_swapped == is_little_endian_host() ? "big" : "little");
   info_.files = {path};
@@ -157,26 +162,18 @@ void TipsySnapshot::describe_types() {
 }
 
 Column TipsySnapshot::read(int type, const std::string& name) const {
-  const ParticleTypeInfo* const particles = info_.find_type(type);
-  if (particles == nullptr) throw_missing_type(info_, type);
-  const FieldInfo* const wanted = find_field(*particles, name);
-  if (wanted == nullptr) throw_missing_field(info_, *particles, name);
+  const FieldInfo& field = require_field(info_, type, name);
   std::uint64_t offset = start_;
-  for (std::size_t i = 0; i < header_.counts.size(); ++i) {
-    const TipsyType& layout = tipsy_types()[i];
-    if (layout.type != type) {
-      offset += header_.counts[i] * layout.bytes_per_particle();
-      continue;
-    }
-    for (const TipsyField& field : layout.fields) {
-      if (wanted->file_name == field.label) {
-        return make_column({{file_, offset, header_.counts[i], field.values_per_particle,
-                             layout.bytes_per_particle(), ValueKind::float32, header_.is_swapped}});
-      }
-      offset += 4 * static_cast<unsigned>(field.values_per_particle);
-    }
+  std::size_t i = 0;
+  for (; tipsy_types()[i].type != type; ++i) {
+    offset += header_.counts[i] * tipsy_types()[i].bytes_per_particle();
   }
-  throw_missing_field(info_, *particles, name);
+  const TipsyType& layout = tipsy_types()[i];
+  for (auto before = layout.fields.begin(); before->label != field.file_name; ++before) {
+    offset += before->bytes();
+  }
+  return make_column({{file_, offset, header_.counts[i], field.values_per_particle,
+                       layout.bytes_per_particle(), ValueKind::float32, header_.is_swapped}});
 }
 
 class TipsyFormat : public SnapshotFormat {

@@ -39,12 +39,9 @@ class MemorySnapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   Vec3 position_origin() const override { return origin_; }
   Column read(int type, const std::string& field) const override {
-    const ParticleTypeInfo* const particles = info_.find_type(type);
-    if (particles == nullptr) throw_missing_type(info_, type);
-    const FieldInfo* const found = find_field(*particles, field);
-    if (found == nullptr) throw_missing_field(info_, *particles, field);
-    fields_read_.push_back(found->name);
-    return columns_.at({type, found->name});
+    const std::string& name = require_field(info_, type, field).name;
+    fields_read_.push_back(name);
+    return columns_.at({type, name});
   }
 
  private:
