@@ -50,6 +50,15 @@ double median_of(std::vector<double> values) {
   return 0.5 * (values[middle - 1] + values[middle]);
 }
 
+Cost Runs::mean() const {
+  Cost mean;
+  for (const Cost& cost : costs_) {
+    mean.wall_seconds += cost.wall_seconds / static_cast<double>(costs_.size());
+    mean.cpu_seconds += cost.cpu_seconds / static_cast<double>(costs_.size());
+  }
+  return mean;
+}
+
 Cost Runs::median() const {
   return {median_of(each(costs_, &Cost::wall_seconds)),
           median_of(each(costs_, &Cost::cpu_seconds))};

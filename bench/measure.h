@@ -27,6 +27,7 @@ class Runs {
  public:
   void add(const Cost& cost) { costs_.push_back(cost); }
   std::size_t count() const { return costs_.size(); }
+  Cost mean() const;
   Cost median() const;
   Cost minimum() const;
 

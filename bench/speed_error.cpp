@@ -93,26 +93,6 @@ std::vector<SceneToTime> make_scenes(const Size& size) {
           {"universe", "all", universe_frame(make_universe(universe), size.width, size.height)}};
 }
 
-// The same particles in another light. Where order matters, stars only emit.
-void set_light(Frame& frame, LightPlan light) {
-  for (DrawnComponent& component : frame.components) {
-    switch (light) {
-      case LightPlan::emission:
-        component.absorption = {Absorption::Kind::none, 0};
-        break;
-      case LightPlan::proportional:
-        component.absorption = {Absorption::Kind::as_emission, 0};
-        break;
-      case LightPlan::ordered:
-        component.absorption = {Absorption::Kind::gray, 0.2};
-        if (&component != &frame.components.front()) {
-          component.absorption = {Absorption::Kind::none, 0};
-        }
-        break;
-    }
-  }
-}
-
 std::size_t count_particles(const Frame& frame) {
   std::size_t count = 0;
   for (const DrawnComponent& component : frame.components)

@@ -178,6 +178,25 @@ Frame cloud_frame(int width, int height, std::vector<DrawnComponent> components)
   return frame;
 }
 
+void set_light(Frame& frame, LightPlan light) {
+  for (DrawnComponent& component : frame.components) {
+    switch (light) {
+      case LightPlan::emission:
+        component.absorption = {Absorption::Kind::none, 0};
+        break;
+      case LightPlan::proportional:
+        component.absorption = {Absorption::Kind::as_emission, 0};
+        break;
+      case LightPlan::ordered:
+        component.absorption = {Absorption::Kind::gray, 0.2};
+        if (&component != &frame.components.front()) {
+          component.absorption = {Absorption::Kind::none, 0};
+        }
+        break;
+    }
+  }
+}
+
 Palette three_colors() {
   Palette palette;
   palette.name = "three colours";

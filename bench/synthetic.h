@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 // Seeded particles and frames, the same on every machine and with every standard library.
 namespace splotchcl::bench {
@@ -54,6 +55,10 @@ DrawnComponent make_clouds(const CloudSetup& setup);
 
 // A frame whose pixels are the clouds' length unit.
 Frame cloud_frame(int width, int height, std::vector<DrawnComponent> components);
+
+// The same particles in another light. Where order matters, components after the first only
+// emit.
+void set_light(Frame& frame, LightPlan light);
 
 Palette three_colors();  // blue, green, red
 Palette warm_white();    // one colour

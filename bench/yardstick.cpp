@@ -20,10 +20,6 @@ using Floats = float __attribute__((vector_size(32)));
 using Integers = std::int32_t __attribute__((vector_size(32)));
 constexpr int lanes = 8;
 
-Floats all(float value) {
-  return Floats{} + value;
-}
-
 constexpr Floats ramp = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // exp(x) for -80 < x <= 0: 2^n by the exponent's bits, 2^f on [-1/2, 1/2] by its series.
@@ -67,11 +63,6 @@ Range pixels_within(float centre, float radius, int size) {
           std::min(size - 1, static_cast<int>(std::floor(centre + radius - 0.5f)))};
 }
 
-struct Lists {
-  std::vector<std::uint32_t> starts;  // tile_count + 1
-  std::vector<Disc> discs;            // tile by tile
-};
-
 template <class Visit>
 void for_each_tile(const Disc& disc, Visit visit) {
   const Range columns = pixels_within(disc.x, disc.radius, image_width);
@@ -82,22 +73,6 @@ void for_each_tile(const Disc& disc, Visit visit) {
       visit(static_cast<std::size_t>(y * tiles_x + x));
     }
   }
-}
-
-Lists make_lists(const std::vector<Disc>& discs) {
-  Lists lists;
-  lists.starts.assign(tile_count + 1, 0);
-  for (const Disc& disc : discs) {
-    for_each_tile(disc, [&](std::size_t tile) { ++lists.starts[tile + 1]; });
-  }
-  for (std::size_t t = 0; t < tile_count; ++t)
-    lists.starts[t + 1] += lists.starts[t];
-  std::vector<std::uint32_t> next(lists.starts.begin(), lists.starts.end() - 1);
-  lists.discs.resize(lists.starts.back());
-  for (const Disc& disc : discs) {
-    for_each_tile(disc, [&](std::size_t tile) { lists.discs[next[tile]++] = disc; });
-  }
-  return lists;
 }
 
 std::vector<Disc> random_discs(float mean_radius, int count) {
@@ -117,7 +92,7 @@ std::vector<Disc> random_discs(float mean_radius, int count) {
   return discs;
 }
 
-double count_updates(const std::vector<Disc>& discs) {
+double updates_of(const std::vector<Disc>& discs) {
   double updates = 0;
   for (const Disc& disc : discs) {
     const auto radius = static_cast<double>(disc.radius);
@@ -161,63 +136,97 @@ void add_disc(Tile& tile, const Disc& disc, float tile_x, float tile_y) {
   }
 }
 
-template <bool ordered>
-void draw_tile(const Lists& lists, std::size_t index, std::vector<float>& image) {
-  Tile tile;
-  tile.fill(all(0));
-  const auto corner_x = static_cast<float>(static_cast<int>(index) % tiles_x * tile_width);
-  const auto corner_y = static_cast<float>(static_cast<int>(index) / tiles_x * tile_height);
-  for (std::uint32_t i = lists.starts[index]; i < lists.starts[index + 1]; ++i) {
-    add_disc<ordered>(tile, lists.discs[i], corner_x, corner_y);
+}  // namespace
+
+struct YardstickScene::Lists {
+  std::vector<std::uint32_t> starts;  // tile_count + 1
+  std::vector<Disc> discs;            // tile by tile
+  std::vector<float> image;
+  double updates = 0;
+
+  explicit Lists(const std::vector<Disc>& all_discs);
+
+  template <bool ordered>
+  void draw_tile(std::size_t index) {
+    Tile tile;
+    tile.fill(Floats{});
+    const auto corner_x = static_cast<float>(static_cast<int>(index) % tiles_x * tile_width);
+    const auto corner_y = static_cast<float>(static_cast<int>(index) / tiles_x * tile_height);
+    for (std::uint32_t i = starts[index]; i < starts[index + 1]; ++i)
+      add_disc<ordered>(tile, discs[i], corner_x, corner_y);
+    std::memcpy(image.data() + index * tile.size() * lanes, tile.data(), sizeof(tile));
   }
-  std::memcpy(image.data() + index * tile.size() * lanes, tile.data(), sizeof(tile));
-}
 
-// Threads take the next four tiles until none is left.
-template <bool ordered>
-void draw(const Lists& lists, int thread_count, std::vector<float>& image) {
-  constexpr std::size_t at_once = 4;
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t first; (first = next.fetch_add(at_once)) < tile_count;) {
-      for (std::size_t tile = first; tile < std::min<std::size_t>(first + at_once, tile_count);
-           ++tile) {
-        draw_tile<ordered>(lists, tile, image);
+  // Threads take the next four tiles until none is left.
+  template <bool ordered>
+  void draw(int thread_count) {
+    constexpr std::size_t at_once = 4;
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t first; (first = next.fetch_add(at_once)) < tile_count;) {
+        const std::size_t end = std::min<std::size_t>(first + at_once, tile_count);
+        for (std::size_t tile = first; tile < end; ++tile)
+          draw_tile<ordered>(tile);
       }
-    }
-  };
-  std::vector<std::thread> others;
-  for (int t = 1; t < thread_count; ++t)
-    others.emplace_back(work);
-  work();
-  for (std::thread& other : others)
-    other.join();
+    };
+    std::vector<std::thread> others;
+    for (int t = 1; t < thread_count; ++t)
+      others.emplace_back(work);
+    work();
+    for (std::thread& other : others)
+      other.join();
+  }
+};
+
+YardstickScene::Lists::Lists(const std::vector<Disc>& all_discs)
+    : starts(tile_count + 1, 0), image(3ul * image_width * image_height) {
+  for (const Disc& disc : all_discs)
+    for_each_tile(disc, [&](std::size_t tile) { ++starts[tile + 1]; });
+  for (std::size_t t = 0; t < tile_count; ++t)
+    starts[t + 1] += starts[t];
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  discs.resize(starts.back());
+  for (const Disc& disc : all_discs)
+    for_each_tile(disc, [&](std::size_t tile) { discs[next[tile]++] = disc; });
+  updates = updates_of(all_discs);
 }
 
-template <bool ordered>
-double best_of(int runs, const Lists& lists, int threads, std::vector<float>& image) {
+YardstickScene::YardstickScene(float mean_radius_pixels, int splat_count)
+    : lists_(std::make_unique<Lists>(random_discs(mean_radius_pixels, splat_count))) {}
+YardstickScene::~YardstickScene() = default;
+YardstickScene::YardstickScene(YardstickScene&&) noexcept = default;
+
+double YardstickScene::updates() const {
+  return lists_->updates;
+}
+
+void YardstickScene::draw(bool ordered, int threads) {
+  if (ordered) {
+    lists_->draw<true>(threads);
+  } else {
+    lists_->draw<false>(threads);
+  }
+}
+
+namespace {
+
+double best_ns_per_update(YardstickScene& scene, bool ordered, int threads) {
+  constexpr int runs = 5;
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < runs; ++i) {
     const Stopwatch stopwatch;
-    draw<ordered>(lists, threads, image);
+    scene.draw(ordered, threads);
     best = std::min(best, stopwatch.elapsed().wall_seconds);
   }
-  return best;
+  return 1e9 * best / scene.updates();
+}
+
+YardstickCost measure_size(float radius_pixels, int splat_count, int threads) {
+  YardstickScene scene(radius_pixels, splat_count);
+  return {best_ns_per_update(scene, false, threads), best_ns_per_update(scene, true, threads)};
 }
 
 }  // namespace
-
-YardstickCost measure_yardstick(float radius_pixels, int splat_count, int threads, int runs) {
-  const std::vector<Disc> discs = random_discs(radius_pixels, splat_count);
-  const Lists lists = make_lists(discs);
-  const double to_ns = 1e9 / count_updates(discs);
-  std::vector<float> image(3ul * image_width * image_height);
-  YardstickCost cost;
-  cost.radius_pixels = radius_pixels;
-  cost.additive_ns = to_ns * best_of<false>(runs, lists, threads, image);
-  cost.ordered_ns = to_ns * best_of<true>(runs, lists, threads, image);
-  return cost;
-}
 
 double Yardstick::additive_ns() const {
   return std::sqrt(small.additive_ns * large.additive_ns);
@@ -228,9 +237,7 @@ double Yardstick::ordered_ns() const {
 }
 
 Yardstick measure_yardstick(int threads) {
-  constexpr int runs = 5;
-  return {measure_yardstick(5, 1000000, threads, runs),
-          measure_yardstick(20, 200000, threads, runs), threads};
+  return {measure_size(5, 1000000, threads), measure_size(20, 200000, threads), threads};
 }
 
 std::string describe(const Yardstick& yardstick) {

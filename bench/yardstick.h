@@ -1,7 +1,7 @@
 #pragma once
 
+#include <memory>
 #include <string>
-#include <vector>
 
 namespace splotchcl::bench {
 
@@ -9,14 +9,25 @@ namespace splotchcl::bench {
 // compiler's vectors of eight floats. Not a renderer: its splats lie in the lists of their
 // tiles before the clock starts, and its exponential has a relative error of 2e-6. What a
 // frame takes is judged by the ratio to this, measured in the same minute.
-struct YardstickCost {
-  float radius_pixels = 0;  // mean; sigma = radius / 1.8
-  double additive_ns = 0;   // per pixel update of three channels
-  double ordered_ns = 0;
+class YardstickScene {
+ public:
+  // Random splats of half to one and a half times this radius, sigma = radius / 1.8.
+  YardstickScene(float mean_radius_pixels, int splat_count);
+  ~YardstickScene();
+  YardstickScene(YardstickScene&&) noexcept;
+
+  double updates() const;  // pixels inside the splats' discs, three channels each
+  void draw(bool ordered, int threads);
+
+ private:
+  struct Lists;
+  std::unique_ptr<Lists> lists_;
 };
 
-// The best of `runs` runs of each kind, with as many threads.
-YardstickCost measure_yardstick(float radius_pixels, int splat_count, int threads, int runs);
+struct YardstickCost {
+  double additive_ns = 0;  // per pixel update, the best of several runs
+  double ordered_ns = 0;
+};
 
 // One number for the machine of the moment: the costs of the two sizes that matter most in
 // large snapshots, and their geometric mean.
