@@ -1,0 +1,53 @@
+// Lists of one tile that are cut into many segments.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "device/pictures.h"
+
+namespace splotchcl::test {
+namespace {
+
+using Case = std::tuple<LightPlan, CompositeShape>;
+
+class LongLists : public PictureTest, public testing::WithParamInterface<Case> {};
+
+// 50000 clouds in one tile of either shape, several times the length of a segment.
+TEST_P(LongLists, GiveTheOraclesPicture) {
+  const auto [plan, shape] = GetParam();
+  Random random(101);
+  std::vector<Cloud> clouds;
+  std::vector<float> colors;
+  for (int i = 0; i < 50000; ++i) {
+    clouds.push_back({random.uniform(-7, 7), random.uniform(-7, 7), random.uniform(1, 100),
+                      random.logarithmic(0.1, 2), random.logarithmic(1e-3, 1e-1)});
+    colors.push_back(static_cast<float>(random.uniform()));
+  }
+  DrawnComponent component = component_of(clouds, two_colors());
+  component.particles.color = Column::owning(colors);
+  if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
+  if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.01};
+  const Frame frame = frame_of(16, 16, {component});
+  ASSERT_EQ(make_plan(frame).light, plan);
+  const ExactImage exact = reference::render(frame);
+  EXPECT_GT(largest_value(exact), 0.2);
+  EXPECT_LE(largest_error(draw(frame, shape), exact), frame.tolerance);
+  EXPECT_EQ(renderer(shape).stats().tile_entries, 50000u);
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  return std::string(name(std::get<0>(info.param))) +
+         (std::get<1>(info.param) == CompositeShape::rows ? "_rows" : "_groups");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plans, LongLists,
+    testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
+                                     LightPlan::ordered),
+                     testing::Values(CompositeShape::rows, CompositeShape::groups)),
+    case_name);
+
+}  // namespace
+}  // namespace splotchcl::test

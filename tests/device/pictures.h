@@ -1,0 +1,60 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "device/scenes.h"
+#include "splotchcl/image.h"
+#include "splotchcl/renderer.h"
+
+namespace splotchcl::test {
+
+// Tests of whole pictures share a renderer per shape of compositing, and with it the
+// compiled kernels.
+class PictureTest : public testing::Test {
+ protected:
+  static void TearDownTestSuite() {
+    rows_.reset();
+    groups_.reset();
+  }
+
+  static Renderer& renderer(CompositeShape shape = CompositeShape::rows) {
+    std::unique_ptr<Renderer>& renderer = shape == CompositeShape::groups ? groups_ : rows_;
+    if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{"", shape});
+    return *renderer;
+  }
+  static Image draw(const Frame& frame, CompositeShape shape = CompositeShape::rows) {
+    return renderer(shape).render(frame);
+  }
+
+ private:
+  static inline std::unique_ptr<Renderer> rows_, groups_;
+};
+
+// The largest |a - b| / max(1, |b|) over pixels and colours. Two pictures that each keep the
+// tolerance differ by at most twice as much.
+inline double largest_difference(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height) return 1e300;
+  double largest = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const double from = static_cast<double>(b.pixels[i]);
+    const double error = std::abs(static_cast<double>(a.pixels[i]) - from);
+    const double relative = error / std::max(1.0, std::abs(from));
+    largest = std::isfinite(relative) ? std::max(largest, relative) : 1e300;
+  }
+  return largest;
+}
+
+// The light of one colour, added up over the picture.
+inline double sum_of_light(const Image& image, std::size_t channel = 0) {
+  double sum = 0;
+  for (std::size_t i = channel; i < image.pixels.size(); i += 4)
+    sum += static_cast<double>(image.pixels[i]);
+  return sum;
+}
+
+}  // namespace splotchcl::test
