@@ -14,16 +14,12 @@ std::string group_name(std::size_t type) {
   return fmt::format("PartType{}", type);
 }
 
-std::string label_of(const Hdf5Dataset& dataset) {
-  return dataset.path.substr(dataset.path.rfind('/') + 1);
-}
-
 [[noreturn]] void throw_no_positions(const Hdf5File& file, const std::string& group,
                                      std::uint64_t count,
                                      const std::vector<Hdf5Dataset>& datasets) {
   std::vector<std::string> labels;
   for (const Hdf5Dataset& dataset : datasets)
-    labels.push_back(label_of(dataset));
+    labels.push_back(dataset.label());
   throw DataError(fmt::format(
       "{}: no positions: the header counts {} particles of {}, which has {}; expected "
       "a dataset Coordinates with three columns",
@@ -54,7 +50,7 @@ std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader
   bool has_positions = false;
   for (const Hdf5Dataset& dataset : datasets) {
     check_rows(file, dataset, count, index);
-    const std::string label = label_of(dataset);
+    const std::string label = dataset.label();
     const std::uint64_t values = dataset.values_per_row();
     const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
     if (!is_usable) {

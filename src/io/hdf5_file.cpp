@@ -11,7 +11,6 @@
 namespace splotchcl {
 namespace {
 
-using Attribute = Hdf5Handle<H5Aclose>;
 using Group = Hdf5Handle<H5Gclose>;
 using Object = Hdf5Handle<H5Oclose>;
 using PropertyList = Hdf5Handle<H5Pclose>;
@@ -45,27 +44,29 @@ std::vector<hsize_t> shape_of(hid_t space) {
   return shape;
 }
 
-std::string child_path(const std::string& group, const std::string& name) {
-  return group == "/" ? group + name : group + "/" + name;
+// Where HDF5 looks for a file that a virtual dataset names; a place that does not exist
+// where it finds none.
+std::filesystem::path find_source(const std::filesystem::path& virtual_file,
+                                  const std::filesystem::path& name) {
+  const std::filesystem::path folder = virtual_file.parent_path();
+  std::error_code ignored;
+  for (const auto& place : {folder / name, folder / name.filename(), name}) {
+    if (std::filesystem::exists(place, ignored)) return place;
+  }
+  return folder / name;
 }
 
-std::vector<std::string> children(hid_t file, const std::string& group, H5I_type_t wanted) {
-  struct Search {
-    H5I_type_t wanted;
-    std::vector<std::string> names;
-  } search = {wanted, {}};
-  const Group handle(H5Gopen2(file, group.c_str(), H5P_DEFAULT));
-  const auto visit = [](hid_t id, const char* name, const H5L_info_t*, void* data) -> herr_t {
-    auto& found = *static_cast<Search*>(data);
-    // A link may lead nowhere; what does not exist is not listed.
-    const Object object(H5Oopen(id, name, H5P_DEFAULT));
-    if (object.is_valid() && H5Iget_type(object.id()) == found.wanted) {
-      found.names.emplace_back(name);
-    }
-    return 0;
-  };
-  H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &search);
-  return search.names;
+// A name of a source, by either of HDF5's functions for them.
+template <typename Get>
+std::string source_name(Get&& get, hid_t properties, std::size_t source) {
+  const ssize_t length = get(properties, source, nullptr, 0);
+  std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
+  get(properties, source, name.data(), name.size() + 1);
+  return name;
+}
+
+std::string child_path(const std::string& group, const std::string& name) {
+  return group == "/" ? group + name : group + "/" + name;
 }
 
 }  // namespace
@@ -101,6 +102,28 @@ Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
   if (!file_.is_valid()) fail("HDF5 cannot open it");
 }
 
+std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t wanted) const {
+  struct Search {
+    H5I_type_t wanted;
+    std::vector<std::string> names;
+  } search = {wanted, {}};
+  const Group handle(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT));
+  if (!handle.is_valid()) fail(fmt::format("group {} cannot be opened", group));
+  const auto visit = [](hid_t id, const char* name, const H5L_info_t*, void* data) -> herr_t {
+    auto& found = *static_cast<Search*>(data);
+    // A link may lead nowhere; what does not exist is not listed.
+    const Object object(H5Oopen(id, name, H5P_DEFAULT));
+    if (object.is_valid() && H5Iget_type(object.id()) == found.wanted) {
+      found.names.emplace_back(name);
+    }
+    return 0;
+  };
+  if (H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &search) < 0) {
+    fail(fmt::format("group {} cannot be listed", group));
+  }
+  return search.names;
+}
+
 void Hdf5File::fail(const std::string& what) const {
   throw DataError(
       fmt::format("{}: {}: {}; the file is truncated, damaged or not HDF5: copy or write it again",
@@ -120,13 +143,13 @@ bool Hdf5File::has(const std::string& object) const {
 
 std::vector<std::string> Hdf5File::groups(const std::string& group) const {
   const Hdf5Silence silence;
-  return children(file_.id(), group, H5I_GROUP);
+  return children(group, H5I_GROUP);
 }
 
 std::vector<Hdf5Dataset> Hdf5File::datasets(const std::string& group) const {
   const Hdf5Silence silence;
   std::vector<Hdf5Dataset> result;
-  for (const std::string& name : children(file_.id(), group, H5I_DATASET)) {
+  for (const std::string& name : children(group, H5I_DATASET)) {
     result.push_back(dataset(child_path(group, name)));
   }
   return result;
@@ -154,13 +177,20 @@ Hdf5Dataset Hdf5File::dataset(const std::string& path) const {
   return result;
 }
 
+// Not valid where there is none.
+Hdf5File::Attribute Hdf5File::open_attribute(const std::string& object,
+                                             const std::string& name) const {
+  if (!has(object)) return {};
+  const Object owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));
+  if (H5Aexists(owner.id(), name.c_str()) <= 0) return {};
+  return Attribute(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT));
+}
+
 std::optional<std::vector<double>> Hdf5File::numbers(const std::string& object,
                                                      const std::string& name) const {
   const Hdf5Silence silence;
-  if (!has(object)) return std::nullopt;
-  const Object owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));
-  if (H5Aexists(owner.id(), name.c_str()) <= 0) return std::nullopt;
-  const Attribute attribute(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT));
+  const Attribute attribute = open_attribute(object, name);
+  if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
   const H5T_class_t kind = H5Tget_class(type.id());
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
@@ -183,10 +213,8 @@ std::optional<double> Hdf5File::number(const std::string& object, const std::str
 std::optional<std::string> Hdf5File::text(const std::string& object,
                                           const std::string& name) const {
   const Hdf5Silence silence;
-  if (!has(object)) return std::nullopt;
-  const Object owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));
-  if (H5Aexists(owner.id(), name.c_str()) <= 0) return std::nullopt;
-  const Attribute attribute(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT));
+  const Attribute attribute = open_attribute(object, name);
+  if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
   const Space space(H5Aget_space(attribute.id()));
   const bool is_one_fixed_text = H5Tget_class(type.id()) == H5T_STRING &&
@@ -198,6 +226,25 @@ std::optional<std::string> Hdf5File::text(const std::string& object,
   return std::string(value.c_str());
 }
 
+// HDF5 reads zeros where what a virtual dataset points to is missing.
+void Hdf5File::check_sources(hid_t properties, const std::string& dataset) const {
+  std::size_t sources = 0;
+  H5Pget_virtual_count(properties, &sources);
+  for (std::size_t i = 0; i < sources; ++i) {
+    const std::string file = source_name(H5Pget_virtual_filename, properties, i);
+    const std::string source = source_name(H5Pget_virtual_dsetname, properties, i);
+    // A pattern for as many files as there are: the shape follows from those.
+    if (file.find('%') != std::string::npos) continue;
+    const std::filesystem::path place = file == "." ? path_ : find_source(path_, file);
+    std::error_code ignored;
+    if (std::filesystem::exists(place, ignored) && Hdf5File(place).has(source)) continue;
+    throw DataError(
+        fmt::format("{}: dataset {} is made of {} in {}, which is missing; put all files of the "
+                    "snapshot into the same folder",
+                    path_.string(), dataset, source, place.string()));
+  }
+}
+
 void Hdf5File::check_complete(const Hdf5Dataset& dataset) const {
   const Hdf5Silence silence;
   const Dataset handle = open_dataset(dataset.path);
@@ -205,7 +252,8 @@ void Hdf5File::check_complete(const Hdf5Dataset& dataset) const {
   const H5D_layout_t layout = H5Pget_layout(properties.id());
   bool is_complete = true;
   if (layout == H5D_CONTIGUOUS && H5Pget_external_count(properties.id()) <= 0) {
-    const std::uint64_t size = std::filesystem::file_size(path_);
+    hsize_t size = 0;
+    H5Fget_filesize(file_.id(), &size);
     const std::uint64_t row_bytes = dataset.values_per_row() * dataset.bytes_per_value;
     is_complete = row_bytes != 0 && dataset.rows() <= size / row_bytes &&
                   H5Dget_storage_size(handle.id()) == dataset.rows() * row_bytes;
@@ -220,6 +268,8 @@ void Hdf5File::check_complete(const Hdf5Dataset& dataset) const {
       needed *= (dataset.shape[i] + chunk[i] - 1) / chunk[i];
     }
     is_complete = needed <= stored;
+  } else if (layout == H5D_VIRTUAL) {
+    check_sources(properties.id(), dataset.path);
   }
   if (is_complete) return;
   throw DataError(

@@ -56,6 +56,7 @@ struct Hdf5Dataset {
   Kind kind = Kind::other;
   std::size_t bytes_per_value = 0;
 
+  std::string label() const { return path.substr(path.rfind('/') + 1); }
   std::uint64_t rows() const { return shape.empty() ? 1 : shape[0]; }
   std::uint64_t values_per_row() const;
 };
@@ -98,8 +99,12 @@ class Hdf5File {
   std::optional<std::uint64_t> native_float_offset(const Hdf5Dataset& dataset) const;
 
  private:
+  using Attribute = Hdf5Handle<H5Aclose>;
   using Dataset = Hdf5Handle<H5Dclose>;
+  std::vector<std::string> children(const std::string& group, H5I_type_t wanted) const;
+  Attribute open_attribute(const std::string& object, const std::string& name) const;
   Dataset open_dataset(const std::string& path) const;
+  void check_sources(hid_t properties, const std::string& dataset) const;
   void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
             void* out) const;
   [[noreturn]] void fail(const std::string& what) const;

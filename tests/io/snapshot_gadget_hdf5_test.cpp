@@ -196,6 +196,39 @@ TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
               ::testing::ThrowsMessage<DataError>(HasSubstr("not completely written")));
 }
 
+// The gas of `source`, as SWIFT writes it beside the parts of a snapshot.
+void write_virtual(const std::filesystem::path& path, const std::filesystem::path& source,
+                   const TestSnapshot& snapshot) {
+  write_hdf5(path, snapshot);
+  const Hdf5Handle<H5Fclose> file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+  H5Ldelete(file.id(), "PartType0/Coordinates", H5P_DEFAULT);
+  const hsize_t shape[2] = {snapshot.counts[0], 3};
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(2, shape, nullptr));
+  const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_virtual(properties.id(), space.id(), source.filename().c_str(), "PartType0/Coordinates",
+                 space.id());
+  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "PartType0/Coordinates", H5T_IEEE_F32LE,
+                                                space.id(), H5P_DEFAULT, properties.id(),
+                                                H5P_DEFAULT));
+}
+
+TEST(GadgetHdf5, VirtualDatasetsAreReadFromTheirFiles) {
+  const TemporaryFolder folder;
+  TestSnapshot snapshot = small_snapshot();
+  write_hdf5(folder / "part", snapshot);
+  write_virtual(folder / "snap.hdf5", folder / "part", snapshot);
+  EXPECT_EQ(values_of(open_snapshot(folder / "snap.hdf5")->read(0, "position")),
+            as_floats(snapshot.block("POS").values[0]));
+}
+
+TEST(GadgetHdf5, AVirtualDatasetWithoutItsFileIsRefused) {
+  const TemporaryFolder folder;
+  write_virtual(folder / "snap.hdf5", folder / "part", small_snapshot());
+  const auto snapshot = open_snapshot(folder / "snap.hdf5");
+  EXPECT_THAT([&] { snapshot->read(0, "position"); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("part, which is missing")));
+}
+
 TEST(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
   const TemporaryFolder folder;
   {
