@@ -16,10 +16,10 @@ namespace splotchcl {
 // smoothing_length, temperature, stellar_age, metallicity, ... A file's own label (U,
 // HSML, InternalEnergy) finds the same field, in any case of letters.
 struct FieldInfo {
-  std::string name;        // canonical, or the file's own name where there is none
-  std::string file_name;   // as the file spells it
+  std::string name;             // canonical, or the file's own name where there is none
+  std::string file_name;        // as the file spells it; empty: it follows from other fields
   int values_per_particle = 1;  // 1, or 3 for vectors
-  std::string unit;        // empty when unknown
+  std::string unit;             // empty when unknown
 };
 
 struct ParticleTypeInfo {
@@ -67,7 +67,6 @@ Scene suggest_scene(const Snapshot& snapshot);
 // Reads what the scene uses, and no more, and decides every number that the scene
 // leaves to the data. Missing smoothing lengths are found (density and mass, else
 // nearest neighbours). `notes` takes what the user should know, a line each.
-Frame load_frame(const Scene& scene, const Snapshot& snapshot,
-                 std::vector<std::string>& notes);
+Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes);
 
 }  // namespace splotchcl

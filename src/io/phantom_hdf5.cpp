@@ -16,16 +16,24 @@
 namespace splotchcl {
 namespace {
 
-// Labels of fields that follow from others.
 constexpr const char* mass_label = "massoftype";
-constexpr const char* density_label = "rho";
+// Of a density that follows from h: the file has none.
+constexpr const char* density_label = "";
 
 // Gadget's numbers for Phantom's: 1 gas, 3 boundary, 4 star, 5 dark matter, 6 bulge. Dust
 // of any kind, from 7, has no counterpart and takes the place of the disk.
 int gadget_type(int itype) {
   static const std::map<int, int> types = {{1, 0}, {3, 5}, {4, 4}, {5, 1}, {6, 3}};
-  const auto found = types.find(std::abs(itype));
+  const auto found = types.find(itype);
   return found == types.end() ? 2 : found->second;
+}
+
+// Particles that wait for deletion have a negative type. 0, which is no type, for anything
+// that is none.
+int itype_of(float stored) {
+  constexpr float beyond_all_types = 1000;
+  const float magnitude = std::abs(stored);
+  return magnitude < beyond_all_types ? static_cast<int>(magnitude) : 0;
 }
 
 UnitPowers powers_of(const std::string& field) {
@@ -36,10 +44,6 @@ UnitPowers powers_of(const std::string& field) {
   if (field == "mass" || field == "density") powers.mass = 1;
   if (field == "density") powers.length = -3;
   return powers;
-}
-
-std::string label_of(const Hdf5Dataset& dataset) {
-  return dataset.path.substr(dataset.path.rfind('/') + 1);
 }
 
 // The particles of one of Gadget's types.
@@ -63,6 +67,7 @@ class PhantomSnapshot : public Snapshot {
   void find_datasets();
   void check_rows(const Hdf5Dataset& dataset, std::uint64_t rows) const;
   void read_types();
+  Column read_itypes() const;
   void describe_type(int number, const PhantomType& particles);
   Column read_dataset(int type, const std::string& label, const Vec3& origin, double factor) const;
   Column density(int type) const;
@@ -87,8 +92,8 @@ PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path
   for (const auto& [number, particles] : types_)
     describe_type(number, particles);
   if (file_.has("/sinks/xyz")) {
-    info_.notes.push_back(
-        fmt::format("{} sink particles left out", file_.dataset("/sinks/xyz").rows()));
+    info_.notes.push_back(fmt::format("sinks left out, as they have no smoothing length: {}",
+                                      file_.dataset("/sinks/xyz").rows()));
   }
   origin_ = find_position_origin({{path, file_.dataset("/particles/xyz")}});
 }
@@ -136,12 +141,12 @@ void PhantomSnapshot::find_datasets() {
     if (is_usable) {
       datasets_.push_back(dataset);
     } else {
-      left_out.push_back(label_of(dataset));
+      left_out.push_back(dataset.label());
     }
   }
   const auto positions =
       std::find_if(datasets_.begin(), datasets_.end(), [](const Hdf5Dataset& dataset) {
-        return label_of(dataset) == "xyz" && dataset.values_per_row() == 3;
+        return dataset.label() == "xyz" && dataset.values_per_row() == 3;
       });
   if (positions == datasets_.end() || positions->rows() == 0) {
     throw DataError(
@@ -159,18 +164,36 @@ void PhantomSnapshot::find_datasets() {
 }
 
 void PhantomSnapshot::read_types() {
-  Column itypes = Column::uniform(1);
-  if (file_.has("/particles/itype")) {
-    itypes = read_column({{file_.path(), file_.dataset("/particles/itype")}});
-  }
-  const std::vector<float> masses = header_array("massoftype");
+  const Column itypes = read_itypes();
+  const std::vector<float> masses = header_array("massoftype");  // from type 1 on
+  std::size_t without_mass = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    const int itype = std::abs(static_cast<int>(itypes[i]));
+    const int itype = itype_of(itypes[i]);
+    const bool has_mass = itype > 0 && static_cast<std::size_t>(itype) <= masses.size();
     PhantomType& type = types_[gadget_type(itype)];
-    const auto entry = static_cast<std::size_t>(itype) - 1;
     type.particles.push_back(i);
-    type.masses.push_back(entry < masses.size() ? masses[entry] : 0);
+    type.masses.push_back(has_mass ? masses[static_cast<std::size_t>(itype) - 1] : 0);
+    if (!has_mass) ++without_mass;
   }
+  if (without_mass == 0) return;
+  info_.notes.push_back(
+      fmt::format("{} particles are of types without a mass in header/massoftype; it is taken "
+                  "for 0",
+                  without_mass));
+}
+
+// Gas for all where the file does not say.
+Column PhantomSnapshot::read_itypes() const {
+  if (!file_.has("/particles/itype")) return Column::uniform(1);
+  const auto found =
+      std::find_if(datasets_.begin(), datasets_.end(), [](const Hdf5Dataset& dataset) {
+        return dataset.label() == "itype" && dataset.values_per_row() == 1;
+      });
+  if (found != datasets_.end()) return read_column({{file_.path(), *found}});
+  throw DataError(
+      fmt::format("{}: dataset particles/itype is not one number per particle, as was expected; "
+                  "the file is damaged",
+                  file_.path().string()));
 }
 
 void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
@@ -180,7 +203,7 @@ void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
   type.type = number;
   type.count = particles.particles.size();
   for (const Hdf5Dataset& dataset : datasets_) {
-    type.fields.push_back({"", label_of(dataset), static_cast<int>(dataset.values_per_row()), ""});
+    type.fields.push_back({"", dataset.label(), static_cast<int>(dataset.values_per_row()), ""});
   }
   name_fields(type);
   if (find_field(type, "mass") == nullptr) {

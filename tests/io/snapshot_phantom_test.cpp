@@ -25,14 +25,15 @@ void write_dataset(hid_t file, const std::string& path, const std::vector<double
 
 // Gas, dust, gas.
 void write_phantom(const std::filesystem::path& path, bool has_positions = true,
-                   const std::vector<double>& h = {1, 2, 4}) {
+                   const std::vector<double>& h = {1, 2, 4},
+                   const std::vector<double>& itypes = {1, 7, 1}, hsize_t itype_width = 1) {
   const Hdf5Handle<H5Fclose> file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   write_dataset(file.id(), "header/massoftype", {0.5, 0, 0, 0, 0, 0, 0.125});
   write_dataset(file.id(), "header/hfact", {1.2});
   write_dataset(file.id(), "header/time", {7});
   if (has_positions) write_dataset(file.id(), "particles/xyz", {1, 2, 3, 4, 5, 6, 7, 8, 9}, 3);
   write_dataset(file.id(), "particles/h", h);
-  write_dataset(file.id(), "particles/itype", {1, 7, 1});
+  write_dataset(file.id(), "particles/itype", itypes, itype_width);
   write_dataset(file.id(), "particles/dustfrac", {1, 2, 3, 4, 5, 6}, 2);
   write_dataset(file.id(), "sinks/xyz", {0, 0, 0}, 3);
 }
@@ -75,7 +76,8 @@ TEST(Phantom, WhatIsLeftOutIsNoted) {
   write_phantom(folder / "dump.h5");
   const auto snapshot = open_snapshot(folder / "dump.h5");
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("dustfrac")));
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("1 sink particles left out")));
+  EXPECT_THAT(snapshot->info().notes,
+              Contains(HasSubstr("sinks left out, as they have no smoothing length: 1")));
 }
 
 TEST(Phantom, WithoutPositionsIsRefused) {
@@ -88,6 +90,34 @@ TEST(Phantom, DatasetsOfOtherLengthsAreRefused) {
   const TemporaryFolder folder;
   write_phantom(folder / "dump.h5", true, {1, 2});
   EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("h has 2 rows, but there are 3 positions"));
+}
+
+TEST(Phantom, ADensityOfTheFilesOwnGoesBeforeThatFromSmoothingLengths) {
+  const TemporaryFolder folder;
+  write_phantom(folder / "dump.h5");
+  {
+    const Hdf5Handle<H5Fclose> file(
+        H5Fopen((folder / "dump.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    write_dataset(file.id(), "particles/rho", {10, 20, 30});
+  }
+  const Column density = open_snapshot(folder / "dump.h5")->read(0, "density");
+  EXPECT_THAT(values_of(density), ElementsAre(10, 30));
+}
+
+TEST(Phantom, ParticlesOfNoKnownTypeAreKeptAndNoted) {
+  const TemporaryFolder folder;
+  const double nan = std::nan("");
+  write_phantom(folder / "dump.h5", true, {1, 2, 4}, {-1, 0, nan});
+  const auto snapshot = open_snapshot(folder / "dump.h5");
+  EXPECT_EQ(snapshot->info().find_type(0)->count, 1U);
+  EXPECT_EQ(snapshot->info().find_type(2)->count, 2U);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("2 particles are of types without")));
+}
+
+TEST(Phantom, TypesThatAreNotOneNumberPerParticleAreRefused) {
+  const TemporaryFolder folder;
+  write_phantom(folder / "dump.h5", true, {1, 2, 4}, {1, 1}, 2);
+  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("itype is not one number"));
 }
 
 TEST(RealPhantom, ADumpIsRead) {
