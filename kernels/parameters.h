@@ -20,7 +20,7 @@
 struct FieldScaling {
   int scaling;
   float minimum, minimum_low;  // a pair: ranges may be far narrower than their values
-  float inverse_range;  // 0 where the range is empty
+  float inverse_range;         // 0 where the range is empty
 };
 
 // Constants of the projection of one component.
@@ -34,7 +34,7 @@ struct ProjectParameters {
   float far_away;  // z from which x and y are measured from the look-at point
   float right[3];
   float down[3];
-  float pixels_per_length;  // perspective: at z = 1
+  float pixels_per_length;   // perspective: at z = 1
   float centre_x, centre_y;  // of the whole picture, relative to the crop's corner
   int perspective;
 
@@ -54,11 +54,11 @@ struct ProjectParameters {
   float weight_scale;  // for masses its square root: it may be too small for a float
   float peak_colour;   // the largest of E and A per unit weight
 
-  float least_extent;  // sigmas drawn of a faint splat
+  float least_extent;    // sigmas drawn of a faint splat
   float restored_light;  // factor on the weight of such a splat
-  float inverse_edge;  // 1 / (value at which a splat may end)
-  float coarse_sigma;        // smallest sigma in pixels of a coarse grid
-  float coarse_peak;         // brighter splats stay on the picture's own grid
+  float inverse_edge;    // 1 / (value at which a splat may end)
+  float coarse_sigma;    // smallest sigma in pixels of a coarse grid
+  float coarse_peak;     // brighter splats stay on the picture's own grid
   int grid_count;
   float guard;  // of the coarse grids
 
@@ -68,7 +68,7 @@ struct ProjectParameters {
   unsigned int component;
   unsigned int first_particle, end_particle;  // of the component, this launch
   unsigned int block_particles;               // per work-item
-  unsigned int first_block;  // of the component, in offsets and visible
+  unsigned int first_block;                   // of the component, in offsets and visible
   // 0 where one value serves all particles.
   int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
   int sort_by_field, sort_descending;
@@ -77,10 +77,10 @@ struct ProjectParameters {
 // A projected particle, positions and widths in pixels of its grid.
 struct Splat {
   float x, y;
-  float sigma;   // widened, unless the pixel mean is taken by erf
-  float radius;  // drawn up to here
-  float weight;  // w' = w sigma^2 / sigma'^2
-  float color;   // palette position in [0, 1]
+  float sigma;                      // widened, unless the pixel mean is taken by erf
+  float radius;                     // drawn up to here
+  float weight;                     // w' = w sigma^2 / sigma'^2
+  float color;                      // palette position in [0, 1]
   unsigned int component_and_grid;  // component | grid << 16
 };
 
@@ -100,7 +100,7 @@ struct Grid {
   int guard;
   int tiles_x, tiles_y;
   unsigned int first_tile;
-  unsigned int stride, plane_size;  // floats
+  unsigned int stride, plane_size;                 // floats
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
 };
 
@@ -108,7 +108,7 @@ struct Grid {
 // of at most `length` splats.
 struct BinParameters {
   unsigned int first, stride, length;
-  unsigned int end;          // slots from here on do not exist
+  unsigned int end;  // slots from here on do not exist
   unsigned int block_count;
   unsigned int tile_count;
   unsigned int grid_count;
@@ -133,9 +133,9 @@ struct BinTotals {
 struct CompositeParameters {
   unsigned int grid_count;
   float mean_sigma;
-  float phi_short;    // optical depth up to which two terms of phi's series serve
-  float phi_series;   // and four
-  float opaque;       // stop where every pixel's opacity is at least this; > 1: never
+  float phi_short;   // optical depth up to which two terms of phi's series serve
+  float phi_series;  // and four
+  float opaque;      // stop where every pixel's opacity is at least this; > 1: never
 };
 
 struct ResolveParameters {

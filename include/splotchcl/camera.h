@@ -15,7 +15,7 @@ enum class Projection {
 struct Camera {
   Vec3 position = {{0, 0, 0}};
   Vec3 look_at = {{0, 0, 1}};
-  Vec3 sky = {{0, 1, 0}};  // shown upwards; any direction not parallel to the view
+  Vec3 sky = {{0, 1, 0}};             // shown upwards; any direction not parallel to the view
   double field_of_view_degrees = 45;  // horizontal, 0 < value < 180
   Projection projection = Projection::perspective;
   // Limits of z, the distance along the view direction. Without a near limit,
@@ -32,7 +32,7 @@ struct Camera {
 struct CameraFrame {
   Vec3 position;
   Vec3 right, down, forward;
-  double focal_pixels = 0;       // (width / 2) / tan(field of view / 2)
+  double focal_pixels = 0;  // (width / 2) / tan(field of view / 2)
   double look_at_distance = 0;
   double pixels_per_length = 0;  // focal_pixels / look_at_distance
   double centre_x = 0, centre_y = 0;

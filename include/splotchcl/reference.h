@@ -15,12 +15,12 @@ namespace splotchcl::reference {
 // A projected particle. Positions and widths are in pixels of the whole picture.
 struct Splat {
   double x = 0, y = 0;
-  double sigma = 0;           // after kernel.min_radius, before any pixel averaging
-  double weight = 0;          // w, divided by the reference column, times intensity
-  double emission[3] = {};    // E of the light model: brightness * palette etc., without w
-  double absorption[3] = {};  // A likewise; E X and A X with X = weight * shape
-  float key = 0;              // the sort key in binary32 (DepthChain, or the field)
-  std::uint64_t particle = 0; // index over all components, in component and file order
+  double sigma = 0;            // after kernel.min_radius, before any pixel averaging
+  double weight = 0;           // w, divided by the reference column, times intensity
+  double emission[3] = {};     // E of the light model: brightness * palette etc., without w
+  double absorption[3] = {};   // A likewise; E X and A X with X = weight * shape
+  float key = 0;               // the sort key in binary32 (DepthChain, or the field)
+  std::uint64_t particle = 0;  // index over all components, in component and file order
 };
 
 // Drawable particles in component and file order. Left out: bad values (not a number,
@@ -45,8 +45,7 @@ struct Layer {
 Layer over(const Layer& near_layer, const Layer& far_layer);
 
 // The layer of one pixel: every splat of the list in order (nearest first).
-Layer composite_pixel(const std::vector<Splat>& splats, int x, int y,
-                      const KernelSettings& kernel);
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const KernelSettings& kernel);
 
 // The whole frame: frame.crop in size. `progress` (may be empty) takes 0..1.
 ExactImage render(const Frame& frame, const std::function<void(double)>& progress = {});

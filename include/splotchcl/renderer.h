@@ -47,8 +47,8 @@ struct RenderStats {
   std::uint64_t particles = 0;      // in the components
   std::uint64_t bad_particles = 0;  // left out: not a number, infinite, h <= 0
   std::uint64_t drawn_particles = 0;
-  std::uint64_t tile_entries = 0;   // splats summed over tiles
-  std::uint64_t device_bytes = 0;   // largest total of device buffers, mapped input excluded
+  std::uint64_t tile_entries = 0;  // splats summed over tiles
+  std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded
   double total_seconds = 0;
   std::vector<StageTime> stages;
 };

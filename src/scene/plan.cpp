@@ -82,8 +82,8 @@ std::string explain(const Plan& plan, const Frame& frame) {
       break;
   }
   out << "tolerance: " << frame.tolerance << " of white per pixel and channel\n"
-      << "  ends of the splats " << plan.truncation_share << ", coarse grids "
-      << plan.coarse_share << ", arithmetic and early stop " << plan.arithmetic_share << "\n";
+      << "  ends of the splats " << plan.truncation_share << ", coarse grids " << plan.coarse_share
+      << ", arithmetic and early stop " << plan.arithmetic_share << "\n";
   return out.str();
 }
 

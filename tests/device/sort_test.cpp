@@ -39,7 +39,8 @@ Keys device_order(const Keys& keys) {
 Keys random_keys(std::size_t count, double low, double high) {
   Random random(7);
   Keys keys(count);
-  for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(random.uniform(low, high));
+  for (std::uint32_t& key : keys)
+    key = static_cast<std::uint32_t>(random.uniform(low, high));
   return keys;
 }
 
@@ -70,7 +71,8 @@ TEST(Sort, TurnsReversedInputRound) {
 TEST(Sort, ComparesKeysThatDifferInOneDigitOnly) {
   for (const double step : {1.0, 256.0, 65536.0, 16777216.0}) {
     Keys keys = random_keys(5000, 0, 256);
-    for (std::uint32_t& key : keys) key *= static_cast<std::uint32_t>(step);
+    for (std::uint32_t& key : keys)
+      key *= static_cast<std::uint32_t>(step);
     EXPECT_EQ(device_order(keys), stable_order(keys)) << step;
   }
 }
