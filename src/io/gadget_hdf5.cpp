@@ -81,7 +81,12 @@ void GadgetHdf5Snapshot::read_dialect() {
   info_.format = is_swift ? "SWIFT HDF5" : "Gadget HDF5";
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
-  smoothing_length_factor_ = file.number("HydroScheme", "Kernel gamma").value_or(1);
+  const auto gamma = file.number("HydroScheme", "Kernel gamma");
+  smoothing_length_factor_ = gamma.value_or(1);
+  if (gamma || !file.has("PartType0")) return;
+  info_.notes.push_back(
+      "HydroScheme does not say SWIFT's Kernel gamma: smoothing lengths are taken as they are, "
+      "though SWIFT's end before its kernel does");
 }
 
 bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {

@@ -196,6 +196,24 @@ TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
               ::testing::ThrowsMessage<DataError>(HasSubstr("not completely written")));
 }
 
+TEST(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
+  const TemporaryFolder folder;
+  write_hdf5(folder / "snap.hdf5", small_snapshot());
+  {
+    const Hdf5Handle<H5Fclose> file(
+        H5Fopen((folder / "snap.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    const Hdf5Handle<H5Tclose> text(H5Tcopy(H5T_C_S1));
+    H5Tset_size(text.id(), 5);
+    const Hdf5Handle<H5Sclose> one(H5Screate(H5S_SCALAR));
+    const Hdf5Handle<H5Aclose> code(H5Acreate_by_name(
+        file.id(), "Header", "Code", text.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Awrite(code.id(), text.id(), "SWIFT");
+  }
+  const auto snapshot = open_snapshot(folder / "snap.hdf5");
+  EXPECT_EQ(snapshot->info().format, "SWIFT HDF5");
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("Kernel gamma")));
+}
+
 // The gas of `source`, as SWIFT writes it beside the parts of a snapshot.
 void write_virtual(const std::filesystem::path& path, const std::filesystem::path& source,
                    const TestSnapshot& snapshot) {
