@@ -36,9 +36,9 @@ BlockDescription read_description(const GadgetBinaryFile& file, std::uint64_t of
   BlockDescription description;
   description.label = text_at(file, offset, 4);
   description.layout.kind = kind_of_name(text_at(file, offset + 4, 8));
-  const std::uint32_t dimensions = load_uint32(file, offset + 12);
+  constexpr std::uint32_t beyond_any_block = 1U << 20;  // fits no block's length
   description.layout.values_per_particle =
-      static_cast<int>(std::min<std::uint32_t>(dimensions, 1U << 20));
+      static_cast<int>(std::min(load_uint32(file, offset + 12), beyond_any_block));
   for (unsigned type = 0; type < 6; ++type) {
     if (load_uint32(file, offset + 16 + 4 * type) != 0) description.layout.types |= 1U << type;
   }
@@ -125,7 +125,14 @@ std::vector<GadgetBlock> understand_labelled(const GadgetBinaryFile& file,
     }
     seen.push_back(record.label);
     auto layout = layouts.fit_description(record.label, record.bytes);
-    if (!layout) layout = layouts.fit_standard(record.label, record.bytes);
+    const bool is_drawable =
+        !layout || layout->values_per_particle == 1 || layout->values_per_particle == 3;
+    if (!is_drawable && !is_standard_block(record.label)) {
+      notes.push_back(fmt::format("block {} left out: it has {} values per particle, not 1 or 3",
+                                  record.label, layout->values_per_particle));
+      continue;
+    }
+    if (!layout || !is_drawable) layout = layouts.fit_standard(record.label, record.bytes);
     if (layout) {
       blocks.push_back({record.label, record.offset, *layout});
     } else if (is_standard_block(record.label)) {

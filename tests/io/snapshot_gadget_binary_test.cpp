@@ -1,3 +1,4 @@
+#include <array>
 #include <fstream>
 
 #include "io/snapshot_checks.h"
@@ -278,26 +279,42 @@ TEST(GadgetBinaryFields, AnAmbiguousBlockIsNoted) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("NEW fits several sets")));
 }
 
+std::string record(const std::string& content) {
+  const auto length = static_cast<std::uint32_t>(content.size());
+  const std::string mark(reinterpret_cast<const char*>(&length), 4);
+  return mark + content + mark;
+}
+
+// An INFO block about one block of floats: values per particle, a flag for each type.
+std::string info_block(const std::string& label, std::uint32_t values,
+                       const std::array<std::uint32_t, 6>& types) {
+  std::string info = label + "FLOAT   ";
+  info.append(reinterpret_cast<const char*>(&values), 4);
+  info.append(reinterpret_cast<const char*>(types.data()), sizeof types);
+  return record(std::string("INFO") + std::string("\x30\0\0\0", 4)) + record(info);
+}
+
+TEST(GadgetBinaryFields, ABlockOfOtherWidthsIsLeftOutWithANote) {
+  const TemporaryFolder folder;
+  TestSnapshot written;
+  written.counts = {8, 8, 0, 0, 0, 0};
+  add_block(written, "POS", 3U, 3);
+  add_block(written, "ZS", 3U, 1);  // one for each of 16 particles, or two for each of 8
+  const std::string bytes = to_gadget(written, 2).bytes;
+  write_bytes(folder / "snap", bytes + info_block("ZS  ", 2, {1, 0, 0, 0, 0, 0}));
+  const auto snapshot = open_snapshot(folder / "snap");
+  EXPECT_FALSE(has_field(*snapshot, 0, "ZS"));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("ZS left out: it has 2 values")));
+}
+
 TEST(GadgetBinaryFields, AnInfoBlockSaysWhichTypesABlockIsFor) {
   const TemporaryFolder folder;
   TestSnapshot written;
   written.counts = {8, 8, 0, 0, 0, 0};
   add_block(written, "POS", 3U, 3);
   add_block(written, "NEW", 2U, 1);
-  std::string bytes = to_gadget(written, 2).bytes;
-  // Label, name of the type, values per particle, a flag for each type.
-  std::string info = "NEW FLOAT   ";
-  for (const std::uint32_t number : {1U, 0U, 1U, 0U, 0U, 0U, 0U}) {
-    info.append(reinterpret_cast<const char*>(&number), 4);
-  }
-  const auto append_record = [&bytes](const std::string& content) {
-    const auto length = static_cast<std::uint32_t>(content.size());
-    const std::string mark(reinterpret_cast<const char*>(&length), 4);
-    bytes += mark + content + mark;
-  };
-  append_record(std::string("INFO") + std::string("\x30\0\0\0", 4));
-  append_record(info);
-  write_bytes(folder / "snap", bytes);
+  const std::string bytes = to_gadget(written, 2).bytes;
+  write_bytes(folder / "snap", bytes + info_block("NEW ", 1, {0, 1, 0, 0, 0, 0}));
   const auto snapshot = open_snapshot(folder / "snap");
   EXPECT_EQ(values_of(snapshot->read(1, "NEW")), as_floats(written.block("NEW").values[1]));
   EXPECT_FALSE(has_field(*snapshot, 0, "NEW"));
