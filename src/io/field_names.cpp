@@ -106,6 +106,10 @@ const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name)
   return find([](const FieldInfo& f) { return f.name == "star_smoothing_length"; });
 }
 
+bool has_masses(const ParticleTypeInfo& type) {
+  return type.table_mass || find_field(type, "mass") != nullptr;
+}
+
 const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type) {
   if (const ParticleTypeInfo* const found = info.find_type(type)) return *found;
   std::vector<int> types;

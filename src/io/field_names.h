@@ -20,6 +20,9 @@ void name_fields(ParticleTypeInfo& type);
 // star_smoothing_length where it has no other. Null when there is none.
 const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name);
 
+// Whether each particle's mass is known, from a field or the header's table.
+bool has_masses(const ParticleTypeInfo& type);
+
 // The type, or a DataError that lists those with particles.
 const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type);
 // The field as find_field has it, or a DataError that lists those the type has.

@@ -10,7 +10,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr int neighbours = 33;
 // Record lengths of a Gadget file are 32 bits: positions take 12 bytes a particle.
 constexpr std::uint64_t most_particles = 170'000'000;
 // Fewer could not be told a smoothing length from their neighbours.
@@ -19,7 +18,7 @@ constexpr std::uint64_t least_particles = 1000;
 std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double box_size) {
   const Column position(nullptr, particles.position.data(), particles.position.size());
   const std::optional<double> period = box_size > 0 ? std::optional(box_size) : std::nullopt;
-  const Column lengths = find_smoothing_lengths(position, particles.count(), period, neighbours);
+  const Column lengths = find_smoothing_lengths(position, particles.count(), period);
   return {lengths.data(), lengths.data() + lengths.size()};
 }
 
@@ -51,11 +50,11 @@ void find_density(GeneratedSnapshot& snapshot) {
     if (particles->count() == 0) continue;
     particles->smoothing_length = smoothing_lengths(*particles, snapshot.box_size);
   }
-  for (const float length : snapshot.gas.smoothing_length) {
-    const double volume = 4 * M_PI / 3 * std::pow(static_cast<double>(length), 3);
-    snapshot.gas.density.push_back(
-        static_cast<float>(neighbours * static_cast<double>(snapshot.gas.mass) / volume));
-  }
+  const std::vector<float>& lengths = snapshot.gas.smoothing_length;
+  const Column density = densities_from_smoothing_lengths(
+      Column::uniform(snapshot.gas.mass), Column(nullptr, lengths.data(), lengths.size()),
+      lengths.size());
+  snapshot.gas.density.assign(density.data(), density.data() + density.size());
 }
 
 }  // namespace splotchcl

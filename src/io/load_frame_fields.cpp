@@ -14,12 +14,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-// How far a particle without a smoothing length of its own reaches: as many particles
-// lie within it as Gadget's gas has within its own (smoothing_lengths_from_density).
-constexpr int neighbours = 33;
-
 // The columns of several types, one after the other. `values_per_particle` is 3 for
 // positions.
 Column joined(const std::vector<Column>& columns, const std::vector<const ParticleTypeInfo*>& types,
@@ -38,10 +32,19 @@ Column joined(const std::vector<Column>& columns, const std::vector<const Partic
   values.reserve(total * values_per_particle);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::size_t size = static_cast<std::size_t>(types[k]->count) * values_per_particle;
-    for (std::size_t i = 0; i < size; ++i)
-      values.push_back(columns[k][i]);
+    const Column& column = columns[k];
+    if (column.is_uniform()) {
+      values.insert(values.end(), size, column.uniform_value());
+    } else {
+      values.insert(values.end(), column.data(), column.data() + size);
+    }
   }
   return Column::owning(std::move(values));
+}
+
+bool all_are_sizes(const Column& column) {
+  return std::all_of(column.data(), column.data() + column.size(),
+                     [](float h) { return std::isfinite(h) && h > 0; });
 }
 
 Column lengths_of_vectors(const Column& vectors) {
@@ -100,9 +103,8 @@ Column ComponentFields::scalars(const std::string& field, const std::string& key
 }
 
 bool ComponentFields::masses_are_known() const {
-  return std::all_of(types_.begin(), types_.end(), [](const ParticleTypeInfo* type) {
-    return find_field(*type, "mass") != nullptr || type->table_mass;
-  });
+  return std::all_of(types_.begin(), types_.end(),
+                     [](const ParticleTypeInfo* type) { return has_masses(*type); });
 }
 
 Column ComponentFields::masses() const {
@@ -161,21 +163,12 @@ Column ComponentFields::masses_of_type(const ParticleTypeInfo& type) const {
       label(), type.type, snapshot_.info().files.front().string()));
 }
 
-// The density of as many particles as smoothing_lengths_from_density puts into the
-// sphere of radius h: its inverse.
 Column ComponentFields::densities_of_type(const ParticleTypeInfo& type) const {
-  const bool has_masses = find_field(type, "mass") != nullptr || type.table_mass;
-  const Column mass = has_masses ? masses_of_type(type) : Column::uniform(1);
+  const Column mass = has_masses(type) ? masses_of_type(type) : Column::uniform(1);
   const Column h = smoothing_lengths_of_type(type);
   note(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                    type.type));
-  std::vector<float> density(static_cast<std::size_t>(type.count));
-  for (std::size_t i = 0; i < density.size(); ++i) {
-    const double radius = static_cast<double>(h[i]);
-    density[i] = static_cast<float>(neighbours * static_cast<double>(mass[i]) /
-                                    (4 * pi / 3 * radius * radius * radius));
-  }
-  return Column::owning(std::move(density));
+  return densities_from_smoothing_lengths(mass, h, static_cast<std::size_t>(type.count));
 }
 
 Column ComponentFields::smoothing_lengths_of_type(const ParticleTypeInfo& type) const {
@@ -189,20 +182,24 @@ Column ComponentFields::smoothing_lengths_of_type(const ParticleTypeInfo& type) 
 
 Column ComponentFields::find_lengths(const ParticleTypeInfo& type) const {
   const std::size_t count = static_cast<std::size_t>(type.count);
-  const bool has_masses = find_field(type, "mass") != nullptr || type.table_mass;
-  if (has_masses && find_field(type, "density") != nullptr) {
-    note(fmt::format(
-        "type {} has no smoothing lengths in the file; they follow from density and mass",
-        type.type));
-    return smoothing_lengths_from_density(masses_of_type(type),
-                                          snapshot_.read(type.type, "density"), count);
+  const char* missing = "smoothing lengths";
+  if (has_masses(type) && find_field(type, "density") != nullptr) {
+    const Column lengths = smoothing_lengths_from_density(
+        masses_of_type(type), snapshot_.read(type.type, "density"), count);
+    if (all_are_sizes(lengths)) {
+      note(fmt::format(
+          "type {} has no smoothing lengths in the file; they follow from density and mass",
+          type.type));
+      return lengths;
+    }
+    missing = "smoothing lengths, and none that follow from density and mass for all";
   }
   note(
-      fmt::format("type {} has no smoothing lengths in the file; each particle is given one that "
-                  "reaches to neighbour {}",
-                  type.type, neighbours));
+      fmt::format("type {} has no {} in the file; each particle is given one that reaches to "
+                  "neighbour {}",
+                  type.type, missing, particles_in_sphere));
   const Column position = snapshot_.read(type.type, "position");
-  return find_smoothing_lengths(position, count, periodic_box(position), neighbours);
+  return find_smoothing_lengths(position, count, periodic_box(position));
 }
 
 // The box of the header, unless particles lie outside of one period of it.

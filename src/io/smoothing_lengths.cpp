@@ -23,6 +23,7 @@ using Shift = std::array<double, 3>;
 
 constexpr std::size_t block_size = 4096;
 constexpr double fallback_fraction = 1e-3;
+constexpr double unit_sphere = 4.188790204786391;  // 4 pi / 3
 
 // The finite positions, as nanoflann asks for them.
 class Cloud {
@@ -208,8 +209,13 @@ void for_blocks(std::size_t count, const std::function<void(std::size_t, std::si
     }
   };
   std::vector<std::thread> others;
-  for (std::size_t thread = 1; thread < threads; ++thread)
-    others.emplace_back(run, thread);
+  others.reserve(threads);
+  try {
+    for (std::size_t thread = 1; thread < threads; ++thread)
+      others.emplace_back(run, thread);
+  } catch (const std::system_error&) {
+    // A limit on threads: fewer do the same.
+  }
   run(0);
   for (std::thread& other : others)
     other.join();
@@ -272,15 +278,24 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
 
 Column smoothing_lengths_from_density(const Column& mass, const Column& density,
                                       std::size_t count) {
-  constexpr double neighbour_mass = 33;
-  constexpr double sphere = 4.188790204786391;  // 4 pi / 3
   std::vector<float> lengths(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double volume =
-        neighbour_mass * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
-    lengths[i] = static_cast<float>(std::cbrt(volume / sphere));
+        particles_in_sphere * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+    lengths[i] = static_cast<float>(std::cbrt(volume / unit_sphere));
   }
   return Column::owning(std::move(lengths));
+}
+
+Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
+                                        std::size_t count) {
+  std::vector<float> densities(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double h = static_cast<double>(smoothing_length[i]);
+    densities[i] = static_cast<float>(particles_in_sphere * static_cast<double>(mass[i]) /
+                                      (unit_sphere * h * h * h));
+  }
+  return Column::owning(std::move(densities));
 }
 
 }  // namespace splotchcl

@@ -11,6 +11,9 @@ namespace splotchcl {
 // Called now and then from the calling thread with the fraction done, 0 to 1.
 using Progress = std::function<void(double)>;
 
+// How many particles a smoothing length reaches in Gadget's gas.
+constexpr int particles_in_sphere = 33;
+
 // Each particle's distance to its `neighbours`-th nearest other particle (or to the
 // farthest, where there are fewer): a smoothing length for matter that has none.
 //
@@ -25,11 +28,15 @@ using Progress = std::function<void(double)>;
 // zero too, 1.
 Column find_smoothing_lengths(const Column& position, std::size_t count,
                               std::optional<double> periodic_box = std::nullopt,
-                              int neighbours = 64, const Progress& progress = {});
+                              int neighbours = particles_in_sphere, const Progress& progress = {});
 
-// The length whose sphere holds the mass of 33 particles at the particle's density, as
-// Gadget's gas has it: h = (3 * 33 m / (4 pi rho))^(1/3). Not finite or not positive where
-// mass or density are.
+// The length whose sphere holds the mass of particles_in_sphere particles at the particle's
+// density: h = (3 * 33 m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
+// are.
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count);
+
+// The inverse: rho = 33 m / (4 pi h^3 / 3).
+Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
+                                        std::size_t count);
 
 }  // namespace splotchcl

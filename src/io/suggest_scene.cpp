@@ -64,10 +64,6 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
   return map;
 }
 
-bool has_masses(const ParticleTypeInfo& type) {
-  return type.table_mass || find_field(type, "mass") != nullptr;
-}
-
 // load_frame estimates it where the file has none; its range is not known before.
 FieldMap estimated_density(Scaling scaling) {
   return {"density", scaling, {}, {}};

@@ -301,6 +301,15 @@ TEST(LoadFrameSize, FollowsFromDensityAndMassWhereBothAreKnown) {
   EXPECT_NEAR(drawn.particles.smoothing_length[7], expected, 1e-6);
 }
 
+TEST(LoadFrameSize, IsFoundFromNeighboursWhereADensityIsMissing) {
+  MemorySnapshot snapshot = grid_without_sizes();
+  std::vector<float> density(1000, 4);
+  density[3] = 0;  // as in initial conditions that were never evolved
+  snapshot.add(0, "density", density);
+  EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[555], std::sqrt(5.0f), 1e-6);
+  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("none that follow from density")));
+}
+
 TEST(LoadFrameSize, FixedReplacesTheField) {
   Component component = gas();
   component.size_fixed = 0.75;
