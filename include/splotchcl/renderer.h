@@ -49,6 +49,7 @@ struct RenderStats {
   std::uint64_t drawn_particles = 0;
   std::uint64_t tile_entries = 0;  // splats summed over tiles
   std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded
+  double build_seconds = 0;        // of the total: compiling kernels, or finding them compiled
   double total_seconds = 0;
   std::vector<StageTime> stages;
 };

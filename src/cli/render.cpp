@@ -125,6 +125,13 @@ Image draw(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& s
   return image;
 }
 
+// Why a first run takes so much longer than the next.
+std::string compilation(const RenderStats& stats) {
+  constexpr double worth_telling_seconds = 1;  // kernels that are found compiled take a tenth
+  if (stats.build_seconds < worth_telling_seconds) return "";
+  return fmt::format(", of it {:.1f} s to compile kernels, this once", stats.build_seconds);
+}
+
 ImageFileOptions file_options(const Scene& scene, const RenderOptions& options,
                               const RenderStats& stats) {
   ImageFileOptions file;
@@ -180,9 +187,10 @@ int run_render(const RenderOptions& options, Console& console) {
     report.reference = options.reference;
     write_stats(*options.stats, report);
   }
-  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}",
+  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}",
                            output->string(), image.width, image.height, report.stats.particles,
-                           report.read_seconds, report.draw_seconds, report.stats.device));
+                           report.read_seconds, report.draw_seconds, report.stats.device,
+                           compilation(report.stats)));
   return 0;
 }
 

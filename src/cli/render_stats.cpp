@@ -23,6 +23,7 @@ Json plan_to_json(const Plan& plan) {
 Json seconds_to_json(const RenderReport& report) {
   return {{"read", report.read_seconds},
           {"draw", report.draw_seconds},
+          {"compile", report.stats.build_seconds},
           {"write", report.write_seconds}};
 }
 

@@ -66,6 +66,7 @@ struct Renderer::State {
 Image Renderer::State::render(const Frame& frame) {
   check_frame(frame);
   const auto start = std::chrono::steady_clock::now();
+  const double built_before = device.programs.build_seconds();
   stats = {};
   stats.device = device.device.name();
   device.timer.clear();
@@ -94,6 +95,7 @@ Image Renderer::State::render(const Frame& frame) {
   stats.bad_particles = projector.bad_particles();
   stats.device_bytes = device.buffers.peak_bytes() + particles.device_bytes();
   stats.stages = device.timer.times();
+  stats.build_seconds = device.programs.build_seconds() - built_before;
   device.timer.clear();
   stats.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
