@@ -1,8 +1,9 @@
 // A picture saturates where the optical depth is well above 1 and is black where it is
 // well below, so the reference follows from the columns that the picture itself will
 // show, not from the particles' own: how many clouds overlap depends on the view. The
-// picture is estimated on a coarse grid of fixed width, so that the reference, and with
-// it the brightness, depends neither on the size of the picture nor on its crop.
+// picture is estimated on a coarse grid of fixed width (of fixed height for a very high
+// picture), so that the reference, and with it the brightness, depends neither on the size
+// of the picture nor on its crop.
 #include "scene/reference_column.h"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int coarse_width = 256;
-constexpr int level_count = 9;  // the last level's cell is as wide as the picture
+constexpr double most_rows_per_column = 4;  // of a picture that is higher than wide
+constexpr int level_count = 9;              // the last level's cell is as wide as the picture
 constexpr std::size_t particle_limit = 500000;
 
 // A pixel is lit when it shows at least this part of what the brightest pixels show;
@@ -101,6 +103,11 @@ class ColumnPyramid {
   std::vector<Grid> levels_;
 };
 
+// Coarse pixels per pixel.
+double coarse_scale(const Frame& frame) {
+  return coarse_width / std::max<double>(frame.width, frame.height / most_rows_per_column);
+}
+
 // How much of a column the particle's colour lets through to the picture: its brightest
 // channel, of emission or absorption. Black palette entries count a little, so that a
 // component without any light still has a reference.
@@ -135,7 +142,7 @@ std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& fram
   if (z < frame.near_limit.value_or(perspective ? 0.1 * h : 0.0)) return std::nullopt;
   if (frame.far_limit && z > *frame.far_limit) return std::nullopt;
 
-  const double coarse_pixels = static_cast<double>(coarse_width) / frame.width;
+  const double coarse_pixels = coarse_scale(frame);
   const double scale = coarse_pixels * (perspective ? frame.camera.focal_pixels / z
                                                     : frame.camera.pixels_per_length);
   Cloud cloud;
@@ -168,10 +175,10 @@ std::vector<double> lit_pixels(std::vector<double> pixels) {
 }  // namespace
 
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame) {
-  const int coarse_height =
-      std::max(1, static_cast<int>(
-                      std::lround(static_cast<double>(coarse_width) * frame.height / frame.width)));
-  ColumnPyramid pyramid(coarse_width, coarse_height);
+  const auto coarse = [&frame](int pixels) {
+    return std::max(1, static_cast<int>(std::lround(coarse_scale(frame) * pixels)));
+  };
+  ColumnPyramid pyramid(coarse(frame.width), coarse(frame.height));
   const std::size_t count = component.particles.count;
   const std::size_t stride = sample_stride(count, particle_limit);
   for (std::size_t i = 0; i < count; i += stride) {

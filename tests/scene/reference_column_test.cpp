@@ -56,6 +56,12 @@ TEST(ReferenceColumn, FallsWithTheSquareOfTheLengthUnit) {
   EXPECT_NEAR(ratio * 1024 * 1024, 1, 1e-5);
 }
 
+TEST(ReferenceColumn, OfTheHighestPictureNeedsNoMoreThanOthers) {
+  // A coarse grid of fixed width would take 40 GB.
+  EXPECT_TRUE(std::isfinite(reference_of(ball(1, 1, 1, 65536))));
+  EXPECT_TRUE(std::isfinite(reference_of(ball(1, 1, 65536, 1))));
+}
+
 TEST(ReferenceColumn, DoesNotDependOnTheSizeOfThePicture) {
   EXPECT_NEAR(reference_of(ball(1, 1, 2000, 2000)) / reference_of(ball(1, 1, 400, 400)), 1, 1e-9);
 }
