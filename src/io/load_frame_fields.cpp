@@ -182,7 +182,7 @@ Column ComponentFields::smoothing_lengths_of_type(const ParticleTypeInfo& type) 
 
 Column ComponentFields::find_lengths(const ParticleTypeInfo& type) const {
   const std::size_t count = static_cast<std::size_t>(type.count);
-  const char* missing = "smoothing lengths";
+  const char* reason = "";
   if (has_masses(type) && find_field(type, "density") != nullptr) {
     const Column lengths = smoothing_lengths_from_density(
         masses_of_type(type), snapshot_.read(type.type, "density"), count);
@@ -192,12 +192,12 @@ Column ComponentFields::find_lengths(const ParticleTypeInfo& type) const {
           type.type));
       return lengths;
     }
-    missing = "smoothing lengths, and none that follow from density and mass for all";
+    reason = ", and some of its densities or masses are not above 0";
   }
   note(
-      fmt::format("type {} has no {} in the file; each particle is given one that reaches to "
-                  "neighbour {}",
-                  type.type, missing, particles_in_sphere));
+      fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
+                  "reaches to neighbour {}",
+                  type.type, reason, particles_in_sphere));
   const Column position = snapshot_.read(type.type, "position");
   return find_smoothing_lengths(position, count, periodic_box(position));
 }

@@ -307,7 +307,7 @@ TEST(LoadFrameSize, IsFoundFromNeighboursWhereADensityIsMissing) {
   density[3] = 0;  // as in initial conditions that were never evolved
   snapshot.add(0, "density", density);
   EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[555], std::sqrt(5.0f), 1e-6);
-  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("none that follow from density")));
+  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("some of its densities")));
 }
 
 TEST(LoadFrameSize, FixedReplacesTheField) {
