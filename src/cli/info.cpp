@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "io/field_statistics.h"
+#include "io/particle_types.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
@@ -14,13 +14,6 @@ namespace splotchcl::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* type_name(int type) {
-  constexpr std::array<const char*, 6> names = {"gas",   "halo",  "disk",
-                                                "bulge", "stars", "boundary"};
-  const auto index = static_cast<std::size_t>(type);
-  return index < names.size() ? names[index] : "other";
-}
 
 // One axis of a vector field, or the values of another.
 struct FieldRow {
@@ -76,8 +69,8 @@ std::string row_text(const FieldRow& row, const FieldInfo& field) {
 }
 
 std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Console& console) {
-  std::string text =
-      fmt::format("\ntype {}, {}: {} particles\n", type.type, type_name(type.type), type.count);
+  std::string text = fmt::format("\ntype {}, {}: {} particles\n", type.type,
+                                 particle_type_name(type.type), type.count);
   if (type.table_mass)
     text += fmt::format("  mass of each, from the header: {}\n", *type.table_mass);
   text += fmt::format("  {:20} {:12} {:>13} {:>13} {:>13} {:>8} {}\n", "field", "in the file",
@@ -91,7 +84,7 @@ std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Co
 }
 
 Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type) {
-  Json json = {{"type", type.type}, {"name", type_name(type.type)}, {"count", type.count}};
+  Json json = {{"type", type.type}, {"name", particle_type_name(type.type)}, {"count", type.count}};
   if (type.table_mass) json["table_mass"] = *type.table_mass;
   json["fields"] = Json::array();
   for (const FieldInfo& field : type.fields) {

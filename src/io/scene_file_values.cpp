@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <sstream>
 
+#include "io/particle_types.h"
+
 namespace splotchcl::scene_file {
 namespace {
 
-// Gadget's names for its particle types, in the order of their numbers.
-const std::vector<std::string> type_names = {"gas", "halo", "disk", "bulge", "stars", "boundary"};
 constexpr int largest_type = 31;
 
 // Integers are numbers too: 45 and 45.0 mean the same, with any number of digits.
@@ -52,9 +52,10 @@ std::string write_three_numbers(const Three& values) {
 std::optional<int> read_particle_type(const toml::node& node) {
   const std::optional<std::string> name = node.value_exact<std::string>();
   if (!name) return read_integer(node, 0, largest_type);
-  const auto found = std::find(type_names.begin(), type_names.end(), *name);
-  if (found == type_names.end()) return std::nullopt;
-  return static_cast<int>(found - type_names.begin());
+  const auto& names = particle_type_names;
+  const auto found = std::find(names.begin(), names.end(), *name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<int>(found - names.begin());
 }
 
 // One type, or an array of different ones.
@@ -79,9 +80,8 @@ std::optional<std::vector<int>> read_particle_types(const toml::node& node) {
 std::string write_particle_types(const std::vector<int>& types) {
   std::vector<std::string> words;
   for (const int type : types) {
-    const bool has_name = type >= 0 && static_cast<std::size_t>(type) < type_names.size();
-    words.push_back(has_name ? write_text(type_names[static_cast<std::size_t>(type)])
-                             : std::to_string(type));
+    const bool has_name = type >= 0 && static_cast<std::size_t>(type) < particle_type_names.size();
+    words.push_back(has_name ? write_text(particle_type_name(type)) : std::to_string(type));
   }
   return fmt::format("[{}]", fmt::join(words, ", "));
 }
@@ -177,7 +177,7 @@ ValueType<std::pair<int, int>> size_in_pixels(int at_most) {
 ValueType<std::vector<int>> particle_types() {
   return {fmt::format("a particle type or an array of different ones, each a number from 0 to {} "
                       "or one of {}",
-                      largest_type, fmt::join(type_names, ", ")),
+                      largest_type, fmt::join(particle_type_names, ", ")),
           read_particle_types, write_particle_types};
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/decimals.h"
 #include "io/field_names.h"
+#include "io/particle_types.h"
 #include "io/suggest_scene_camera.h"
 #include "scene/statistics.h"
 #include "splotchcl/error.h"
@@ -22,30 +24,9 @@ constexpr double gamma = 1.5;
 // a picture colours.
 constexpr double smallest_span = 0.05;
 
-const char* type_name(int type) {
-  switch (type) {
-    case 0:
-      return "gas";
-    case 1:
-      return "halo";
-    case 2:
-      return "disk";
-    case 3:
-      return "bulge";
-    case 4:
-      return "stars";
-    case 5:
-      return "boundary";
-  }
-  return "other";
-}
-
 // Three digits: a limit that a user may want to read and change.
 double rounded(double value) {
-  if (value == 0) return 0;
-  const double digits = 2 - std::floor(std::log10(std::abs(value)));
-  const double scale = std::pow(10, std::abs(digits));
-  return digits > 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+  return value == 0 ? 0 : round_to_decimals(value, decimals_for(value, 3));
 }
 
 // The field with its limits spelled out, if the type has it and it has something to show.
@@ -71,7 +52,7 @@ FieldMap estimated_density(Scaling scaling) {
 
 Component component_for(const ParticleTypeInfo& type) {
   Component component;
-  component.name = type_name(type.type);
+  component.name = particle_type_name(type.type);
   component.types = {type.type};
   component.weight = has_masses(type) ? WeightModel::mass : WeightModel::constant;
   return component;

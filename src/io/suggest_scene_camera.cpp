@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/decimals.h"
 #include "scene/statistics.h"
 #include "splotchcl/error.h"
 
@@ -173,11 +174,7 @@ Target find_target(Sample& sample, const SnapshotInfo& info, double aspect) {
 
 // A number that reads well in a scene file: four digits of the size of the target.
 double rounded(double value, double size) {
-  const double digits = 3 - std::floor(std::log10(size));
-  const double scale = std::pow(10, std::abs(digits));
-  const double result =
-      digits > 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
-  return result + 0.0;  // not -0
+  return round_to_decimals(value, decimals_for(size, 4));
 }
 
 }  // namespace
