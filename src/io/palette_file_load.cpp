@@ -46,10 +46,13 @@ bool is_palette_file(const fs::path& path) {
   return is_named_so && fs::is_regular_file(path, ignored);
 }
 
+// Nothing in a folder that cannot be read.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (is_palette_file(entry.path())) names.push_back(entry.path().stem().string());
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_palette_file(entry->path())) names.push_back(entry->path().stem().string());
   }
   return names;
 }
