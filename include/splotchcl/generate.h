@@ -12,7 +12,7 @@ namespace splotchcl {
 // Units are Gadget's: kpc/h, 1e10 solar masses/h, km/s.
 struct GenerateSettings {
   std::uint64_t particles = 200000;  // gas and stars together
-  double star_fraction = 0.15;       // of the particles, 0 <= value < 1
+  double star_fraction = 0.15;       // of the particles, 0 to 0.9
   std::uint64_t seed = 1;            // the same seed gives the same particles
 };
 

@@ -1,6 +1,6 @@
 #include <array>
 #include <cstdint>
-#include <cstring>
+#include <limits>
 #include <string>
 
 #include "io/unfinished_file.h"
@@ -29,6 +29,11 @@ struct Header {
   std::array<char, 60> unused = {};
 };
 static_assert(sizeof(Header) == 256);
+
+// Record lengths have 32 bits: the longest record has three floats for each particle, and
+// the label before it counts its two marks too.
+constexpr std::uint64_t most_particles =
+    (std::numeric_limits<std::uint32_t>::max() - 8) / (3 * sizeof(float));
 
 // A record is its length, its bytes, its length.
 class RecordWriter {
@@ -100,12 +105,18 @@ void write_ids(RecordWriter& writer, UnfinishedFile& file, std::uint64_t count) 
 }  // namespace
 
 void write_gadget2(const std::filesystem::path& path, const GeneratedSnapshot& snapshot) {
+  const std::uint64_t particles = snapshot.gas.count() + snapshot.stars.count();
+  if (particles > most_particles) {
+    throw DataError(path.string() + ": cannot be written: found " + std::to_string(particles) +
+                    " particles, but a file of Gadget format 2 holds up to " +
+                    std::to_string(most_particles) + "; make fewer");
+  }
   UnfinishedFile file(path);
   RecordWriter writer(file);
   writer.write_header(make_header(snapshot));
   writer.write_block("POS ", snapshot.gas.position, snapshot.stars.position);
   writer.write_block("VEL ", snapshot.gas.velocity, snapshot.stars.velocity);
-  write_ids(writer, file, snapshot.gas.count() + snapshot.stars.count());
+  write_ids(writer, file, particles);
   writer.write_block("MASS", masses(snapshot.gas), masses(snapshot.stars));
   writer.write_block("U   ", snapshot.gas.internal_energy);
   writer.write_block("RHO ", snapshot.gas.density);
