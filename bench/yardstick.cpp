@@ -240,6 +240,13 @@ Yardstick measure_yardstick(int threads) {
   return {measure_size(5, 1000000, threads), measure_size(20, 200000, threads), threads};
 }
 
+Yardstick mean_of(const Yardstick& first, const Yardstick& second) {
+  const auto mean = [](const YardstickCost& a, const YardstickCost& b) -> YardstickCost {
+    return {0.5 * (a.additive_ns + b.additive_ns), 0.5 * (a.ordered_ns + b.ordered_ns)};
+  };
+  return {mean(first.small, second.small), mean(first.large, second.large), first.threads};
+}
+
 std::string describe(const Yardstick& yardstick) {
   char text[200];
   std::snprintf(text, sizeof(text),

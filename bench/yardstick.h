@@ -38,6 +38,7 @@ struct Yardstick {
   double ordered_ns() const;
 };
 Yardstick measure_yardstick(int threads);
+Yardstick mean_of(const Yardstick& first, const Yardstick& second);
 std::string describe(const Yardstick& yardstick);
 
 }  // namespace splotchcl::bench
