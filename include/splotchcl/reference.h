@@ -23,11 +23,11 @@ struct Splat {
   std::uint64_t particle = 0;  // index over all components, in component and file order
 };
 
-// Drawable particles in component and file order. Left out: bad values (not a number,
-// infinite, h <= 0), z outside the limits. Nothing is left out for lying off the image.
+// Drawable particles in component and file order. Left out: bad values (count_bad),
+// z outside the limits. Nothing is left out for lying off the image.
 std::vector<Splat> project(const Frame& frame);
 
-// Number of particles with bad values (position, smoothing length, weight).
+// Number of particles with bad values: any that is not finite, h <= 0, weight < 0.
 std::uint64_t count_bad(const Frame& frame);
 
 // Nearest first as frame.sort says; stable; -0 equals +0.

@@ -45,7 +45,7 @@ struct StageTime {
 struct RenderStats {
   std::string device;
   std::uint64_t particles = 0;      // in the components
-  std::uint64_t bad_particles = 0;  // left out: not a number, infinite, h <= 0
+  std::uint64_t bad_particles = 0;  // left out: as reference::count_bad counts them
   std::uint64_t drawn_particles = 0;
   std::uint64_t tile_entries = 0;  // splats summed over tiles
   std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded

@@ -49,11 +49,21 @@ Rectangle choose_crop(const std::string& text, int width, int height) {
   return crop;
 }
 
+// The scene's name; a folder's too, however its path is written.
+std::string name_of(const std::filesystem::path& scene) {
+  std::filesystem::path name = scene.filename();
+  if (name.empty() || name == "." || name == "..") {
+    std::error_code ignored;
+    name = (std::filesystem::canonical(scene, ignored) / "").parent_path().filename();
+  }
+  return name.empty() ? "picture" : name.stem().string();
+}
+
 // --explain without --output only explains.
 std::optional<std::filesystem::path> choose_output(const RenderOptions& options) {
   if (options.output) return options.output;
   if (options.explain) return std::nullopt;
-  return options.scene.stem().string() + ".png";
+  return name_of(options.scene) + ".png";
 }
 
 std::vector<std::string> settings_of(const RenderOptions& options) {
@@ -118,8 +128,9 @@ Image draw(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& s
   }
   if (stats.bad_particles > 0) {
     console.note(fmt::format(
-        "{} of {} particles are left out: their position, smoothing length or weight is not "
-        "finite, or the smoothing length is not above 0",
+        "{} of {} particles are left out: their position, smoothing length, weight, colour, "
+        "intensity or sort field is not finite, the smoothing length not above 0, or the weight "
+        "below 0",
         stats.bad_particles, stats.particles));
   }
   return image;

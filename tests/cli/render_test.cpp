@@ -56,6 +56,15 @@ TEST_F(Render, ExplainsAndDrawsWithAnOutput) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
 }
 
+TEST_F(Render, NamesThePictureAfterTheSceneByDefault) {
+  ASSERT_EQ(run_in(folder_, "mkdir set && mv u set/snap_1.gadget").exit_code, 0);
+  for (const std::string scene : {"set/snap_1.gadget", "set", "set/", "set/."}) {
+    EXPECT_EQ(render(scene + small).exit_code, 0) << scene;
+    const char* const name = scene == "set/snap_1.gadget" ? "snap_1.png" : "set.png";
+    EXPECT_TRUE(std::filesystem::remove(folder_ / name)) << scene;
+  }
+}
+
 TEST_F(Render, DrawsTheSamePictureFromTheSceneThatIsExplained) {
   ASSERT_EQ(render(std::string("u --explain > scene.toml") + small).exit_code, 0);
   EXPECT_EQ(picture("scene.toml").pixels, picture(std::string("u") + small).pixels);
