@@ -117,27 +117,36 @@ std::string read_label(const MappedFile& file, const GadgetRecord& record) {
   return label;
 }
 
+// Places in the header, in bytes. Arrays have an entry for each of the six types.
+namespace at {
+constexpr std::uint64_t counts = 0, table_masses = 24, time = 72, redshift = 80;
+constexpr std::uint64_t star_formation = 88, total_counts = 96, cooling = 120, files = 124;
+constexpr std::uint64_t box_size = 128, omega_matter = 136, hubble_parameter = 152;
+constexpr std::uint64_t stellar_age = 160, metals = 164, total_counts_high = 168;
+}  // namespace at
+
 GadgetHeader read_header(const GadgetRecord& record, const Numbers& numbers) {
   GadgetHeader header;
-  const std::uint64_t start = record.offset;
+  const auto uint32 = [&](std::uint64_t place) { return numbers.uint32(record.offset + place); };
+  const auto float64 = [&](std::uint64_t place) { return numbers.float64(record.offset + place); };
   for (std::uint64_t type = 0; type < 6; ++type) {
-    header.counts.push_back(numbers.uint32(start + 4 * type));
-    header.table_masses.push_back(numbers.float64(start + 24 + 8 * type));
-    const std::uint64_t high = numbers.uint32(start + 168 + 4 * type);
-    header.total_counts.push_back((high << 32) + numbers.uint32(start + 96 + 4 * type));
+    header.counts.push_back(uint32(at::counts + 4 * type));
+    header.table_masses.push_back(float64(at::table_masses + 8 * type));
+    const std::uint64_t high = uint32(at::total_counts_high + 4 * type);
+    header.total_counts.push_back((high << 32) + uint32(at::total_counts + 4 * type));
   }
-  header.time = numbers.float64(start + 72);
-  header.redshift = numbers.float64(start + 80);
-  header.has_star_formation = numbers.uint32(start + 88) == 1;
-  header.has_cooling = numbers.uint32(start + 120) == 1;
-  const std::uint32_t files = numbers.uint32(start + 124);
-  header.files =
-      static_cast<int>(std::min<std::uint32_t>(files, std::numeric_limits<std::int32_t>::max()));
-  header.box_size = numbers.float64(start + 128);
-  header.omega_matter = numbers.float64(start + 136);
-  header.hubble_parameter = numbers.float64(start + 152);
-  header.has_stellar_age = numbers.uint32(start + 160) == 1;
-  header.has_metals = numbers.uint32(start + 164) == 1;
+  header.time = float64(at::time);
+  header.redshift = float64(at::redshift);
+  header.has_star_formation = uint32(at::star_formation) == 1;
+  header.has_cooling = uint32(at::cooling) == 1;
+  // Beyond an int it is damage, which the first file that is missing brings to light.
+  constexpr std::uint32_t most_files = std::numeric_limits<std::int32_t>::max();
+  header.files = static_cast<int>(std::min(uint32(at::files), most_files));
+  header.box_size = float64(at::box_size);
+  header.omega_matter = float64(at::omega_matter);
+  header.hubble_parameter = float64(at::hubble_parameter);
+  header.has_stellar_age = uint32(at::stellar_age) == 1;
+  header.has_metals = uint32(at::metals) == 1;
   return header;
 }
 

@@ -53,7 +53,7 @@ Keys image_keys() {
       key("image.background", three_numbers(light(), "[red, green, blue]"),
           &ImageSettings::background, {"Light behind everything.", "white is 1"}),
       key("image.gamma", number(between(0.01, 100)), &ImageSettings::gamma,
-          {"8-bit and 16-bit files store value^(1/gamma). EXR always keeps linear light."}),
+          {"Files of 8 bits store value^(1/gamma). EXR, TIFF and HDR always keep linear light."}),
   };
 }
 
