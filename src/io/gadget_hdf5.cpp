@@ -128,8 +128,9 @@ std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::stri
 void GadgetHdf5Snapshot::choose_origin() {
   std::vector<Hdf5Values> positions;
   for (const ParticleTypeInfo& type : info_.types) {
-    const FieldInfo& field = *find_field(type, "position");
-    for (Hdf5Values& part : find_parts(type.type, field.file_name)) {
+    const FieldInfo* const field = find_field(type, "position");
+    if (field == nullptr || field->values_per_particle != 3) return;  // will be refused
+    for (Hdf5Values& part : find_parts(type.type, field->file_name)) {
       positions.push_back(std::move(part));
     }
   }

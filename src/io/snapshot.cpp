@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "io/field_names.h"
 #include "io/snapshot_files.h"
 #include "io/snapshot_format.h"
 #include "splotchcl/error.h"
@@ -30,9 +31,25 @@ std::string first_bytes(const fs::path& path) {
   return text;
 }
 
+// Whatever else may be missing: without positions there is nothing to draw.
+void check_positions(const SnapshotInfo& info) {
+  for (const ParticleTypeInfo& type : info.types) {
+    const FieldInfo* const position = find_field(type, "position");
+    if (position != nullptr && position->values_per_particle == 3) continue;
+    throw DataError(
+        fmt::format("{}: particles of type {} have no positions of three coordinates in every file "
+                    "of the snapshot; the snapshot is incomplete or damaged",
+                    info.files.front().string(), type.type));
+  }
+}
+
 std::unique_ptr<Snapshot> open_file(const fs::path& path) {
   const SnapshotFormat* const format = find_format(path);
-  if (format != nullptr) return format->open(path);
+  if (format != nullptr) {
+    auto snapshot = format->open(path);
+    check_positions(snapshot->info());
+    return snapshot;
+  }
   if (fs::file_size(path) == 0) {
     throw DataError(fmt::format("{}: the file is empty; expected a snapshot", path.string()));
   }

@@ -196,6 +196,20 @@ TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
               ::testing::ThrowsMessage<DataError>(HasSubstr("not completely written")));
 }
 
+TEST(GadgetHdf5, PositionsThatEachFileOfASetNamesDifferentlyAreRefused) {
+  const TemporaryFolder folder;
+  const auto members = split(small_snapshot(), 2);
+  write_hdf5(folder / "snap.0.hdf5", members[0]);
+  write_hdf5(folder / "snap.1.hdf5", members[1]);
+  {
+    const Hdf5Handle<H5Fclose> file(
+        H5Fopen((folder / "snap.1.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    H5Lmove(file.id(), "PartType0/Coordinates", file.id(), "PartType0/Positions", H5P_DEFAULT,
+            H5P_DEFAULT);
+  }
+  EXPECT_THAT(refusal(folder / "snap.0.hdf5"), HasSubstr("type 0 have no positions"));
+}
+
 TEST(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
   const TemporaryFolder folder;
   write_hdf5(folder / "snap.hdf5", small_snapshot());
