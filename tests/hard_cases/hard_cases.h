@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+#include "splotchcl/plan.h"
+#include "splotchcl/reference.h"
+
+namespace splotchcl::test {
+
+// What the renderer cannot hold today in one plan: the error it may reach, in units of the
+// frame's tolerance, and where that number comes from.
+struct KnownLimit {
+  LightPlan plan;
+  double bound;
+  std::string reason;
+};
+
+// A frame that is hard to draw within its tolerance.
+struct HardCase {
+  std::string name;  // letters and digits: also the test's name
+  std::string why;   // it is hard
+  std::function<Frame(LightPlan)> frame;
+  std::vector<LightPlan> plans = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
+  // The picture as it should be: the oracle's, or a closed form where that would take minutes.
+  std::function<ExactImage(const Frame&)> exact = [](const Frame& frame) {
+    return reference::render(frame);
+  };
+  bool dark = false;       // nothing to see: a black picture is right
+  bool groups_too = true;  // false: too slow on a processor in the shape made for GPUs
+  std::vector<KnownLimit> limits = {};
+};
+
+std::vector<HardCase> light_cases();    // absorption, depth, dynamic range
+std::vector<HardCase> layer_cases();    // very many layers in one pixel
+std::vector<HardCase> order_cases();    // depths, keys, coincident particles
+std::vector<HardCase> size_cases();     // widths of clouds, ends of discs
+std::vector<HardCase> camera_cases();   // positions, units and fields of view
+std::vector<HardCase> picture_cases();  // sizes of pictures, crops
+std::vector<HardCase> data_cases();     // numbers of particles, bad values
+
+}  // namespace splotchcl::test

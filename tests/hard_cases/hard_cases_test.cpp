@@ -1,0 +1,135 @@
+// Every hard case in every plan it applies to and both shapes of compositing, against its
+// exact picture; a table of the measured errors at the end.
+#include "hard_cases/hard_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/scenes.h"
+#include "hard_cases/error_table.h"
+#include "splotchcl/renderer.h"
+
+namespace splotchcl::test {
+namespace {
+
+const std::vector<HardCase>& all_cases() {
+  static const std::vector<HardCase> cases = [] {
+    std::vector<HardCase> all;
+    for (const auto& part : {light_cases(), layer_cases(), order_cases(), size_cases(),
+                             camera_cases(), picture_cases(), data_cases()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return cases;
+}
+
+struct CaseRun {
+  std::size_t index;
+  LightPlan plan;
+  CompositeShape shape;
+};
+
+std::vector<CaseRun> all_runs() {
+  std::vector<CaseRun> runs;
+  for (std::size_t i = 0; i < all_cases().size(); ++i) {
+    for (const LightPlan plan : all_cases()[i].plans) {
+      runs.push_back({i, plan, CompositeShape::rows});
+      if (all_cases()[i].groups_too) runs.push_back({i, plan, CompositeShape::groups});
+    }
+  }
+  return runs;
+}
+
+const char* shape_name(const CaseRun& run) {
+  return run.shape == CompositeShape::rows ? "rows" : "groups";
+}
+
+std::string run_name(const CaseRun& run) {
+  return all_cases()[run.index].name + "_" + name(run.plan) + "_" + shape_name(run);
+}
+
+// What all runs share: a renderer per shape, the last exact picture, and the table.
+class Bench : public testing::Environment {
+ public:
+  Renderer& renderer(CompositeShape shape) {
+    std::unique_ptr<Renderer>& renderer = renderers_[shape == CompositeShape::rows ? 0 : 1];
+    if (!renderer) {
+      RendererOptions options;
+      options.shape = shape;
+      renderer = std::make_unique<Renderer>(options);
+    }
+    return *renderer;
+  }
+
+  // The two shapes of a case come one after the other and share the exact picture.
+  const ExactImage& exact(const CaseRun& run, const Frame& frame) {
+    const std::string key = all_cases()[run.index].name + name(run.plan);
+    if (key != exact_key_) {
+      exact_ = all_cases()[run.index].exact(frame);
+      exact_key_ = key;
+    }
+    return exact_;
+  }
+
+  ErrorTable& table() { return table_; }
+
+  void TearDown() override {
+    table_.print(std::cout);
+    renderers_[0].reset();
+    renderers_[1].reset();
+  }
+
+ private:
+  std::unique_ptr<Renderer> renderers_[2];
+  ExactImage exact_;
+  std::string exact_key_;
+  ErrorTable table_;
+};
+
+Bench& bench() {
+  static auto* const shared = dynamic_cast<Bench*>(testing::AddGlobalTestEnvironment(new Bench));
+  return *shared;
+}
+
+const KnownLimit* find_limit(const HardCase& hard, LightPlan plan) {
+  for (const KnownLimit& limit : hard.limits) {
+    if (limit.plan == plan) return &limit;
+  }
+  return nullptr;
+}
+
+class HardCases : public testing::TestWithParam<CaseRun> {};
+
+TEST_P(HardCases, StayWithinTheirBound) {
+  const CaseRun& run = GetParam();
+  const HardCase& hard = all_cases()[run.index];
+  const Frame frame = hard.frame(run.plan);
+  ASSERT_EQ(make_plan(frame).light, run.plan);
+  const KnownLimit* limit = find_limit(hard, run.plan);
+  const double bound = frame.tolerance * (limit ? limit->bound : 1);
+  const Image image = bench().renderer(run.shape).render(frame);
+  const ExactImage& exact = bench().exact(run, frame);
+  ASSERT_EQ(largest_value(exact) < 0.05, hard.dark) << "the case must have something to see";
+  const double error = largest_error(image, exact);
+  bench().table().add(hard, run.plan, shape_name(run), error, frame.tolerance, bound, limit);
+  EXPECT_LE(error, bound) << hard.why << (limit ? "; known limit: " + limit->reason : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HardCases, testing::ValuesIn(all_runs()),
+                         [](const testing::TestParamInfo<CaseRun>& info) {
+                           return run_name(info.param);
+                         });
+
+}  // namespace
+}  // namespace splotchcl::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  splotchcl::test::bench();
+  return RUN_ALL_TESTS();
+}

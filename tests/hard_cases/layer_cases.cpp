@@ -1,0 +1,102 @@
+// Very many faint layers in one pixel, against closed forms: a column of N layers, each
+// with optical depth t and source s, is s (1 - exp(-N t)) / (1 - exp(-t)).
+#include <cmath>
+
+#include "hard_cases/hard_cases.h"
+#include "hard_cases/hard_frames.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr std::size_t layer_count = 10000000;
+constexpr double layer_depth = 1e-7;
+constexpr double grain_sigma = 0.3;
+
+// X of a grain of weight 1 at the centre of its pixel: the mean over the pixel.
+double grain_column() {
+  const double axis = 0.5 * std::sqrt(pi) * grain_sigma * 2 * std::erf(0.5 / grain_sigma);
+  return axis * axis;
+}
+
+// A picture of one pixel and 10 million grains of depth 1e-7 at its centre.
+Frame layers_in_one_pixel(const Palette& palette) {
+  DrawnComponent grains;
+  grains.particles.count = layer_count;
+  std::vector<float> positions(3 * layer_count, 0.0f);
+  for (std::size_t i = 0; i < layer_count; ++i) {
+    positions[3 * i + 2] = 1;
+  }
+  grains.particles.position = Column::owning(std::move(positions));
+  grains.particles.smoothing_length = Column::uniform(static_cast<float>(grain_sigma));
+  grains.particles.weight = Column::uniform(1);
+  // So that w X = 1e-7.
+  const double column =
+      1 / (pi * std::pow(static_cast<double>(static_cast<float>(grain_sigma)), 2));
+  grains.reference_column = column * grain_column() / layer_depth;
+  grains.palette = palette;
+  return frame_of(1, 1, {grains});
+}
+
+Frame equal_layers(LightPlan plan) {
+  Frame frame = layers_in_one_pixel(one_color(1, 1, 1));
+  if (plan == LightPlan::ordered) {
+    frame.components.front().palette.absorption = {Rgb{1, 1, 1}};
+  } else {
+    frame = lit(frame, plan);
+  }
+  return frame;
+}
+
+ExactImage equal_layers_exact(const Frame& frame) {
+  const double total = layer_count * layer_depth;
+  const double light = frame.components.front().absorption.kind == Absorption::Kind::none
+                           ? total
+                           : -std::expm1(-total);
+  return even_picture(frame, light, light, light);
+}
+
+// Every second grain is dark; red: all depths alike, green: the dark ones absorb nothing,
+// blue: the bright ones absorb nothing.
+Frame alternating_layers(LightPlan) {
+  Palette palette;
+  palette.emission = {Rgb{2, 2, 2}, Rgb{0, 0, 0}};
+  palette.absorption = {Rgb{1, 1, 0}, Rgb{1, 0, 1}};
+  Frame frame = layers_in_one_pixel(palette);
+  std::vector<float> colors(layer_count);
+  for (std::size_t i = 0; i < layer_count; ++i)
+    colors[i] = static_cast<float>(i % 2);
+  frame.components.front().particles.color = Column::owning(std::move(colors));
+  return frame;
+}
+
+ExactImage alternating_layers_exact(const Frame& frame) {
+  const double pairs = 0.5 * layer_count;
+  const double t = layer_depth;
+  // Sources of a bright layer with and without absorption, added up behind all before it.
+  const double absorbing = -2 * std::expm1(-t), transparent = 2 * t;
+  const double red = absorbing * std::expm1(-2 * pairs * t) / std::expm1(-2 * t);
+  const double green = absorbing * std::expm1(-pairs * t) / std::expm1(-t);
+  const double blue = transparent * std::expm1(-pairs * t) / std::expm1(-t);
+  return even_picture(frame, red, green, blue);
+}
+
+}  // namespace
+
+std::vector<HardCase> layer_cases() {
+  const std::vector<LightPlan> all = HardCase{}.plans;
+  return {
+      {"TenMillionLayersInOnePixel",
+       "a sum in single precision stalls: at 1 it no longer sees steps of 1e-8, and rounds "
+       "steps of 1e-7 alike",
+       equal_layers, all, equal_layers_exact, false, false},
+      {"TenMillionAlternatingLayers",
+       "bright and dark layers of 1e-7: source and opacity must both take every step",
+       alternating_layers,
+       {LightPlan::ordered},
+       alternating_layers_exact,
+       false,
+       false},
+  };
+}
+
+}  // namespace splotchcl::test

@@ -1,0 +1,131 @@
+// Depths and keys that sorting may get wrong.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "hard_cases/hard_cases.h"
+#include "hard_cases/hard_frames.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr int side = 64;
+
+std::vector<Cloud> overlapping_clouds(int count) {
+  Random random(21);
+  std::vector<Cloud> clouds;
+  for (int i = 0; i < count; ++i) {
+    Cloud cloud;
+    cloud.x = random.uniform(-0.4, 0.4) * side;
+    cloud.y = random.uniform(-0.4, 0.4) * side;
+    cloud.z = random.uniform(1, 100);
+    cloud.sigma = random.logarithmic(1, 8);
+    cloud.column = random.logarithmic(0.1, 2);
+    clouds.push_back(cloud);
+  }
+  return clouds;
+}
+
+Frame frame_of_clouds(const std::vector<Cloud>& clouds, LightPlan plan) {
+  return lit(frame_of(side, side, {in_random_colors(component_of(clouds, two_colors()))}), plan);
+}
+
+Frame equal_depths(LightPlan plan) {
+  std::vector<Cloud> clouds = overlapping_clouds(2000);
+  for (Cloud& cloud : clouds)
+    cloud.z = 7;
+  return frame_of_clouds(clouds, plan);
+}
+
+template <class Compare>
+Frame ordered_input(Compare compare, LightPlan plan) {
+  std::vector<Cloud> clouds = overlapping_clouds(2000);
+  std::sort(clouds.begin(), clouds.end(),
+            [compare](const Cloud& a, const Cloud& b) { return compare(a.z, b.z); });
+  return frame_of_clouds(clouds, plan);
+}
+
+// `count` clouds of this width and column at one point.
+Frame coincident(int count, double sigma, double column, LightPlan plan) {
+  const std::vector<Cloud> clouds(static_cast<std::size_t>(count),
+                                  Cloud{0.3, -0.4, 5, sigma, column});
+  return frame_of_clouds(clouds, plan);
+}
+
+// docs/accuracy.md, in units of the tolerance: a splat ends where it adds 1/24 of the
+// truncation's share, which is 1/2, so that two dozen may end in one pixel; a coarse grid
+// errs by its share of 1/4 of the splat's peak, or by 1/(4 * 0.37) where depths show as
+// 1 - exp(-x). Coincident splats all err alike.
+std::vector<KnownLimit> limits_of_coincident(int count, double column) {
+  const double ends = count * 0.5 / 24, grids = count * column * 0.25;
+  const std::string reason =
+      "estimated for clouds that are spread over their own sizes: " + std::to_string(count) +
+      " equal ends and errors of grids add up";
+  return {{LightPlan::emission, ends + grids, reason},
+          {LightPlan::proportional, ends + grids / 0.37, reason},
+          {LightPlan::ordered, ends, reason}};
+}
+
+HardCase coincident_clouds(const std::string& name, int count, double sigma, double column) {
+  HardCase hard;
+  hard.name = name;
+  hard.why = "every disc ends at the same distance, where each is negligible and the sum is not";
+  hard.frame = [=](LightPlan plan) { return coincident(count, sigma, column, plan); };
+  hard.limits = limits_of_coincident(count, column);
+  return hard;
+}
+
+// Sort keys of every awkward kind, far more often equal than not.
+Frame awkward_keys(bool descending) {
+  constexpr float denormal = std::numeric_limits<float>::denorm_min();
+  constexpr float huge = std::numeric_limits<float>::max();
+  constexpr float smallest = std::numeric_limits<float>::min();
+  const std::vector<float> awkward = {-0.0f,    0.0f,      denormal, -denormal, 1e-40f, -1e-40f,
+                                      smallest, -smallest, huge,     -huge,     1.0f,   -1.0f};
+  DrawnComponent clouds = in_random_colors(component_of(overlapping_clouds(600), two_colors()));
+  std::vector<float> keys;
+  Random random(3);
+  for (std::size_t i = 0; i < clouds.particles.count; ++i) {
+    keys.push_back(awkward[static_cast<std::size_t>(random.uniform(0, 12))]);
+  }
+  clouds.particles.sort_field = Column::owning(keys);
+  Frame frame = lit(frame_of(side, side, {clouds}), LightPlan::ordered);
+  frame.sort = {SortOrder::By::field, "key", descending};
+  return frame;
+}
+
+// Depths of -0, +0 and denormals straight in front of an orthographic camera.
+Frame awkward_depths(LightPlan plan) {
+  const std::vector<double> awkward = {-0.0, 0.0, 1e-45, 1e-40, 1.2e-38, 3e38, 1e-30, 1};
+  std::vector<Cloud> clouds = overlapping_clouds(600);
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+    clouds[i].z = awkward[i * 7 % awkward.size()];
+  return frame_of_clouds(clouds, plan);
+}
+
+}  // namespace
+
+std::vector<HardCase> order_cases() {
+  const std::vector<LightPlan> ordered = {LightPlan::ordered};
+  return {
+      {"EqualDepths", "only a stable sort keeps the file's order", equal_depths},
+      {"SortedInput", "every block of the sort meets few digits",
+       [](LightPlan plan) { return ordered_input(std::less<>(), plan); }},
+      {"ReversedInput", "every particle moves as far as it can",
+       [](LightPlan plan) { return ordered_input(std::greater<>(), plan); }},
+      {"CoincidentGrains", "all light falls on one pixel and none may leak or be lost",
+       [](LightPlan plan) { return coincident(2000, 0.2, 0.05, plan); }},
+      coincident_clouds("CoincidentClouds", 2000, 5, 0.2),
+      coincident_clouds("CoincidentFaintClouds", 20000, 5, 0.01),
+      coincident_clouds("CoincidentWideClouds", 2000, 12, 0.2),
+      {"AwkwardKeys", "-0 equals +0, denormals and huge keys keep their places",
+       [](LightPlan) { return awkward_keys(false); }, ordered},
+      {"AwkwardKeysDescending", "the same, the largest in front",
+       [](LightPlan) { return awkward_keys(true); }, ordered},
+      {"AwkwardDepths", "depths of -0, +0 and denormals are in front of the camera",
+       awkward_depths},
+  };
+}
+
+}  // namespace splotchcl::test
