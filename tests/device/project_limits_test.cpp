@@ -55,8 +55,7 @@ TEST_P(ProjectLimits, AreInclusive) {
   }
 }
 
-// Disabled until the kernel compares with a limit below 0.
-TEST_P(ProjectLimits, DISABLED_MayLieBehindAnOrthographicCameraOnly) {
+TEST_P(ProjectLimits, MayLieBehindAnOrthographicCameraOnly) {
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     Frame frame = frame_at_depths({-3, -2, -1, -1e-30f, -0.0f, 0, 1e-30f, 1}, projection, 0.01f);
     frame.near_limit = -2;
@@ -81,8 +80,7 @@ TEST_P(ProjectLimits, StartAtATenthOfTheSmoothingLengthUnlessSet) {
   }
 }
 
-// Disabled until limits are rounded to the particles that they let in.
-TEST_P(ProjectLimits, DISABLED_HoldWhereSinglePrecisionCannotStoreThem) {
+TEST_P(ProjectLimits, HoldWhereSinglePrecisionCannotStoreThem) {
   // 0.7 and 1.1 round down and up: a particle at the rounded limit lies on one side of it.
   for (const double limit : {0.7, 1.1}) {
     Frame frame = frame_at_depths(around(static_cast<float>(limit)), Projection::orthographic, 1);
