@@ -25,7 +25,7 @@ inline float pixel_shape(float dx, float dy, const TileSplat splat, const Compos
   const float cut = cut_radius(splat.radius);
   int inside = dx * dx + dy * dy <= cut * cut;
 #ifdef SAMPLING_MEAN
-  inside |= fabs(dx) <= 0.5f && fabs(dy) <= 0.5f;
+  inside |= dx > -0.5f && dx <= 0.5f && dy > -0.5f && dy <= 0.5f;
 #endif
   if (!inside) return 0.0f;
 #endif

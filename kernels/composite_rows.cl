@@ -50,7 +50,7 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
   int8 outside = dx * dx + dy * dy > cut2;
 #ifdef SAMPLING_MEAN
   // The pixel that holds the centre keeps its light.
-  outside &= fabs(dx) > 0.5f | (int8)(fabs(dy) > 0.5f ? -1 : 0);
+  outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
 #endif
   return select(shape, (float8)(0.0f), outside);
 }

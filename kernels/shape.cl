@@ -26,6 +26,9 @@ inline VALUE exp2_negative(VALUE t) {
 // exp(-d^2 / sigma^2) with inverse = log2(e) / sigma^2.
 inline VALUE gaussian(VALUE d, float inverse) { return exp2_negative(d * d * -inverse); }
 
+#ifdef BUILTIN_ERF
+#define error_function erf
+#else
 // erf, absolute error 6e-6 (6e-7 if EXACT), as x p(x^2); constant beyond its range,
 // where 1 - erf is below 7.5e-7 (1.6e-8).
 inline VALUE error_function(VALUE x) {
@@ -61,6 +64,7 @@ inline VALUE error_function(VALUE x) {
 #endif
   return x * p;
 }
+#endif
 
 // The mean of exp(-x^2 / sigma^2) over a pixel is pixel_mean_scale * sigma times the
 // difference of the error function at its two edges, in units of sigma.

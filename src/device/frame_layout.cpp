@@ -52,7 +52,8 @@ double brightest_coarse_peak(const Frame& frame, double error) {
   if (!frame.kernel.cut) return std::numeric_limits<float>::max();
   const double step = std::exp(-*frame.kernel.cut * *frame.kernel.cut);
   const double root = 2 * error / step;
-  return root * root;
+  // One edge alone must not show either.
+  return std::min(root * root, error / step);
 }
 
 // The light that reaches a pixel from beyond the splats' squares comes from neighbours that
@@ -141,6 +142,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   const double arithmetic = std::max(plan.arithmetic_share, smallest);
   const double truncation = std::max(plan.truncation_share, smallest);
   layout.exact = frame.tolerance < 1e-4;
+  // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
+  layout.builtin_erf = frame.tolerance < 3e-5;
   const double loss = truncation / (uneven_light * picture_error);
   layout.least_extent = static_cast<float>(extent_of_loss(loss));
   layout.restored_light = static_cast<float>(1 + 0.5 * loss);
@@ -178,6 +181,7 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (frame.kernel.cut) define("KERNEL_CUT");
   if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
   if (layout.exact) define("EXACT");
+  if (layout.builtin_erf) define("BUILTIN_ERF");
   std::ostringstream weights;
   weights << std::scientific << std::setprecision(9);
   for (const double weight : layout.refinement.weights) {

@@ -30,7 +30,8 @@ struct FrameLayout {
   float inverse_edge = 0;               // 1 / (value at which a splat may end)
   float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;
-  bool exact = false;  // polynomials of full single precision
+  bool exact = false;        // polynomials of full single precision
+  bool builtin_erf = false;  // for tolerances that the polynomial cannot hold
 };
 
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows);

@@ -59,6 +59,14 @@ kernel::FieldScaling intensity_scaling(const DrawnComponent& component) {
   return one;
 }
 
+// A colour field that is absent is palette position 0, whatever the map says.
+kernel::FieldScaling color_scaling(const DrawnComponent& component) {
+  if (!component.particles.color.is_absent()) return scaling_of(component.color);
+  kernel::FieldScaling zero{};
+  zero.scaling = SCALING_LINEAR;
+  return zero;
+}
+
 void copy(const Vec3& from, float (&to)[3]) {
   for (int axis = 0; axis < 3; ++axis)
     to[axis] = static_cast<float>(from.a[axis]);
@@ -160,7 +168,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.coarse_peak = layout_.coarse_peak;
   p.grid_count = static_cast<int>(layout_.grids.size());
   p.guard = static_cast<float>(layout_.grids.back().guard);
-  p.color = scaling_of(component.color);
+  p.color = color_scaling(component);
   p.intensity = intensity_scaling(component);
   p.component = component_index;
   p.block_particles = device_.traits.project_block;
