@@ -108,7 +108,7 @@ TEST_F(Plans, KeepEveryTolerance) {
   for (const Absorption& absorption :
        {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0},
         Absorption{Absorption::Kind::gray, 0.2}}) {
-    Frame frame = clouds(absorption);
+    Frame frame = clouds(absorption, 5);
     const ExactImage exact = reference::render(frame);
     for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-5}) {
       frame.tolerance = tolerance;

@@ -157,11 +157,7 @@ class SceneMaker {
     particles.position = Column::owning(positions);
     particles.smoothing_length = Column::owning(sizes);
     if (component.weight != WeightModel::constant) particles.weight = Column::owning(weights);
-    if (chance(0.8)) {
-      particles.color = Column::owning(colors);
-    } else {
-      component.color = ScalarMap{};  // until the device, too, leaves an absent colour unscaled
-    }
+    if (chance(0.8)) particles.color = Column::owning(colors);
     if (chance(0.4)) particles.intensity = Column::owning(intensities);
     if (frame.sort.by == SortOrder::By::field) particles.sort_field = Column::owning(keys);
   }

@@ -89,7 +89,7 @@ Frame bright_stars(double brightest, LightPlan plan) {
 
 // Grains on edges of pixels whose kernel is cut: the pixel that holds the centre, and no
 // other, keeps its part of the light.
-[[maybe_unused]] Frame cut_grains_on_edges(LightPlan plan) {
+Frame cut_grains_on_edges(LightPlan plan) {
   Frame frame = grains_on_edges(plan);
   frame.kernel.cut = 2;
   return frame;
@@ -141,9 +141,8 @@ std::vector<HardCase> size_cases() {
        [](LightPlan plan) { return discs_at_tile_edges(Sampling::mean, 2, 4, plan); }},
       {"CutKernelOfPixelMeans", "a low cut leaves a bright edge, which belongs to the model",
        [](LightPlan plan) { return cut_kernel(1.1, plan); }},
-      // Left out until compositing keeps one pixel, not two: error 0.7.
-      // {"CutGrainsOnPixelEdges", "a cut grain has one pixel, also on the edge between two",
-      //  cut_grains_on_edges},
+      {"CutGrainsOnPixelEdges", "a cut grain has one pixel, also on the edge between two",
+       cut_grains_on_edges},
       {"StarsOf100TimesWhite", "errors relative to a star's peak show in its dark surroundings",
        [](LightPlan plan) { return bright_stars(100, plan); }},
       stars_of_1e4_times_white(),
