@@ -141,7 +141,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   const double smallest = 1e-7;
   const double arithmetic = std::max(plan.arithmetic_share, smallest);
   const double truncation = std::max(plan.truncation_share, smallest);
-  layout.exact = frame.tolerance < 1e-4;
+  layout.exact = frame.tolerance < 3e-4;
   // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
   layout.builtin_erf = frame.tolerance < 3e-5;
   const double loss = truncation / (uneven_light * picture_error);

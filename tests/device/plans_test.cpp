@@ -127,8 +127,7 @@ TEST_F(Plans, KeepEveryToleranceForACloudOfAnyWidth) {
       Frame frame = frame_of(80, 60, {cloud});
       frame.components.front().absorption = absorption;
       const ExactImage exact = reference::render(frame);
-      // 1e-4 itself waits for the better polynomials: 1.4e-4 with the ones that it has.
-      for (const double tolerance : {1e-2, 1e-3, 3e-4, 9e-5, 3e-5, 1e-5}) {
+      for (const double tolerance : {1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
         frame.tolerance = tolerance;
         EXPECT_LE(largest_error(draw(frame), exact), tolerance)
             << name(make_plan(frame).light) << ", sigma " << sigma;
