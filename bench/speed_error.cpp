@@ -81,7 +81,7 @@ SceneToTime mixed(const Matter& gas, const Matter& stars, const std::string& spl
 
 std::vector<SceneToTime> make_scenes(const Size& size) {
   UniverseSetup universe;
-  universe.particles = static_cast<std::size_t>(150000 * size.particles);
+  universe.particles = static_cast<std::size_t>(50000 * size.particles);
   return {single(small_stars, "small", size),
           single(large_stars, "large", size),
           single(small_thin_gas, "small", size),

@@ -29,7 +29,7 @@ do for [p = 1:3] {
   set title plan
   set xlabel "measured largest error"
   set ylabel p == 1 ? "ms per frame; rings: the oracle" : ""
-  set yrange [0.5:1e5]
+  set yrange [0.5:3e5]
   set format y "%g"
   plot for [s = 1:9] csv using (error_of(plan, word(scenes, s))):"median_ms" \
          with linespoints pt 7 ps 0.9 lw 1.5 lc rgb word(colours, s), \

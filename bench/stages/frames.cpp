@@ -1,7 +1,5 @@
 // Whole frames of a clustered universe as a user draws them, and the oracle's for the
 // smallest of them.
-#include <memory>
-
 #include "splotchcl/reference.h"
 #include "splotchcl/renderer.h"
 #include "stages/timed.h"
@@ -10,10 +8,8 @@
 namespace splotchcl::bench {
 namespace {
 
-Frame universe(std::size_t particles, int width, int height, LightPlan light) {
-  UniverseSetup setup;
-  setup.particles = particles;
-  Frame frame = universe_frame(make_universe(setup), width, height);
+Frame universe(const Particles& particles, int width, int height, LightPlan light) {
+  Frame frame = universe_frame(particles, width, height);
   set_light(frame, light);
   return frame;
 }
@@ -51,18 +47,25 @@ void add_frame_benchmarks(const Setting& setting) {
   std::vector<Size> sizes = {smallest, {"200k_700x525", 200000, 700, 525}};
   if (!setting.quick) sizes.push_back({"2M_1400x1050", 2000000, 1400, 1050});
   if (setting.large) sizes.push_back({"16M_1400x1050", 16000000, 1400, 1050});
-  for (const LightPlan light : {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
-    for (const Size& size : sizes) {
-      add_benchmark(std::string("frame/") + name(light) + "/" + size.name,
-                    [size, light, device = setting.device_name](benchmark::State& state) {
-                      draw(state, device, universe(size.particles, size.width, size.height, light));
-                    });
+  for (const Size& size : sizes) {
+    const auto particles = std::make_shared<Lazy<Particles>>([size] {
+      UniverseSetup setup;
+      setup.particles = size.particles;
+      return make_universe(setup);
+    });
+    for (const LightPlan light :
+         {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
+      const std::string name = std::string("/") + splotchcl::name(light) + "/" + size.name;
+      const auto frame = [particles, size, light] {
+        return universe(particles->get(), size.width, size.height, light);
+      };
+      add_benchmark("frame" + name, [frame, device = setting.device_name](benchmark::State& state) {
+        draw(state, device, frame());
+      });
+      if (size.particles > smallest.particles) continue;
+      add_benchmark("frame_oracle" + name,
+                    [frame](benchmark::State& state) { draw_with_oracle(state, frame()); });
     }
-    add_benchmark(std::string("frame_oracle/") + name(light) + "/" + smallest.name,
-                  [smallest, light](benchmark::State& state) {
-                    draw_with_oracle(state, universe(smallest.particles, smallest.width,
-                                                     smallest.height, light));
-                  });
   }
 }
 

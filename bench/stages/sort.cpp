@@ -134,14 +134,15 @@ void add_sort_benchmarks(const Setting& setting) {
   for (const auto& [size_name, count] : sizes) {
     for (const KeySet& set : key_sets) {
       const std::string name = std::string("/") + set.name + "/" + size_name;
-      const auto make = [set, count = count] { return set.make(count); };
-      add_benchmark("sort" + name, [make, &device](benchmark::State& state) {
-        sort_on_device(state, device, make());
+      const auto keys =
+          std::make_shared<Lazy<Numbers>>([set, count = count] { return set.make(count); });
+      add_benchmark("sort" + name, [keys, &device](benchmark::State& state) {
+        sort_on_device(state, device, keys->get());
       });
       add_benchmark("sort_std_stable" + name,
-                    [make](benchmark::State& state) { sort_with_std(state, make()); });
-      add_benchmark("sort_boost_compute" + name, [make, &device](benchmark::State& state) {
-        sort_with_boost(state, device, make());
+                    [keys](benchmark::State& state) { sort_with_std(state, keys->get()); });
+      add_benchmark("sort_boost_compute" + name, [keys, &device](benchmark::State& state) {
+        sort_with_boost(state, device, keys->get());
       });
     }
   }

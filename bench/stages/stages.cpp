@@ -1,6 +1,4 @@
 // Projection, binning and resolving of a clustered universe, each alone.
-#include <memory>
-
 #include "stages/stage_rig.h"
 #include "stages/timed.h"
 #include "synthetic.h"
@@ -8,11 +6,11 @@
 namespace splotchcl::bench {
 namespace {
 
-Frame universe(const Setting& setting, LightPlan light) {
+Frame universe(bool quick, LightPlan light) {
   UniverseSetup setup;
-  setup.particles = setting.quick ? 200000 : 2000000;
-  Frame frame = setting.quick ? universe_frame(make_universe(setup), 700, 525)
-                              : universe_frame(make_universe(setup), 1400, 1050);
+  setup.particles = quick ? 200000 : 2000000;
+  Frame frame = quick ? universe_frame(make_universe(setup), 700, 525)
+                      : universe_frame(make_universe(setup), 1400, 1050);
   set_light(frame, light);
   return frame;
 }
@@ -70,12 +68,13 @@ void add_stage_benchmarks(const Setting& setting) {
       {"project", project}, {"bin", bin}, {"resolve", resolve}};
   DeviceContext& device = setting.device;
   for (const LightPlan light : {LightPlan::proportional, LightPlan::ordered}) {
-    // Made once for the three.
-    const auto frame = std::make_shared<Frame>(universe(setting, light));
+    const auto frame = std::make_shared<Lazy<Frame>>(
+        [quick = setting.quick, light] { return universe(quick, light); });
     for (const auto& [name, body] : stages) {
-      add_benchmark(
-          std::string(name) + "/universe/" + splotchcl::name(light),
-          [frame, body = body, &device](benchmark::State& state) { body(state, device, *frame); });
+      add_benchmark(std::string(name) + "/universe/" + splotchcl::name(light),
+                    [frame, body = body, &device](benchmark::State& state) {
+                      body(state, device, frame->get());
+                    });
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,21 @@ class PieceTimer {
 
   benchmark::State& state_;
   Runs runs_;
+};
+
+// What several benchmarks share, made when the first of them runs.
+template <class T>
+class Lazy {
+ public:
+  explicit Lazy(std::function<T()> make) : make_(std::move(make)) {}
+  const T& get() {
+    if (!value_) value_ = make_();
+    return *value_;
+  }
+
+ private:
+  std::function<T()> make_;
+  std::optional<T> value_;
 };
 
 inline double smallest_of(const std::vector<double>& values) {
