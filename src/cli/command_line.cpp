@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "io/nearest_name.h"
+#include "io/common/nearest_name.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

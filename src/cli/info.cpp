@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "io/field_statistics.h"
-#include "io/particle_types.h"
+#include "io/snapshot/field_statistics.h"
+#include "io/snapshot/particle_types.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"

@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/render_stats.h"
 #include "cli/scene_argument.h"
-#include "io/unfinished_file.h"
+#include "io/common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/plan.h"

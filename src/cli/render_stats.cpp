@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/unfinished_file.h"
+#include "io/common/unfinished_file.h"
 
 namespace splotchcl::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/generate_random.h"
-#include "io/generate_waves.h"
+#include "io/generate/random.h"
+#include "io/generate/waves.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "temporary_folder.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/field_names.h"
+#include "io/snapshot/field_names.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl::test {

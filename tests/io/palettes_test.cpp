@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/palette_file.h"
+#include "io/palette/palette_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 

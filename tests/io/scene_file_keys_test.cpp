@@ -1,5 +1,3 @@
-#include "io/scene_file_keys.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "io/scene_file/keys.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {

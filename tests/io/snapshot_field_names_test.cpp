@@ -4,9 +4,9 @@
 #include <regex>
 #include <set>
 
-#include "io/field_names.h"
-#include "io/snapshot_files.h"
-#include "io/unit_names.h"
+#include "io/snapshot/field_names.h"
+#include "io/snapshot/snapshot_files.h"
+#include "io/snapshot/unit_names.h"
 
 namespace splotchcl {
 namespace {

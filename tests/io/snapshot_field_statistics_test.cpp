@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "io/field_statistics.h"
+#include "io/snapshot/field_statistics.h"
 
 namespace splotchcl {
 namespace {

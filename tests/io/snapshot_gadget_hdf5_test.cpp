@@ -1,6 +1,6 @@
 #include <hdf5.h>
 
-#include "io/hdf5_file.h"
+#include "io/snapshot/hdf5_file.h"
 #include "io/snapshot_checks.h"
 #include "io/snapshot_hdf5_writer.h"
 #include "io/snapshot_writer.h"

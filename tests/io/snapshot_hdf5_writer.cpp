@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "io/hdf5_file.h"
+#include "io/snapshot/hdf5_file.h"
 
 namespace splotchcl::testing {
 namespace {

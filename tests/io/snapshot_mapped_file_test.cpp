@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "io/mapped_file.h"
+#include "io/common/mapped_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

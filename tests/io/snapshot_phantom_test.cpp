@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "io/hdf5_file.h"
+#include "io/snapshot/hdf5_file.h"
 #include "io/snapshot_checks.h"
 #include "temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // Real snapshots of public codes. What is expected of them was found with other programs.
 #include <cmath>
 
-#include "io/field_statistics.h"
-#include "io/smoothing_lengths.h"
+#include "io/load/smoothing_lengths.h"
+#include "io/snapshot/field_statistics.h"
 #include "io/snapshot_checks.h"
 
 namespace splotchcl {

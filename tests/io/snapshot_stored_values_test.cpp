@@ -3,8 +3,8 @@
 
 #include <cstring>
 
+#include "io/snapshot/stored_values.h"
 #include "io/snapshot_writer.h"
-#include "io/stored_values.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

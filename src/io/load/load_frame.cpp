@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/load/load_frame_fields.h"
+#include "io/load/suggest_scene_camera.h"
+#include "scene/reference_column.h"
+#include "scene/scalar_map.h"
+#include "scene/statistics.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+namespace {
+
+// A limit of the scene on the scaled axis.
+std::optional<double> scaled_limit(const std::optional<double>& limit, Scaling scaling,
+                                   const std::string& label, const std::string& key) {
+  if (!limit) return std::nullopt;
+  const double value = scaled(*limit, scaling);
+  if (!std::isfinite(value)) {
+    throw UsageError(fmt::format(
+        "{}: {} is {}, expected a number > 0, since the field is scaled by its logarithm; change "
+        "the limit or the scaling",
+        label, key, *limit));
+  }
+  return value;
+}
+
+// Limits from the data, which must leave room for a limit that the scene gives.
+ValueRange range_from_data(const Column& column, const FieldMap& map,
+                           const ComponentFields& fields) {
+  const std::optional<ValueRange> bulk = bulk_range(column, map.scaling);
+  if (!bulk) {
+    fields.note(
+        fmt::format("no particle has a {} that its scaling has a value for; all take the "
+                    "range's lower end",
+                    map.field));
+    return {0, 1};
+  }
+  if (bulk->minimum < bulk->maximum) return *bulk;
+  fields.note(fmt::format("{} is the same for all particles; they take the middle of its range",
+                          map.field));
+  return {bulk->minimum - 0.5, bulk->maximum + 0.5};
+}
+
+ScalarMap decide_map(const FieldMap& map, const Column& column, const ComponentFields& fields,
+                     const std::string& key) {
+  ScalarMap decided;
+  decided.scaling = map.scaling;
+  const auto minimum = scaled_limit(map.minimum, map.scaling, fields.label(), key + ".min");
+  const auto maximum = scaled_limit(map.maximum, map.scaling, fields.label(), key + ".max");
+  if (minimum && maximum) {
+    decided.minimum = *minimum;
+    decided.maximum = *maximum;
+    return decided;
+  }
+  const ValueRange data = range_from_data(column, map, fields);
+  decided.minimum = minimum.value_or(data.minimum);
+  decided.maximum = maximum.value_or(data.maximum);
+  if (decided.minimum < decided.maximum) return decided;
+  // All data lie beyond the limit that is given: keep them all beyond it.
+  (minimum ? decided.maximum : decided.minimum) = minimum ? *minimum + 1 : *maximum - 1;
+  return decided;
+}
+
+// The weight's values, and the model where the scene leaves it open.
+void load_weight(const Component& component, const ComponentFields& fields, DrawnComponent& drawn) {
+  drawn.weight = component.weight.value_or(fields.masses_are_known() ? WeightModel::mass
+                                                                     : WeightModel::constant);
+  switch (drawn.weight) {
+    case WeightModel::mass:
+      drawn.particles.weight = fields.masses();
+      break;
+    case WeightModel::density:
+      drawn.particles.weight = fields.scalars("density", "weight = \"density\"");
+      break;
+    case WeightModel::constant:
+      break;
+  }
+}
+
+void check_factor(double value, const ComponentFields& fields, const char* key) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw UsageError(
+        fmt::format("{}: {} is {}, expected a finite number > 0", fields.label(), key, value));
+  }
+}
+
+DrawnComponent load_component(const Component& component, const Scene& scene,
+                              const Snapshot& snapshot, std::vector<std::string>& notes) {
+  const ComponentFields fields(component, snapshot, notes);
+  check_factor(component.size_factor, fields, "size.factor");
+  if (component.size_fixed) check_factor(*component.size_fixed, fields, "size.fixed");
+
+  DrawnComponent drawn;
+  drawn.name = component.name;
+  drawn.size_factor = component.size_factor;
+  drawn.brightness = component.brightness;
+  drawn.absorption = component.absorption;
+  drawn.palette = load_palette(component.palette);
+
+  Particles& particles = drawn.particles;
+  particles.count = fields.count();
+  particles.origin = snapshot.position_origin();
+  particles.position = fields.positions();
+  particles.smoothing_length = fields.smoothing_lengths();
+  load_weight(component, fields, drawn);
+  if (!component.color.field.empty()) {
+    particles.color = fields.scalars(component.color.field, "color.field");
+    drawn.color = decide_map(component.color, particles.color, fields, "color");
+  }
+  if (!component.intensity.field.empty()) {
+    particles.intensity = fields.scalars(component.intensity.field, "intensity.field");
+    drawn.intensity = decide_map(component.intensity, particles.intensity, fields, "intensity");
+  }
+  if (scene.sort.by == SortOrder::By::field) {
+    particles.sort_field = fields.scalars(scene.sort.field, "sort.field");
+  }
+  return drawn;
+}
+
+// After all else is decided: the reference follows from what the camera sees.
+void decide_reference_column(const Component& component, const Frame& frame, DrawnComponent& drawn,
+                             std::vector<std::string>& notes) {
+  if (component.reference_column) {
+    drawn.reference_column = *component.reference_column;
+    return;
+  }
+  const std::optional<double> reference = find_reference_column(drawn, frame);
+  if (!reference) {
+    notes.push_back(
+        fmt::format("component {}: the camera sees none of its particles; check camera.position, "
+                    "camera.look_at and the near and far limits",
+                    drawn.name));
+  }
+  drawn.reference_column = reference.value_or(1);
+}
+
+std::vector<int> all_types(const Scene& scene) {
+  std::vector<int> types;
+  for (const Component& component : scene.components) {
+    types.insert(types.end(), component.types.begin(), component.types.end());
+  }
+  return types;
+}
+
+}  // namespace
+
+Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes) {
+  if (scene.components.empty()) {
+    throw UsageError("the scene has no component, expected at least one; add a [[component]]");
+  }
+  const Camera camera = scene.camera ? *scene.camera
+                                     : suggest_camera(snapshot, all_types(scene), scene.image.width,
+                                                      scene.image.height);
+  Frame frame;
+  frame.width = scene.image.width;
+  frame.height = scene.image.height;
+  frame.crop = {0, 0, frame.width, frame.height};
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.projection = camera.projection;
+  frame.near_limit = camera.near_limit;
+  frame.far_limit = camera.far_limit;
+  frame.background = scene.image.background;
+  frame.kernel = scene.kernel;
+  frame.sort = scene.sort;
+  frame.tolerance = scene.tolerance;
+  for (const Component& component : scene.components) {
+    DrawnComponent drawn = load_component(component, scene, snapshot, notes);
+    decide_reference_column(component, frame, drawn, notes);
+    frame.components.push_back(std::move(drawn));
+  }
+  return frame;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,123 @@
+#include "io/scene_file/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+
+#include "io/scene_file/values.h"
+#include "splotchcl/camera.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+// Four floats each: 4 GiB.
+constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;
+
+void check_image(const ImageSettings& image, const Origins& origins) {
+  const std::int64_t pixels = std::int64_t{image.width} * image.height;
+  if (pixels <= largest_pixel_count) return;
+  const char* label = origins.contains("image.width")    ? "image.width"
+                      : origins.contains("image.height") ? "image.height"
+                                                         : "image.size";
+  refuse(origins.at(label), label,
+         fmt::format("{} x {}, which is {} pixels", image.width, image.height, pixels),
+         fmt::format("at most {} pixels", largest_pixel_count));
+}
+
+void check_camera(const Scene& scene, const Origins& origins) {
+  const Camera& camera = *scene.camera;
+  try {
+    make_camera_frame(camera, scene.image.width, scene.image.height);
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    const std::string label = message.substr(0, message.find(':'));
+    throw UsageError(fmt::format("{}: key {}", origins.at(label), message));
+  }
+  if (camera.projection == Projection::perspective && camera.near_limit.value_or(0) < 0) {
+    refuse(origins.at("camera.near"), "camera.near", write_number(*camera.near_limit),
+           "a number >= 0 with the perspective projection");
+  }
+}
+
+void check_sort(const SortOrder& sort, const Origins& origins) {
+  if (sort.by == SortOrder::By::depth) return;
+  if (sort.field.empty() || sort.field == "depth") {
+    refuse(origins.at("sort.by"), "sort.by",
+           fmt::format("the field name {}", write_text(sort.field)),
+           "a field with another name: \"depth\" is the distance from the camera");
+  }
+}
+
+void check_name(const std::string& name, const std::string& label, const Origins& origins) {
+  const bool is_number = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+  });
+  if (is_number) {
+    refuse(origins.at(label), label, write_text(name),
+           "a name with something other than digits, since component.N is the N-th");
+  }
+}
+
+void check_field_map(const FieldMap& map, const std::string& label, const Origins& origins) {
+  if (map.field.empty()) {
+    for (const char* part : {".scaling", ".min", ".max"}) {
+      if (!origins.contains(label + part)) continue;
+      refuse(origins.at(label + part), label + part, "a value without a field",
+             label + ".field as well");
+    }
+    return;
+  }
+  if (map.minimum && map.maximum && *map.minimum > *map.maximum) {
+    refuse(origins.at(label + ".min"), label + ".min", write_number(*map.minimum),
+           fmt::format("at most {}.max, which is {}", label, write_number(*map.maximum)));
+  }
+  const auto check_positive = [&](const std::optional<double>& value, const std::string& key) {
+    if (map.scaling != Scaling::log || !value || *value > 0) return;
+    refuse(origins.at(key), key, write_number(*value), "a number > 0 with the scaling \"log\"");
+  };
+  check_positive(map.minimum, label + ".min");
+  check_positive(map.maximum, label + ".max");
+}
+
+void check_components(const Scene& scene, const Origins& origins) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    const Component& component = scene.components[i];
+    const std::string label = fmt::format("component.{}", i);
+    check_name(component.name, label + ".name", origins);
+    if (!component.name.empty() && !names.insert(component.name).second) {
+      refuse(origins.at(label + ".name"), label + ".name",
+             write_text(component.name) + ", which another component has",
+             "a different name for each component");
+    }
+    check_field_map(component.color, label + ".color", origins);
+    check_field_map(component.intensity, label + ".intensity", origins);
+  }
+}
+
+}  // namespace
+
+const std::string& Origins::at(const std::string& label) const {
+  const auto found = where.find(label);
+  return found == where.end() ? name : found->second;
+}
+
+void refuse(const std::string& where, const std::string& label, const std::string& found,
+            const std::string& expected, const std::string& advice) {
+  throw UsageError(
+      fmt::format("{}: key {}: found {}, expected {}{}", where, label, found, expected, advice));
+}
+
+void check_scene(const Scene& scene, const Origins& origins) {
+  check_image(scene.image, origins);
+  if (scene.camera) check_camera(scene, origins);
+  check_sort(scene.sort, origins);
+  check_components(scene, origins);
+}
+
+}  // namespace splotchcl::scene_file

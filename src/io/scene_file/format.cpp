@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/scene_file/check.h"
+#include "io/scene_file/keys.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+using scene_file::Key;
+
+// "a.b.c" -> {"a", "b.c"}, "c" -> {"", "c"}
+std::pair<std::string, std::string> split_first(const std::string& path) {
+  const std::size_t dot = path.find('.');
+  if (dot == std::string::npos) return {"", path};
+  return {path.substr(0, dot), path.substr(dot + 1)};
+}
+
+// The lines of one table. Keys of an inner table (size.field, size.factor) follow each
+// other in the list of keys, and share a line.
+std::string format_table(const std::string& table, const Scene& scene, std::size_t component) {
+  std::vector<std::string> lines;
+  std::string open_group;
+  for (const Key& key : scene_file::all_keys()) {
+    const auto [key_table, rest] = split_first(key.path);
+    if (key_table != table || !key.is_written) continue;
+    const std::optional<std::string> value = key.get(scene, component);
+    if (!value) continue;
+    const auto [group, name] = split_first(rest);
+    const std::string entry = fmt::format("{} = {}", name, *value);
+    if (group.empty()) {
+      lines.push_back(entry);
+    } else if (group == open_group) {
+      lines.back().replace(lines.back().size() - 2, 2, ", " + entry + " }");
+    } else {
+      lines.push_back(fmt::format("{} = {{ {} }}", group, entry));
+    }
+    open_group = group;
+  }
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+}  // namespace
+
+std::string format_scene(const Scene& scene) {
+  // A scene made by hand may hold what no scene file can say.
+  const std::string name = "the scene to write";
+  scene_file::check_scene(scene, {name, {}});
+  std::string text = format_table("", scene, 0);
+  for (const std::string table : {"image", "camera", "kernel", "sort"}) {
+    if (table == "camera" && !scene.camera) continue;
+    text += fmt::format("\n[{}]\n{}", table, format_table(table, scene, 0));
+  }
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    text += fmt::format("\n[[component]]\n{}", format_table("component", scene, i));
+  }
+  parse_scene(text, name);
+  return text;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,54 @@
+#include "splotchcl/scene_file.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/common/text_file.h"
+#include "io/palette/palette_file.h"
+#include "io/scene_file/builder.h"
+
+namespace splotchcl {
+namespace {
+
+using scene_file::SceneBuilder;
+
+// What the file names stands relative to the file; what a setting names does not.
+void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
+  if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
+  for (Component& component : scene.components) {
+    if (is_palette_path(component.palette)) {
+      component.palette = (folder / component.palette).string();
+    }
+  }
+}
+
+}  // namespace
+
+Scene read_scene_file(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  SceneBuilder builder({}, path.string());
+  builder.read_text(read_text_file(path));
+  resolve_paths(builder.scene(), path.parent_path());
+  builder.apply_settings(settings);
+  const Scene scene = builder.finish();
+  if (scene.snapshot.empty()) {
+    scene_file::refuse(path.string(), "snapshot", "nothing", "the path of a snapshot");
+  }
+  return scene;
+}
+
+Scene parse_scene(const std::string& text, const std::string& name_for_messages,
+                  const std::vector<std::string>& settings) {
+  SceneBuilder builder({}, name_for_messages);
+  builder.read_text(text);
+  builder.apply_settings(settings);
+  return builder.finish();
+}
+
+Scene apply_settings(const Scene& scene, const std::vector<std::string>& settings) {
+  SceneBuilder builder(scene, "the scene");
+  builder.apply_settings(settings);
+  return builder.finish();
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/snapshot/gadget_binary_file.h"
+#include "io/snapshot/gadget_block_layout.h"
+
+namespace splotchcl {
+
+// A record that has been understood as a field of some particle types.
+struct GadgetBlock {
+  std::string label;
+  std::uint64_t offset = 0;
+  BlockLayout layout;
+};
+
+// What the records of a file hold. Records that fit no particle types are left out and
+// named in `notes`. Throws DataError when there are no positions, or when the length of a
+// standard block contradicts the header.
+std::vector<GadgetBlock> understand_records(const GadgetBinaryFile& file,
+                                            std::vector<std::string>& notes);
+
+}  // namespace splotchcl

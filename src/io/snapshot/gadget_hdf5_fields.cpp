@@ -1,0 +1,83 @@
+#include "io/snapshot/gadget_hdf5_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/snapshot/field_names.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+std::string group_name(std::size_t type) {
+  return fmt::format("PartType{}", type);
+}
+
+[[noreturn]] void throw_no_positions(const Hdf5File& file, const std::string& group,
+                                     std::uint64_t count,
+                                     const std::vector<Hdf5Dataset>& datasets) {
+  std::vector<std::string> labels;
+  for (const Hdf5Dataset& dataset : datasets)
+    labels.push_back(dataset.label());
+  throw DataError(fmt::format(
+      "{}: no positions: the header counts {} particles of {}, which has {}; expected "
+      "a dataset Coordinates with three columns",
+      file.path().string(), count, group,
+      labels.empty() ? "no datasets" : fmt::format("only {}", fmt::join(labels, ", "))));
+}
+
+void check_rows(const Hdf5File& file, const Hdf5Dataset& dataset, std::uint64_t count,
+                std::size_t type) {
+  if (!dataset.shape.empty() && dataset.rows() == count) return;
+  throw DataError(
+      fmt::format("{}: dataset {} has {} rows, but the header counts {} particles of type {}; the "
+                  "file is damaged or its header is wrong",
+                  file.path().string(), dataset.path, dataset.rows(), count, type));
+}
+
+}  // namespace
+
+std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
+                                        std::vector<std::string>& notes) {
+  const auto index = static_cast<std::size_t>(type);
+  const std::string group = group_name(index);
+  const std::uint64_t count = header.counts[index];
+  std::vector<Hdf5Dataset> datasets;
+  if (file.has(group)) datasets = file.datasets(group);
+  std::vector<Hdf5Field> fields;
+  std::vector<std::string> left_out;
+  bool has_positions = false;
+  for (const Hdf5Dataset& dataset : datasets) {
+    check_rows(file, dataset, count, index);
+    const std::string label = dataset.label();
+    const std::uint64_t values = dataset.values_per_row();
+    const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
+    if (!is_usable) {
+      left_out.push_back(label);
+      continue;
+    }
+    if (canonical_field_name(label) == "position" && values == 3) has_positions = true;
+    fields.push_back({label, static_cast<int>(values), dataset});
+  }
+  if (!has_positions) throw_no_positions(file, group, count, datasets);
+  if (!left_out.empty()) {
+    notes.push_back(
+        fmt::format("left out of {}, as they are not one or three numbers per particle: {}", group,
+                    fmt::join(left_out, ", ")));
+  }
+  return fields;
+}
+
+void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header) {
+  constexpr std::size_t more_types_than_any_code = 32;
+  for (std::size_t type = 0; type < more_types_than_any_code; ++type) {
+    const bool is_counted = type < header.counts.size() && header.counts[type] > 0;
+    if (is_counted || !file.has(group_name(type))) continue;
+    for (const Hdf5Dataset& dataset : file.datasets(group_name(type))) {
+      check_rows(file, dataset, 0, type);
+    }
+  }
+}
+
+}  // namespace splotchcl

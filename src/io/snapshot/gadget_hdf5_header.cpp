@@ -1,0 +1,146 @@
+#include "io/snapshot/gadget_hdf5_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct Place {
+  const char* object;
+  const char* attribute;
+};
+
+// The first of the places that has a number.
+double find_number(const Hdf5File& file, const std::vector<Place>& places, double otherwise) {
+  for (const Place& place : places) {
+    if (const auto number = file.number(place.object, place.attribute)) return *number;
+  }
+  return otherwise;
+}
+
+std::vector<std::uint64_t> to_counts(const Hdf5File& file, const char* attribute,
+                                     const std::vector<double>& numbers) {
+  constexpr double largest = 9007199254740992.0;  // beyond 2^53 a double is not exact
+  std::vector<std::uint64_t> counts;
+  for (const double number : numbers) {
+    if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
+      throw DataError(
+          fmt::format("{}: Header/{} holds {} as a number of particles; expected a whole number of "
+                      "at least 0: the header is damaged",
+                      file.path().string(), attribute, number));
+    }
+    counts.push_back(static_cast<std::uint64_t>(number));
+  }
+  return counts;
+}
+
+std::vector<std::uint64_t> read_total_counts(const Hdf5File& file, std::size_t types) {
+  auto totals = to_counts(file, "NumPart_Total",
+                          file.numbers("Header", "NumPart_Total").value_or(std::vector<double>()));
+  const auto high =
+      to_counts(file, "NumPart_Total_HighWord",
+                file.numbers("Header", "NumPart_Total_HighWord").value_or(std::vector<double>()));
+  totals.resize(types, 0);
+  for (std::size_t type = 0; type < std::min(types, high.size()); ++type) {
+    totals[type] += high[type] << 32;
+  }
+  return totals;
+}
+
+// One length for all axes; 0 when they differ.
+double read_box_size(const Hdf5File& file) {
+  auto sides = file.numbers("Header", "BoxSize");
+  if (!sides) sides = file.numbers("Parameters", "BoxSize");
+  if (!sides) return 0;
+  const bool is_cube = std::all_of(sides->begin(), sides->end(),
+                                   [&](double side) { return side == sides->front(); });
+  return is_cube ? sides->front() : 0;
+}
+
+bool is_without_cosmology(const Hdf5File& file) {
+  return find_number(file,
+                     {{"Parameters", "ComovingIntegrationOn"}, {"Cosmology", "Cosmological run"}},
+                     1) == 0;
+}
+
+}  // namespace
+
+GadgetHeader read_hdf5_header(const Hdf5File& file) {
+  const auto counts = file.numbers("Header", "NumPart_ThisFile");
+  if (!counts) {
+    throw DataError(
+        fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
+                    "groups are: {}); expected a snapshot of Gadget or SWIFT",
+                    file.path().string(), fmt::join(file.groups("/"), ", ")));
+  }
+  GadgetHeader header;
+  header.counts = to_counts(file, "NumPart_ThisFile", *counts);
+  const std::size_t types = header.counts.size();
+  header.total_counts = read_total_counts(file, types);
+  header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
+  header.table_masses.resize(types, 0);
+  header.time = file.number("Header", "Time").value_or(0);
+  const double files = file.number("Header", "NumFilesPerSnapshot").value_or(1);
+  header.files = files >= 1 && files <= 1e9 ? static_cast<int>(files) : 1;
+  header.box_size = read_box_size(file);
+  header.hubble_parameter = find_number(
+      file, {{"Header", "HubbleParam"}, {"Parameters", "HubbleParam"}, {"Cosmology", "h"}}, 0);
+  if (is_without_cosmology(file)) return header;
+  header.redshift = file.number("Header", "Redshift").value_or(0);
+  header.omega_matter = find_number(
+      file, {{"Header", "Omega0"}, {"Parameters", "Omega0"}, {"Cosmology", "Omega_m"}}, 0);
+  return header;
+}
+
+bool is_swift_file(const Hdf5File& file) {
+  return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+}
+
+BaseUnits read_base_units(const Hdf5File& file) {
+  BaseUnits units;
+  units.length_in_cm = find_number(file,
+                                   {{"Parameters", "UnitLength_in_cm"},
+                                    {"Header", "UnitLength_in_cm"},
+                                    {"Units", "UnitLength_in_cm"},
+                                    {"Units", "Unit length in cgs (U_L)"}},
+                                   0);
+  units.mass_in_g = find_number(file,
+                                {{"Parameters", "UnitMass_in_g"},
+                                 {"Header", "UnitMass_in_g"},
+                                 {"Units", "UnitMass_in_g"},
+                                 {"Units", "Unit mass in cgs (U_M)"}},
+                                0);
+  units.velocity_in_cm_per_s = find_number(file,
+                                           {{"Parameters", "UnitVelocity_in_cm_per_s"},
+                                            {"Header", "UnitVelocity_in_cm_per_s"},
+                                            {"Units", "UnitVelocity_in_cm_per_s"}},
+                                           0);
+  const double time = file.number("Units", "Unit time in cgs (U_t)").value_or(0);
+  if (time > 0) units.velocity_in_cm_per_s = units.length_in_cm / time;
+  return units;
+}
+
+UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset) {
+  const auto power = [&](const char* gadget, const char* swift) {
+    const auto value = file.number(dataset.path, gadget);
+    return value ? *value : file.number(dataset.path, swift).value_or(0);
+  };
+  UnitPowers powers;
+  powers.mass = power("mass_scaling", "U_M exponent");
+  powers.scale_factor = power("a_scaling", "a-scale exponent");
+  powers.hubble = power("h_scaling", "h-scale exponent");
+  powers.temperature = power("temperature_scaling", "U_T exponent");
+  // A time is a length over a velocity.
+  const double time = file.number(dataset.path, "U_t exponent").value_or(0);
+  powers.length = power("length_scaling", "U_L exponent") + time;
+  powers.velocity = file.number(dataset.path, "velocity_scaling").value_or(0) - time;
+  return powers;
+}
+
+}  // namespace splotchcl

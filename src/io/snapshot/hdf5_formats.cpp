@@ -1,0 +1,25 @@
+#include "io/snapshot/hdf5_formats.h"
+
+#include "io/snapshot/snapshot_format.h"
+
+namespace splotchcl {
+namespace {
+
+class Hdf5Formats : public SnapshotFormat {
+ public:
+  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+    return Hdf5File::has_signature(file->data(), file->size());
+  }
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
+    return is_phantom_hdf5(Hdf5File(path)) ? open_phantom_hdf5(path) : open_gadget_hdf5(path);
+  }
+};
+
+}  // namespace
+
+const SnapshotFormat& hdf5_formats() {
+  static const Hdf5Formats formats;
+  return formats;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,122 @@
+#include "splotchcl/snapshot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "io/snapshot/field_names.h"
+#include "io/snapshot/snapshot_files.h"
+#include "io/snapshot/snapshot_format.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace fs = std::filesystem;
+namespace {
+
+const SnapshotFormat* find_format(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  for (const SnapshotFormat* const format : snapshot_formats()) {
+    if (format->recognises(file)) return format;
+  }
+  return nullptr;
+}
+
+std::string first_bytes(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  std::string text;
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(file->size(), 8); ++i) {
+    text += fmt::format("{}{:02x}", i == 0 ? "" : " ", std::to_integer<unsigned>(file->data()[i]));
+  }
+  return text;
+}
+
+// Whatever else may be missing: without positions there is nothing to draw.
+void check_positions(const SnapshotInfo& info) {
+  for (const ParticleTypeInfo& type : info.types) {
+    const FieldInfo* const position = find_field(type, "position");
+    if (position != nullptr && position->values_per_particle == 3) continue;
+    throw DataError(
+        fmt::format("{}: particles of type {} have no positions of three coordinates in every file "
+                    "of the snapshot; the snapshot is incomplete or damaged",
+                    info.files.front().string(), type.type));
+  }
+}
+
+std::unique_ptr<Snapshot> open_file(const fs::path& path) {
+  const SnapshotFormat* const format = find_format(path);
+  if (format != nullptr) {
+    auto snapshot = format->open(path);
+    check_positions(snapshot->info());
+    return snapshot;
+  }
+  if (fs::file_size(path) == 0) {
+    throw DataError(fmt::format("{}: the file is empty; expected a snapshot", path.string()));
+  }
+  throw DataError(
+      fmt::format("{}: not a known snapshot format (it starts with the bytes {}); expected Gadget "
+                  "format 1 or 2, HDF5 of Gadget, SWIFT or Phantom, or Tipsy",
+                  path.string(), first_bytes(path)));
+}
+
+// The snapshots of a folder: files by the name that they share.
+std::map<fs::path, std::vector<fs::path>> find_sets(const fs::path& folder) {
+  std::map<fs::path, std::vector<fs::path>> sets;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || find_format(entry.path()) == nullptr) continue;
+    const auto member = parse_member_name(entry.path());
+    // The ending keeps snapshot.0 and snapshot.0.hdf5 apart.
+    const fs::path key =
+        member ? fs::path(member->base.string() + ".*" + member->ending) : entry.path();
+    sets[key].push_back(entry.path());
+  }
+  for (auto& [key, files] : sets)
+    std::sort(files.begin(), files.end());
+  return sets;
+}
+
+std::unique_ptr<Snapshot> open_folder(const fs::path& folder) {
+  const auto sets = find_sets(folder);
+  if (sets.empty()) {
+    throw DataError(fmt::format("{}: no snapshot in this folder; give the path of a snapshot file",
+                                folder.string()));
+  }
+  if (sets.size() > 1) {
+    throw DataError(fmt::format(
+        "{}: the folder holds {} snapshots ({}, {}{}); give the path of one of them",
+        folder.string(), sets.size(), sets.begin()->first.filename().string(),
+        std::next(sets.begin())->first.filename().string(), sets.size() > 2 ? ", ..." : ""));
+  }
+  const std::vector<fs::path>& files = sets.begin()->second;
+  auto snapshot = open_file(files.front());
+  if (snapshot->info().files.size() != files.size()) {
+    throw DataError(fmt::format(
+        "{}: the folder holds {} files named {}, but the header of {} says that it belongs to a "
+        "snapshot of {}; give the path of one file",
+        folder.string(), files.size(), sets.begin()->first.filename().string(),
+        files.front().filename().string(), snapshot->info().files.size()));
+  }
+  return snapshot;
+}
+
+}  // namespace
+
+const ParticleTypeInfo* SnapshotInfo::find_type(int type) const {
+  const auto found = std::find_if(types.begin(), types.end(),
+                                  [type](const ParticleTypeInfo& t) { return t.type == type; });
+  return found == types.end() ? nullptr : &*found;
+}
+
+std::vector<const SnapshotFormat*> snapshot_formats() {
+  return {&gadget_binary_format(), &hdf5_formats(), &tipsy_format()};
+}
+
+std::unique_ptr<Snapshot> open_snapshot(const fs::path& path) try {
+  if (fs::is_directory(path)) return open_folder(path);
+  return open_file(fs::exists(path) ? path : find_by_base_name(path));
+} catch (const fs::filesystem_error& error) {
+  throw DataError(fmt::format("{}: cannot be read: {}; check the path and its permissions",
+                              path.string(), error.code().message()));
+}
+
+}  // namespace splotchcl

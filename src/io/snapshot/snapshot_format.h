@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/common/mapped_file.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A file format. To add one: write its file, declare it here and list it in
+// snapshot_formats().
+class SnapshotFormat {
+ public:
+  virtual ~SnapshotFormat() = default;
+
+  // Judges by the first bytes, never by the name. A damaged file of the format is
+  // recognised too, so that open() can say what is wrong with it.
+  virtual bool recognises(const std::shared_ptr<const MappedFile>& file) const = 0;
+
+  // `path` is any file of a multi-file set. Throws DataError.
+  virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const = 0;
+};
+
+const SnapshotFormat& gadget_binary_format();  // formats 1 and 2
+const SnapshotFormat& hdf5_formats();          // Gadget and its relatives
+const SnapshotFormat& tipsy_format();
+
+// In the order in which they are asked.
+std::vector<const SnapshotFormat*> snapshot_formats();
+
+}  // namespace splotchcl

@@ -1,0 +1,118 @@
+#include "io/snapshot/stored_values.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace splotchcl {
+namespace {
+
+template <typename T>
+T load(const std::byte* bytes, bool is_swapped) {
+  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+  Bits bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  if (is_swapped) {
+    if constexpr (sizeof(T) == 4) {
+      bits = __builtin_bswap32(bits);
+    } else {
+      bits = __builtin_bswap64(bits);
+    }
+  }
+  T value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+// Calls `use` with a null pointer of the type that `kind` stands for.
+template <typename Use>
+auto with_value_type(ValueKind kind, Use&& use) {
+  switch (kind) {
+    case ValueKind::float32:
+      return use(static_cast<const float*>(nullptr));
+    case ValueKind::float64:
+      return use(static_cast<const double*>(nullptr));
+    case ValueKind::uint32:
+      return use(static_cast<const std::uint32_t*>(nullptr));
+    case ValueKind::uint64:
+      break;
+  }
+  return use(static_cast<const std::uint64_t*>(nullptr));
+}
+
+std::uint64_t stride_of(const StoredValues& part) {
+  return part.stride != 0 ? part.stride : part.packed_bytes_per_particle();
+}
+
+constexpr Vec3 zero = {{0, 0, 0}};
+
+bool can_point_into_file(const StoredValues& part) {
+  const std::byte* const first = part.file->data() + part.offset;
+  return part.kind == ValueKind::float32 && !part.is_swapped &&
+         stride_of(part) == part.packed_bytes_per_particle() &&
+         reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0;
+}
+
+template <typename T>
+float* convert_as(const StoredValues& part, const Vec3& origin, float* out) {
+  const bool has_origin = part.values_per_particle == 3 && origin != zero;
+  const std::byte* particle = part.file->data() + part.offset;
+  const std::uint64_t stride = stride_of(part);
+  for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride) {
+    for (int axis = 0; axis < part.values_per_particle; ++axis) {
+      const T value =
+          load<T>(particle + static_cast<std::size_t>(axis) * sizeof(T), part.is_swapped);
+      *out++ = has_origin ? static_cast<float>(static_cast<double>(value) - origin.a[axis])
+                          : static_cast<float>(value);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_little_endian_host() {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+double value_at(const StoredValues& values, std::uint64_t particle, int axis) {
+  const std::byte* const bytes = values.file->data() + values.offset +
+                                 particle * stride_of(values) +
+                                 static_cast<std::size_t>(axis) * size_of(values.kind);
+  return with_value_type(values.kind, [&](auto* type) {
+    using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
+    return static_cast<double>(load<T>(bytes, values.is_swapped));
+  });
+}
+
+double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t offset,
+                 ValueKind kind, bool is_swapped) {
+  return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped}, 0, 0);
+}
+
+Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origin) {
+  std::vector<StoredValues> parts;
+  std::copy_if(all_parts.begin(), all_parts.end(), std::back_inserter(parts),
+               [](const StoredValues& part) { return part.particles > 0; });
+  std::size_t size = 0;
+  for (const StoredValues& part : parts) {
+    size += part.particles * static_cast<std::size_t>(part.values_per_particle);
+  }
+  if (parts.size() == 1 && can_point_into_file(parts[0]) && origin == zero) {
+    const std::byte* const first = parts[0].file->data() + parts[0].offset;
+    return Column(parts[0].file, reinterpret_cast<const float*>(first), size);
+  }
+  std::vector<float> values(size);
+  float* out = values.data();
+  for (const StoredValues& part : parts) {
+    out = with_value_type(part.kind, [&](auto* type) {
+      return convert_as<std::remove_cv_t<std::remove_pointer_t<decltype(type)>>>(part, origin, out);
+    });
+  }
+  return Column::owning(std::move(values));
+}
+
+}  // namespace splotchcl
