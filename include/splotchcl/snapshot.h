@@ -29,6 +29,17 @@ struct ParticleTypeInfo {
   std::vector<FieldInfo> fields;
 };
 
+// A run in an expanding universe, with positions in comoving coordinates (docs/time.md).
+struct Cosmology {
+  double scale_factor = 1;  // a
+  // 0: the file does not say.
+  double omega_matter = 0;
+  double omega_lambda = 0;
+  double hubble_rate = 0;  // H0, in the file's unit of velocity over its unit of length
+  // The peculiar velocity a dx/dt is the stored one times a^velocity_power.
+  double velocity_power = 0.5;
+};
+
 struct SnapshotInfo {
   std::string format;  // "Gadget format 2, big-endian", ...
   std::vector<std::filesystem::path> files;
@@ -36,6 +47,9 @@ struct SnapshotInfo {
   std::optional<double> redshift;
   std::optional<double> box_size;  // none: not periodic, or unknown
   std::optional<double> hubble_parameter;
+  std::optional<Cosmology> cosmology;  // none: velocities are dx/dt, with t the time above
+  // Why velocities cannot be taken for changes of the positions in time; empty: they can.
+  std::string velocity_doubt;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
   const ParticleTypeInfo* find_type(int type) const;
@@ -51,6 +65,10 @@ class Snapshot {
   // for vectors. Points into the mapped file where that is possible. Positions are
   // relative to position_origin(). Throws DataError.
   virtual Column read(int type, const std::string& field) const = 0;
+
+  // The identifiers of one type's particles, exact, in file order. Throws DataError where
+  // the type has none.
+  virtual std::vector<std::uint64_t> read_ids(int type) const;
 
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }

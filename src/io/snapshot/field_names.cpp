@@ -129,4 +129,19 @@ const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_v
                               info.files.front().string(), type, name, fmt::join(names, ", ")));
 }
 
+const FieldInfo& require_ids(const SnapshotInfo& info, int type) {
+  if (const FieldInfo* const found = find_field(require_type(info, type), "id")) return *found;
+  throw DataError(fmt::format(
+      "{}: particles of type {} have no ids, expected ids, by which particles of different "
+      "snapshots are matched: use a snapshot with ids",
+      info.files.front().string(), type));
+}
+
+void refuse_ids(const SnapshotInfo& info, int type, const FieldInfo& field) {
+  throw DataError(
+      fmt::format("{}: the ids of type {} ({}) are not one whole number per particle, as was "
+                  "expected; the file is damaged or of an unknown dialect",
+                  info.files.front().string(), type, field.file_name));
+}
+
 }  // namespace splotchcl

@@ -28,6 +28,11 @@ const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type);
 // The field as find_field has it, or a DataError that lists those the type has.
 const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_view name);
 
+// The field of ids, or a DataError.
+const FieldInfo& require_ids(const SnapshotInfo& info, int type);
+// For a field of ids that does not hold whole numbers.
+[[noreturn]] void refuse_ids(const SnapshotInfo& info, int type, const FieldInfo& field);
+
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
 }  // namespace splotchcl

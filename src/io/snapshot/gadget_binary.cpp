@@ -53,6 +53,7 @@ class GadgetBinarySnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
@@ -141,6 +142,13 @@ Column GadgetBinarySnapshot::read(int type, const std::string& name) const {
   }
   const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
   return make_column(find_parts(type, field.file_name), origin);
+}
+
+std::vector<std::uint64_t> GadgetBinarySnapshot::read_ids(int type) const {
+  const FieldInfo& field = require_ids(info_, type);
+  auto ids = make_integers(find_parts(type, field.file_name));
+  if (!ids) refuse_ids(info_, type, field);
+  return std::move(*ids);
 }
 
 class GadgetBinaryFormat : public SnapshotFormat {

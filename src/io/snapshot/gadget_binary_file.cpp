@@ -121,8 +121,9 @@ std::string read_label(const MappedFile& file, const GadgetRecord& record) {
 namespace at {
 constexpr std::uint64_t counts = 0, table_masses = 24, time = 72, redshift = 80;
 constexpr std::uint64_t star_formation = 88, total_counts = 96, cooling = 120, files = 124;
-constexpr std::uint64_t box_size = 128, omega_matter = 136, hubble_parameter = 152;
-constexpr std::uint64_t stellar_age = 160, metals = 164, total_counts_high = 168;
+constexpr std::uint64_t box_size = 128, omega_matter = 136, omega_lambda = 144;
+constexpr std::uint64_t hubble_parameter = 152, stellar_age = 160, metals = 164,
+                        total_counts_high = 168;
 }  // namespace at
 
 GadgetHeader read_header(const GadgetRecord& record, const Numbers& numbers) {
@@ -144,6 +145,7 @@ GadgetHeader read_header(const GadgetRecord& record, const Numbers& numbers) {
   header.files = static_cast<int>(std::min(uint32(at::files), most_files));
   header.box_size = float64(at::box_size);
   header.omega_matter = float64(at::omega_matter);
+  header.omega_lambda = float64(at::omega_lambda);
   header.hubble_parameter = float64(at::hubble_parameter);
   header.has_stellar_age = uint32(at::stellar_age) == 1;
   header.has_metals = uint32(at::metals) == 1;

@@ -52,10 +52,12 @@ class GadgetHdf5Snapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
   void read_dialect();
+  void read_motion();
   void find_fields(ParticleTypeInfo& type);
   bool is_in_every_member(int type, const Hdf5Field& field) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
@@ -72,6 +74,7 @@ GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
   read_dialect();
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);
+  read_motion();
   choose_origin();
 }
 
@@ -87,6 +90,18 @@ void GadgetHdf5Snapshot::read_dialect() {
   info_.notes.push_back(
       "HydroScheme does not say SWIFT's Kernel gamma: smoothing lengths are taken as they are, "
       "though SWIFT's end before its kernel does");
+}
+
+void GadgetHdf5Snapshot::read_motion() {
+  const ParticleTypeInfo& type = info_.types.front();
+  const auto path_of = [&type](const char* name) {
+    const FieldInfo* const field = find_field(type, name);
+    return fmt::format("/PartType{}/{}", type.type, field == nullptr ? name : field->file_name);
+  };
+  const auto member = std::find_if(members_.begin(), members_.end(),
+                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  info_.cosmology = read_cosmology(Hdf5File(member->path), member->header(), path_of("position"),
+                                   path_of("velocity"));
 }
 
 bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
@@ -147,6 +162,13 @@ Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
   if (field.name == "position") return read_column(parts, origin_);
   if (field.name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
   return read_column(parts);
+}
+
+std::vector<std::uint64_t> GadgetHdf5Snapshot::read_ids(int type) const {
+  const FieldInfo& field = require_ids(info_, type);
+  auto ids = read_integers(find_parts(type, field.file_name));
+  if (!ids) refuse_ids(info_, type, field);
+  return std::move(*ids);
 }
 
 }  // namespace

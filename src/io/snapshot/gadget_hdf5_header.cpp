@@ -11,6 +11,8 @@
 namespace splotchcl {
 namespace {
 
+constexpr double kpc_in_cm = 3.0856775814913673e21;
+
 struct Place {
   const char* object;
   const char* attribute;
@@ -95,11 +97,49 @@ GadgetHeader read_hdf5_header(const Hdf5File& file) {
   header.redshift = file.number("Header", "Redshift").value_or(0);
   header.omega_matter = find_number(
       file, {{"Header", "Omega0"}, {"Parameters", "Omega0"}, {"Cosmology", "Omega_m"}}, 0);
+  header.omega_lambda = find_number(
+      file,
+      {{"Header", "OmegaLambda"}, {"Parameters", "OmegaLambda"}, {"Cosmology", "Omega_lambda"}}, 0);
   return header;
 }
 
 bool is_swift_file(const Hdf5File& file) {
   return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+}
+
+std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader& header,
+                                        const std::string& positions,
+                                        const std::string& velocities) {
+  const bool is_swift = is_swift_file(file);
+  Cosmology cosmology;
+  // SWIFT's time is a time; all others of this family keep the scale factor there.
+  const auto scale_factor = file.number("Header", "Scale-factor");
+  cosmology.scale_factor =
+      scale_factor.value_or(is_swift ? 1 / (1 + header.redshift) : header.time);
+  cosmology.omega_matter = header.omega_matter;
+  cosmology.omega_lambda = header.omega_lambda;
+  constexpr double rounding = 1e-4;
+  const bool is_cosmological =
+      header.omega_matter > 0 && cosmology.scale_factor > 0 &&
+      std::abs(cosmology.scale_factor * (1 + header.redshift) - 1) < rounding;
+  if (!is_cosmological) return std::nullopt;
+
+  const auto power = [&file](const std::string& dataset, const char* gadget, const char* swift) {
+    const auto value = file.number(dataset, gadget);
+    return value ? value : file.number(dataset, swift);
+  };
+  cosmology.velocity_power =
+      power(velocities, "a_scaling", "a-scale exponent").value_or(is_swift ? 0 : 0.5);
+  const double hubble_power =
+      power(positions, "h_scaling", "h-scale exponent").value_or(is_swift ? 0 : -1);
+  const BaseUnits units = read_base_units(file);
+  const double length = units.length_in_cm > 0 ? units.length_in_cm : kpc_in_cm;
+  const double velocity = units.velocity_in_cm_per_s > 0 ? units.velocity_in_cm_per_s : 1e5;
+  // 100 h km/s/Mpc, with the powers of h that the units themselves contain.
+  const double h = header.hubble_parameter > 0 ? header.hubble_parameter : 1;
+  cosmology.hubble_rate =
+      1e7 / (1e3 * kpc_in_cm) * std::pow(h, 1 + hubble_power) * length / velocity;
+  return cosmology;
 }
 
 BaseUnits read_base_units(const Hdf5File& file) {

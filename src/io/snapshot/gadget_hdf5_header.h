@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "io/snapshot/gadget_header.h"
 #include "io/snapshot/hdf5_file.h"
 #include "io/snapshot/unit_names.h"
@@ -11,6 +14,13 @@ namespace splotchcl {
 GadgetHeader read_hdf5_header(const Hdf5File& file);
 
 bool is_swift_file(const Hdf5File& file);
+
+// The cosmology and what the velocities are, where the run follows the expansion: from the
+// header and the attributes of the datasets of positions and velocities (paths). Units that
+// the file does not state are kpc/h and km/s.
+std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader& header,
+                                        const std::string& positions,
+                                        const std::string& velocities);
 
 // The units the file states; zeros where it states none.
 BaseUnits read_base_units(const Hdf5File& file);

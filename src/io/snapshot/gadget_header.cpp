@@ -32,6 +32,14 @@ void check_same_snapshot(const GadgetHeader& first, const GadgetHeader& other,
                   other_path.string(), difference, first_path.filename().string()));
 }
 
+// Gadget keeps the scale factor as the time of a cosmological run. One without cosmology may
+// have a density parameter in its header all the same.
+bool is_cosmological(const GadgetHeader& header) {
+  constexpr double rounding = 1e-4;
+  return header.omega_matter > 0 && header.time > 0 &&
+         std::abs(header.time * (1 + header.redshift) - 1) < rounding;
+}
+
 }  // namespace
 
 std::uint64_t GadgetHeader::particles() const {
@@ -110,6 +118,12 @@ void describe(const GadgetHeader& header, SnapshotInfo& info) {
   if (header.omega_matter > 0 || header.redshift != 0) info.redshift = header.redshift;
   if (std::isfinite(header.box_size) && header.box_size > 0) info.box_size = header.box_size;
   if (header.hubble_parameter > 0) info.hubble_parameter = header.hubble_parameter;
+  if (is_cosmological(header)) {
+    // kpc/h and km/s, as most have them: the header does not say.
+    constexpr double hubble_rate = 0.1;
+    info.cosmology =
+        Cosmology{header.time, header.omega_matter, header.omega_lambda, hubble_rate, 0.5};
+  }
   for (std::size_t type = 0; type < header.counts.size(); ++type) {
     if (header.counts[type] == 0) continue;
     ParticleTypeInfo particles;

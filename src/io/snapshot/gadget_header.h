@@ -22,6 +22,7 @@ struct GadgetHeader {
   int files = 1;
   double box_size = 0;
   double omega_matter = 0;
+  double omega_lambda = 0;
   double hubble_parameter = 0;
   bool has_cooling = false;
   bool has_star_formation = false;

@@ -89,6 +89,22 @@ Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin, dou
   return Column::owning(std::move(values));
 }
 
+std::optional<std::vector<std::uint64_t>> read_integers(const std::vector<Hdf5Values>& parts) {
+  std::vector<std::uint64_t> values;
+  for (const Hdf5Values& part : parts) {
+    const Hdf5File file(part.file);
+    file.check_complete(part.dataset);
+    const bool is_integer = part.dataset.kind == Hdf5Dataset::Kind::integer;
+    if (!is_integer || part.dataset.values_per_row() != 1) return std::nullopt;
+    const std::size_t before = values.size();
+    values.resize(before + part.dataset.rows());
+    for_pieces(file, part.dataset, [&](std::uint64_t first, std::uint64_t rows) {
+      file.read_rows(part.dataset, first, rows, values.data() + before + first);
+    });
+  }
+  return values;
+}
+
 Vec3 find_position_origin(const std::vector<Hdf5Values>& positions) {
   if (std::none_of(positions.begin(), positions.end(), is_double)) return {{0, 0, 0}};
   std::vector<std::uint64_t> sizes;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "io/snapshot/hdf5_file.h"
@@ -19,6 +21,9 @@ struct Hdf5Values {
 // in double; all values are multiplied by `factor`.
 Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin = {{0, 0, 0}},
                    double factor = 1);
+
+// Whole numbers, exact; empty when a part holds none.
+std::optional<std::vector<std::uint64_t>> read_integers(const std::vector<Hdf5Values>& parts);
 
 // The origin for positions stored in double precision; zero where none is.
 Vec3 find_position_origin(const std::vector<Hdf5Values>& positions);

@@ -311,6 +311,15 @@ void Hdf5File::read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::u
   read(dataset, first, rows, H5T_NATIVE_DOUBLE, out);
 }
 
+void Hdf5File::read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
+                         std::uint64_t* out) const {
+  const Dataset handle = open_dataset(dataset.path);
+  const Hdf5Handle<H5Tclose> stored(H5Dget_type(handle.id()));
+  // HDF5 would make 0 of all below it.
+  const bool is_signed = H5Tget_sign(stored.id()) == H5T_SGN_2;
+  read(dataset, first, rows, is_signed ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64, out);
+}
+
 std::uint64_t Hdf5File::rows_per_piece(const Hdf5Dataset& dataset) const {
   constexpr std::uint64_t piece = 1U << 20;
   const Hdf5Silence silence;

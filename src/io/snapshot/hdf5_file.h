@@ -90,6 +90,9 @@ class Hdf5File {
                  float* out) const;
   void read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
                  double* out) const;
+  // Whole numbers, exact; those below zero are taken modulo 2^64.
+  void read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
+                 std::uint64_t* out) const;
 
   // Rows to read at a time: a large piece of whole chunks.
   std::uint64_t rows_per_piece(const Hdf5Dataset& dataset) const;

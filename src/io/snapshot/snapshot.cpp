@@ -107,6 +107,14 @@ const ParticleTypeInfo* SnapshotInfo::find_type(int type) const {
   return found == types.end() ? nullptr : &*found;
 }
 
+std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
+  throw DataError(
+      fmt::format("{}: its format ({}) has no ids for particles of type {}; expected ids, by which "
+                  "particles of "
+                  "different snapshots are matched: use a snapshot with ids",
+                  info().files.front().string(), info().format, type));
+}
+
 std::vector<const SnapshotFormat*> snapshot_formats() {
   return {&gadget_binary_format(), &hdf5_formats(), &tipsy_format()};
 }

@@ -115,4 +115,19 @@ Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origi
   return Column::owning(std::move(values));
 }
 
+std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts) {
+  std::vector<std::uint64_t> values;
+  for (const StoredValues& part : parts) {
+    const bool is_integer = part.kind == ValueKind::uint32 || part.kind == ValueKind::uint64;
+    if (!is_integer || part.values_per_particle != 1) return std::nullopt;
+    const std::byte* particle = part.file->data() + part.offset;
+    for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride_of(part)) {
+      values.push_back(part.kind == ValueKind::uint32
+                           ? load<std::uint32_t>(particle, part.is_swapped)
+                           : load<std::uint64_t>(particle, part.is_swapped));
+    }
+  }
+  return values;
+}
+
 }  // namespace splotchcl

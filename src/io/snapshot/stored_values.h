@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/common/mapped_file.h"
@@ -34,6 +35,9 @@ struct StoredValues {
 // 4-byte aligned, is not copied: the column points into the file. `origin` is taken from
 // 3-vectors in double before they are rounded.
 Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin = {{0, 0, 0}});
+
+// Whole numbers, exact, the parts one after the other; empty when a part holds none.
+std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts);
 
 // One value in double; `particle` and `axis` must exist.
 double value_at(const StoredValues& values, std::uint64_t particle, int axis);

@@ -124,6 +124,7 @@ TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFi
                              header_.is_swapped == is_little_endian_host() ? "big" : "little");
   info_.files = {path};
   info_.time = header_.time;
+  info_.velocity_doubt = "Tipsy does not tell its units, nor whether its time is the scale factor";
   find_start();
   describe_types();
 }
