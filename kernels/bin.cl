@@ -89,18 +89,15 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
   totals->partial_count = partial_count;
 }
 
-inline void sample_palette(__global const float* knots, const ComponentColors colors,
-                           float position, float* emission, float* absorption) {
-  const float place = position * (float)(colors.knot_count - 1u);
-  const uint below = min((uint)place, colors.knot_count - 1u);
-  const uint above = min(below + 1u, colors.knot_count - 1u);
+inline void sample_knots(__global const float* knots, uint first, uint count, float position,
+                         float* color) {
+  const float place = position * (float)(count - 1u);
+  const uint below = min((uint)place, count - 1u);
+  const uint above = min(below + 1u, count - 1u);
   const float fraction = place - (float)below;
-  __global const float* a = knots + (size_t)(colors.first_knot + below) * 6;
-  __global const float* b = knots + (size_t)(colors.first_knot + above) * 6;
-  for (int c = 0; c < 3; ++c) {
-    emission[c] = a[c] + fraction * (b[c] - a[c]);
-    absorption[c] = a[c + 3] + fraction * (b[c + 3] - a[c + 3]);
-  }
+  __global const float* a = knots + (size_t)(first + below) * 3;
+  __global const float* b = knots + (size_t)(first + above) * 3;
+  for (int c = 0; c < 3; ++c) color[c] = a[c] + fraction * (b[c] - a[c]);
 }
 
 // E w and A w at the cloud's centre (scene.h, Absorption).
@@ -108,7 +105,14 @@ inline void amplitudes(const Splat splat, const ComponentColors colors,
                        __global const float* knots, const BinParameters p, float* emission,
                        float* absorption) {
   float e[3], a[3];
-  sample_palette(knots, colors, splat.color, e, a);
+  sample_knots(knots, colors.first_knot, colors.knot_count, splat.color, e);
+#ifdef VECTOR_COLORS
+  for (int c = 0; c < 3; ++c) e[c] *= splat.vector[c];
+#endif
+  for (int c = 0; c < 3; ++c) a[c] = e[c];
+  if (colors.absorption_knot_count > 0) {
+    sample_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count, splat.color, a);
+  }
   for (int c = 0; c < 3; ++c) {
     emission[c] = splat.weight * colors.brightness * e[c];
     absorption[c] = splat.weight * colors.brightness * a[c];

@@ -52,7 +52,8 @@ struct ProjectParameters {
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
   float weight_scale;  // for masses its square root: it may be too small for a float
-  float peak_colour;   // the largest of E and A per unit weight
+  float peak_colour;   // the largest of E and A per unit weight, and of it what
+  float peak_own;      // does not follow the particles' own colour vectors
 
   float least_extent;    // sigmas drawn of a faint splat
   float restored_light;  // factor on the weight of such a splat
@@ -71,6 +72,7 @@ struct ProjectParameters {
   unsigned int first_block;                   // of the component, in offsets and visible
   // 0 where one value serves all particles.
   int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
+  int color_vector_stride;
   int sort_by_field, sort_descending;
 };
 
@@ -82,12 +84,17 @@ struct Splat {
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
   unsigned int component_and_grid;  // component | grid << 16
+#ifdef VECTOR_COLORS
+  float vector[3];  // the particle's own colour
+#endif
 };
 
-// One component's colours: knots lie in a table at first_knot, six floats each (emission,
-// absorption).
+// One component's colours: knots of three floats lie in a table, emission at first_knot,
+// absorption at first_absorption_knot. Where the palette has none of its own,
+// absorption_knot_count is 0.
 struct ComponentColors {
   unsigned int first_knot, knot_count;
+  unsigned int first_absorption_knot, absorption_knot_count;
   float brightness;
   int absorption_kind;
   float absorption_factor;

@@ -106,8 +106,27 @@ typedef struct SplatLanes {
   INTEGER visible, bad;
   INTEGER grid;
   VALUE x, y, sigma, radius, weight, color;
+#ifdef VECTOR_COLORS
+  VALUE red, green, blue;
+#endif
   VALUE sort_value;
 } SplatLanes;
+
+// The particles' own colours, which are a parameter only where a component has some.
+#ifdef VECTOR_COLORS
+#define COLOR_VECTORS_PARAMETER , __global const float* color_vectors
+#define COLOR_VECTORS_ARGUMENT , color_vectors
+inline Offset load_vectors(__global const float* vectors, uint i, uint end, int stride) {
+  if (stride != 0) return load_positions(vectors, i, end);
+  Offset same;
+  same.x = same.y = same.z = (VALUE)(vectors[0]);
+  return same;
+}
+inline INTEGER is_color(VALUE v) { return v >= 0.0f & v <= FLT_MAX; }
+#else
+#define COLOR_VECTORS_PARAMETER
+#define COLOR_VECTORS_ARGUMENT
+#endif
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
 inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
@@ -115,7 +134,7 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                                 __global const float* smoothing_lengths,
                                 __global const float* weights, __global const float* colors,
                                 __global const float* intensities,
-                                __global const float* sort_fields) {
+                                __global const float* sort_fields COLOR_VECTORS_PARAMETER) {
   SplatLanes s;
 #ifdef LANES_8
   const INTEGER exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
@@ -132,9 +151,13 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE z = chain_dot(d, p.forward);
   s.sort_value = p.sort_by_field ? raw_sort : z;
 
-  const INTEGER good = is_finite(d.x) & is_finite(d.y) & is_finite(d.z) & is_finite(raw_h) &
+  INTEGER good = is_finite(d.x) & is_finite(d.y) & is_finite(d.z) & is_finite(raw_h) &
                        raw_h > 0.0f & is_finite(raw_weight) & raw_weight >= 0.0f &
                        is_finite(raw_color) & is_finite(raw_intensity) & is_finite(raw_sort);
+#ifdef VECTOR_COLORS
+  const Offset own = load_vectors(color_vectors, i, end, p.color_vector_stride);
+  good &= is_color(own.x) & is_color(own.y) & is_color(own.z);
+#endif
   s.bad = exists & (good == 0);
 
   const VALUE h = raw_h * p.size_factor;
@@ -170,7 +193,11 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   weight *= narrowing * narrowing;
 
   // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
-  const VALUE peak = weight * p.peak_colour * min((VALUE)(1.0f), 3.2f * widened * widened);
+  VALUE brightest = p.peak_colour;
+#ifdef VECTOR_COLORS
+  brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
+#endif
+  const VALUE peak = weight * brightest * min((VALUE)(1.0f), 3.2f * widened * widened);
   const VALUE extent =
       p.kernel_cut > 0.0f ? (VALUE)(p.kernel_cut) : truncation_extent(peak, p);
 
@@ -196,6 +223,11 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const INTEGER faint = extent <= p.least_extent;
   s.weight = choose(weight, weight * p.restored_light, faint);
   s.color = normalised(raw_color, p.color);
+#ifdef VECTOR_COLORS
+  s.red = own.x;
+  s.green = own.y;
+  s.blue = own.z;
+#endif
   return s;
 }
 
@@ -217,7 +249,8 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const uint* offsets, __global uint* visible,
-                      __global Splat* splats, __global uint* keys, __global uint* order) {
+                      __global Splat* splats, __global uint* keys,
+                      __global uint* order COLOR_VECTORS_PARAMETER) {
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
@@ -226,7 +259,7 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   uint slot = first_slot, bad_count = 0;
   for (uint i = begin; i < end; i += LANES) {
     const SplatLanes s = project_lanes(i, end, p, grids, positions, smoothing_lengths, weights,
-                                       colors, intensities, sort_fields);
+                                       colors, intensities, sort_fields COLOR_VECTORS_ARGUMENT);
     if (ANY(s.bad)) {
       SPREAD(int, bad)
       for (uint k = 0; k < LANES; ++k) bad_count += LANE(bad, k) != 0;
@@ -240,6 +273,11 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
     SPREAD(float, radius)
     SPREAD(float, weight)
     SPREAD(float, color)
+#ifdef VECTOR_COLORS
+    SPREAD(float, red)
+    SPREAD(float, green)
+    SPREAD(float, blue)
+#endif
     SPREAD(int, grid)
 #endif
 #ifdef OUTPUT_KEYS
@@ -255,6 +293,11 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
       splat->radius = LANE(radius, k);
       splat->weight = LANE(weight, k);
       splat->color = LANE(color, k);
+#ifdef VECTOR_COLORS
+      splat->vector[0] = LANE(red, k);
+      splat->vector[1] = LANE(green, k);
+      splat->vector[2] = LANE(blue, k);
+#endif
       splat->component_and_grid = p.component | ((uint)LANE(grid, k) << 16);
 #endif
 #ifdef OUTPUT_KEYS

@@ -13,7 +13,7 @@ using Rgb = std::array<float, 3>;  // linear intensity per channel, 1 = display 
 struct Palette {
   std::string name;
   std::vector<Rgb> emission;
-  std::vector<Rgb> absorption;  // as many knots, or empty: the same as emission
+  std::vector<Rgb> absorption;  // with knots of its own number; empty: the same as emission
 
   bool has_own_absorption() const { return !absorption.empty(); }
 };

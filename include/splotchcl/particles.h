@@ -58,8 +58,11 @@ struct Particles {
   Column smoothing_length;    // h, the kernel's support radius, > 0
   Column weight;              // mass or density, as WeightModel says; absent for constant
   Column color;               // the palette's scalar before scaling; absent: position 0
-  Column intensity;           // the intensity field before scaling; absent: 1
-  Column sort_field;          // only when the scene sorts by a field
+  // 3 * count: red, green, blue of each particle, >= 0, factors on the palette's emission
+  // and on what it absorbs, unless the palette has absorption of its own. Absent: 1 1 1.
+  Column color_vector;
+  Column intensity;   // the intensity field before scaling; absent: 1
+  Column sort_field;  // only when the scene sorts by a field
 };
 
 }  // namespace splotchcl

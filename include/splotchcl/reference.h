@@ -27,7 +27,8 @@ struct Splat {
 // z outside the limits. Nothing is left out for lying off the image.
 std::vector<Splat> project(const Frame& frame);
 
-// Number of particles with bad values: any that is not finite, h <= 0, weight < 0.
+// Number of particles with bad values: any that is not finite, h <= 0, weight < 0, a
+// colour vector < 0.
 std::uint64_t count_bad(const Frame& frame);
 
 // Nearest first as frame.sort says; stable; -0 equals +0.

@@ -73,9 +73,14 @@ struct Component {
   double size_factor = 1;
   std::optional<double> size_fixed;  // instead of a field, in length units
   FieldMap color;
+  // A field of three values per particle: its own red, green and blue, in place of the
+  // palette's emission. Empty: none.
+  std::string color_vector;
   FieldMap intensity;
   std::optional<WeightModel> weight;  // unset: mass where masses are known, else constant
   std::string palette = "inferno";    // a name in palettes/ or a file
+  // A palette whose colours are palette_A; empty: what `palette` says.
+  std::string absorption_palette;
   double brightness = 1;
   Absorption absorption;
   std::optional<double> reference_column;  // the w that counts as 1; unset: from the data

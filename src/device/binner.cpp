@@ -25,6 +25,14 @@ int kind_number(Absorption::Kind kind) {
   return ABSORPTION_AS_EMISSION;
 }
 
+// Returns the number of the first of them in the table.
+std::uint32_t append_knots(const std::vector<Rgb>& added, std::vector<float>& table) {
+  const auto first = static_cast<std::uint32_t>(table.size() / 3);
+  for (const Rgb& knot : added)
+    table.insert(table.end(), knot.begin(), knot.end());
+  return first;
+}
+
 }  // namespace
 
 Binner::Binner(DeviceContext& device, const FrameLayout& layout, const Frame& frame,
@@ -54,19 +62,15 @@ void Binner::upload_colors(const Frame& frame) {
   std::vector<float> knots;
   for (const DrawnComponent& component : frame.components) {
     const Palette& palette = component.palette;
-    const std::vector<Rgb>& absorption =
-        palette.has_own_absorption() ? palette.absorption : palette.emission;
     kernel::ComponentColors entry{};
-    entry.first_knot = static_cast<std::uint32_t>(knots.size() / 6);
+    entry.first_knot = append_knots(palette.emission, knots);
     entry.knot_count = static_cast<std::uint32_t>(palette.emission.size());
+    entry.first_absorption_knot = append_knots(palette.absorption, knots);
+    entry.absorption_knot_count = static_cast<std::uint32_t>(palette.absorption.size());
     entry.brightness = static_cast<float>(component.brightness);
     entry.absorption_kind = kind_number(component.absorption.kind);
     entry.absorption_factor = static_cast<float>(component.absorption.factor);
     colors.push_back(entry);
-    for (std::size_t k = 0; k < palette.emission.size(); ++k) {
-      knots.insert(knots.end(), palette.emission[k].begin(), palette.emission[k].end());
-      knots.insert(knots.end(), absorption[k].begin(), absorption[k].end());
-    }
   }
   component_colors_ = device_.buffers.upload("component colours", colors);
   knots_ = device_.buffers.upload("palette knots", knots);

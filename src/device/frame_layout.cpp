@@ -72,6 +72,27 @@ double extent_of_loss(double loss) {
   return high;
 }
 
+bool has_own_colors(const DrawnComponent& component) {
+  return !component.particles.color_vector.is_absent();
+}
+
+// Between two knots of both palettes E and A are linear, so E / A is largest at a knot.
+double brightest_quotient(const Palette& palette) {
+  double largest = 0;
+  for (const std::vector<Rgb>* knots : {&palette.emission, &palette.absorption}) {
+    for (std::size_t k = 0; k < knots->size(); ++k) {
+      const double place =
+          static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(knots->size() - 1, 1));
+      const auto emission = sample_knots(palette.emission, place);
+      const auto absorption = sample_knots(palette.absorption, place);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (emission[c] > 0) largest = std::max(largest, emission[c] / absorption[c]);
+      }
+    }
+  }
+  return largest;
+}
+
 // Largest E / A of the component: what shines through an opacity o is at most
 // (1 - o) times this.
 double brightest_source(const DrawnComponent& component) {
@@ -82,16 +103,9 @@ double brightest_source(const DrawnComponent& component) {
                             ? component.brightness / component.absorption.factor
                             : 1;
   if (!component.palette.has_own_absorption()) return factor;
-  double largest = 0;
-  for (std::size_t k = 0; k < component.palette.emission.size(); ++k) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float emission = component.palette.emission[k][c];
-      const float absorption = component.palette.absorption[k][c];
-      if (emission > 0)
-        largest = std::max(largest, factor * static_cast<double>(emission / absorption));
-    }
-  }
-  return largest;
+  // Colours of the particles' own have no bound that is known without reading them all.
+  if (has_own_colors(component)) return std::numeric_limits<double>::infinity();
+  return factor * brightest_quotient(component.palette);
 }
 
 // What a relative error of every splat does to the picture, relative to max(1, I). Light
@@ -121,11 +135,17 @@ float opaque_limit(const Frame& frame, double share) {
 
 }  // namespace
 
+std::size_t splat_bytes(const FrameLayout& layout) {
+  return sizeof(kernel::Splat) + (layout.vector_colors ? 3 * sizeof(float) : 0);
+}
+
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
   layout.tile_width = rows ? (plan.light == LightPlan::ordered ? 32 : 64) : 16;
   layout.tile_height = rows ? 32 : 16;
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
+  layout.vector_colors =
+      std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
   append_grid(layout, frame.crop.width, frame.crop.height, 0);
   if (may_use_coarse_grids(plan)) {
     for (int g = 1; g < most_grids; ++g) {
@@ -180,6 +200,7 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (plan.light == LightPlan::emission) define("LIGHT_EMISSION");
   if (frame.kernel.cut) define("KERNEL_CUT");
   if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
+  if (layout.vector_colors) define("VECTOR_COLORS");
   if (layout.exact) define("EXACT");
   if (layout.builtin_erf) define("BUILTIN_ERF");
   std::ostringstream weights;

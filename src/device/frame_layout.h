@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,11 +31,15 @@ struct FrameLayout {
   float inverse_edge = 0;               // 1 / (value at which a splat may end)
   float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;
-  bool exact = false;        // polynomials of full single precision
-  bool builtin_erf = false;  // for tolerances that the polynomial cannot hold
+  bool vector_colors = false;  // some particles have colours of their own
+  bool exact = false;          // polynomials of full single precision
+  bool builtin_erf = false;    // for tolerances that the polynomial cannot hold
 };
 
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows);
+
+// The size of a splat: those of particles with colours of their own carry them.
+std::size_t splat_bytes(const FrameLayout& layout);
 
 // The block of #defines that specialises the kernels to the plan.
 std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayout& layout);

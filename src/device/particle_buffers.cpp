@@ -59,6 +59,7 @@ ParticleBuffers ParticleStore::get(const Particles& particles) {
   buffers.color = buffer_of(particles.color, 0, buffers.color_stride);
   buffers.intensity = buffer_of(particles.intensity, 1, buffers.intensity_stride);
   buffers.sort_field = buffer_of(particles.sort_field, 0, buffers.sort_stride);
+  buffers.color_vector = buffer_of(particles.color_vector, 1, buffers.color_vector_stride);
   return buffers;
 }
 

@@ -12,9 +12,9 @@ namespace splotchcl {
 // The device's view of one component's columns. On a device that shares the host's memory
 // the buffers lie in the columns themselves and cost nothing.
 struct ParticleBuffers {
-  compute::buffer position, smoothing_length, weight, color, intensity, sort_field;
+  compute::buffer position, smoothing_length, weight, color, intensity, sort_field, color_vector;
   int smoothing_length_stride = 0, weight_stride = 0, color_stride = 0, intensity_stride = 0,
-      sort_stride = 0;
+      sort_stride = 0, color_vector_stride = 0;
 };
 
 // Keeps columns on the device from frame to frame: a second frame of the same data moves

@@ -21,21 +21,32 @@ double brightest_knot(const std::vector<Rgb>& knots) {
   return static_cast<double>(brightest);
 }
 
-double peak_colour(const DrawnComponent& component) {
-  const Palette& palette = component.palette;
-  const double emission = component.brightness * brightest_knot(palette.emission);
-  const double colour_absorption =
-      brightest_knot(palette.has_own_absorption() ? palette.absorption : palette.emission);
+// A per unit weight, of the palette's colours `knots`.
+double peak_absorption(const DrawnComponent& component, const std::vector<Rgb>& knots) {
   switch (component.absorption.kind) {
     case Absorption::Kind::none:
     case Absorption::Kind::gray:
-      return emission;
+      return 0;
     case Absorption::Kind::as_emission:
-      return std::max(emission, component.brightness * colour_absorption);
+      return component.brightness * brightest_knot(knots);
     case Absorption::Kind::factor:
-      return std::max(emission, component.absorption.factor * colour_absorption);
+      return component.absorption.factor * brightest_knot(knots);
   }
-  return emission;
+  return 0;
+}
+
+// What does not follow the particles' own colours.
+double peak_own_absorption(const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  return palette.has_own_absorption() ? peak_absorption(component, palette.absorption) : 0;
+}
+
+double peak_colour(const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  const double emission = component.brightness * brightest_knot(palette.emission);
+  return std::max(emission, palette.has_own_absorption()
+                                ? peak_own_absorption(component)
+                                : peak_absorption(component, palette.emission));
 }
 
 kernel::FieldScaling scaling_of(const ScalarMap& map) {
@@ -160,6 +171,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
       break;
   }
   p.peak_colour = static_cast<float>(peak_colour(component));
+  p.peak_own = static_cast<float>(peak_own_absorption(component));
   p.least_extent = layout_.least_extent;
   // A cut is part of the model: nothing is left out.
   p.restored_light = frame_.kernel.cut ? 1.0f : layout_.restored_light;
@@ -177,22 +189,24 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.color_stride = particles.color_stride;
   p.intensity_stride = particles.intensity_stride;
   p.sort_stride = particles.sort_stride;
+  p.color_vector_stride = particles.color_vector_stride;
   p.sort_by_field = frame_.sort.by == SortOrder::By::field;
   p.sort_descending = frame_.sort.descending;
   return p;
 }
 
 compute::program Projector::program(const std::string& outputs) const {
-  const std::string lanes = device_.traits.rows ? "#define LANES_8\n" : "";
-  return device_.programs.get(lanes + outputs, {"common.cl", "lanes.cl", "project.cl"});
+  std::string defines = device_.traits.rows ? "#define LANES_8\n" : "";
+  if (layout_.vector_colors) defines += "#define VECTOR_COLORS\n";
+  return device_.programs.get(defines + outputs, {"common.cl", "lanes.cl", "project.cl"});
 }
 
 void Projector::launch(const compute::program& program, const kernel::ProjectParameters& parameters,
                        const ParticleBuffers& particles, const compute::buffer& offsets,
                        const compute::buffer& visible, std::uint32_t block_count) {
   Buffers& buffers = device_.buffers;
-  Launch(device_, "project", program.create_kernel("project"))
-      .value(parameters)
+  Launch launch(device_, "project", program.create_kernel("project"));
+  launch.value(parameters)
       .arg(grids_)
       .arg(particles.position)
       .arg(particles.smoothing_length)
@@ -204,8 +218,9 @@ void Projector::launch(const compute::program& program, const kernel::ProjectPar
       .arg(visible)
       .arg(buffers.get("splats", 0))
       .arg(buffers.get("keys", 0))
-      .arg(buffers.get("order", 0))
-      .run_items(block_count);
+      .arg(buffers.get("order", 0));
+  if (layout_.vector_colors) launch.arg(particles.color_vector);
+  launch.run_items(block_count);
 }
 
 SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint32_t component_index,
@@ -224,7 +239,7 @@ SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint3
     offsets[b] = b * blocks.stride;
   Buffers& buffers = device_.buffers;
   const compute::buffer visible = buffers.get("visible", 8ull * blocks.block_count);
-  buffers.get("splats", std::uint64_t{blocks.block_count} * blocks.stride * sizeof(kernel::Splat));
+  buffers.get("splats", std::uint64_t{blocks.block_count} * blocks.stride * splat_bytes(layout_));
   launch(compiled, parameters, particles, buffers.upload("offsets", offsets), visible,
          blocks.block_count);
   return blocks;
@@ -276,7 +291,7 @@ std::uint32_t Projector::project_all(const std::vector<DrawnComponent>& componen
       .run_items(1);
   std::uint32_t splat_count = 0;
   device_.queue.enqueue_read_buffer(offsets, 4ull * block_count, sizeof(splat_count), &splat_count);
-  buffers.get("splats", std::uint64_t{splat_count} * sizeof(kernel::Splat));
+  buffers.get("splats", std::uint64_t{splat_count} * splat_bytes(layout_));
   buffers.get("keys", 4ull * splat_count);
   buffers.get("order", 4ull * splat_count);
   pass("#define OUTPUT_SPLATS\n#define OUTPUT_KEYS\n");

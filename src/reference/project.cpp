@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "scene/central_column.h"
 #include "scene/scalar_map.h"
@@ -14,6 +16,7 @@ struct Particle {
   float smoothing_length;
   float weight;
   float color;
+  float color_vector[3];
   float intensity;
   float sort_field;
 };
@@ -30,8 +33,10 @@ float value_or(const Column& column, std::size_t i, float value_when_absent) {
 
 Particle particle_at(const Particles& particles, std::size_t i) {
   Particle p;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     p.position[axis] = particles.position[3 * i + axis];
+    p.color_vector[axis] = value_or(particles.color_vector, 3 * i + axis, 1);
+  }
   p.smoothing_length = particles.smoothing_length[i];
   p.weight = value_or(particles.weight, i, 1);
   p.color = value_or(particles.color, i, 0);
@@ -45,7 +50,10 @@ bool is_bad(const Particle& p) {
                           std::isfinite(p.position[2]) && std::isfinite(p.smoothing_length) &&
                           std::isfinite(p.weight) && std::isfinite(p.color) &&
                           std::isfinite(p.intensity) && std::isfinite(p.sort_field);
-  return !all_finite || p.smoothing_length <= 0 || p.weight < 0;
+  const bool has_color =
+      std::all_of(std::begin(p.color_vector), std::end(p.color_vector),
+                  [](float channel) { return std::isfinite(channel) && channel >= 0; });
+  return !all_finite || !has_color || p.smoothing_length <= 0 || p.weight < 0;
 }
 
 View view_of(const Particle& p, const Vec3& origin, const CameraFrame& camera) {
@@ -74,9 +82,14 @@ double pixels_per_length(double z, const Frame& frame) {
 }
 
 // Emission and absorption per unit of X; the weight stays in X.
-void color_splat(Splat& splat, double palette_position, const DrawnComponent& component) {
+void color_splat(Splat& splat, const Particle& p, const DrawnComponent& component) {
   const Palette& palette = component.palette;
-  const auto emitted = sample_knots(palette.emission, palette_position);
+  const bool has_color = !component.particles.color.is_absent();
+  const double palette_position =
+      has_color ? normalised(static_cast<double>(p.color), component.color) : 0.0;
+  auto emitted = sample_knots(palette.emission, palette_position);
+  for (std::size_t c = 0; c < 3; ++c)
+    emitted[c] *= static_cast<double>(p.color_vector[c]);
   const auto absorbed =
       palette.has_own_absorption() ? sample_knots(palette.absorption, palette_position) : emitted;
   const double factor = component.absorption.factor;
@@ -132,9 +145,7 @@ Splat splat_of(const Particle& p, const View& view, double h, const DrawnCompone
   if (!component.particles.intensity.is_absent()) {
     splat.weight *= normalised(static_cast<double>(p.intensity), component.intensity);
   }
-  const bool has_color = !component.particles.color.is_absent();
-  color_splat(splat, has_color ? normalised(static_cast<double>(p.color), component.color) : 0.0,
-              component);
+  color_splat(splat, p, component);
   return splat;
 }
 

@@ -117,12 +117,15 @@ double color_strength(const DrawnComponent& component, std::size_t i) {
   const double place =
       color.is_absent() ? 0.0 : normalised(static_cast<double>(color[i]), component.color);
   double strength = least;
-  for (const std::vector<Rgb>* knots :
-       {&component.palette.emission, &component.palette.absorption}) {
-    if (knots->empty()) continue;
-    for (const double channel : sample_knots(*knots, place))
-      strength = std::max(strength, channel);
+  const auto emitted = sample_knots(component.palette.emission, place);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Column& vector = component.particles.color_vector;
+    const double own = vector.is_absent() ? 1.0 : static_cast<double>(vector[3 * i + c]);
+    strength = std::max(strength, own * emitted[c]);
   }
+  if (!component.palette.has_own_absorption()) return strength;
+  for (const double channel : sample_knots(component.palette.absorption, place))
+    strength = std::max(strength, channel);
   return strength;
 }
 

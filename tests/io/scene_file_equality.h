@@ -25,6 +25,8 @@ inline void expect_same(const Component& a, const Component& b) {
   EXPECT_EQ(a.size_factor, b.size_factor);
   EXPECT_EQ(a.size_fixed, b.size_fixed);
   expect_same(a.color, b.color);
+  EXPECT_EQ(a.color_vector, b.color_vector);
+  EXPECT_EQ(a.absorption_palette, b.absorption_palette);
   expect_same(a.intensity, b.intensity);
   EXPECT_EQ(a.weight, b.weight);
   EXPECT_EQ(a.palette, b.palette);

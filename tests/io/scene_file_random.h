@@ -123,6 +123,10 @@ class RandomScenes {
       component.size_field = word();
     }
     component.color = field_map();
+    if (coin()) component.absorption_palette = word();
+    const bool may_have_vector =
+        component.color.field.empty() || !component.absorption_palette.empty();
+    if (may_have_vector && coin()) component.color_vector = word();
     component.intensity = field_map();
     if (coin()) component.weight = static_cast<WeightModel>(integer(0, 2));
     component.palette = word();

@@ -88,6 +88,23 @@ void check_factor(double value, const ComponentFields& fields, const char* key) 
   }
 }
 
+// What a particle's own colour is multiplied with, and what it absorbs.
+Palette choose_palette(const Component& component) {
+  Palette palette;
+  if (component.color_vector.empty()) {
+    palette = load_palette(component.palette);
+  } else {
+    palette.name = "white";
+    palette.emission = {Rgb{1, 1, 1}};
+  }
+  const std::string& other = component.absorption_palette;
+  const bool is_the_same = component.color_vector.empty() && other == component.palette;
+  if (other.empty() || is_the_same) return palette;
+  const Palette absorbing = load_palette(other);
+  palette.absorption = absorbing.has_own_absorption() ? absorbing.absorption : absorbing.emission;
+  return palette;
+}
+
 DrawnComponent load_component(const Component& component, const Scene& scene,
                               const Snapshot& snapshot, std::vector<std::string>& notes) {
   const ComponentFields fields(component, snapshot, notes);
@@ -99,7 +116,7 @@ DrawnComponent load_component(const Component& component, const Scene& scene,
   drawn.size_factor = component.size_factor;
   drawn.brightness = component.brightness;
   drawn.absorption = component.absorption;
-  drawn.palette = load_palette(component.palette);
+  drawn.palette = choose_palette(component);
 
   Particles& particles = drawn.particles;
   particles.count = fields.count();
@@ -110,6 +127,9 @@ DrawnComponent load_component(const Component& component, const Scene& scene,
   if (!component.color.field.empty()) {
     particles.color = fields.scalars(component.color.field, "color.field");
     drawn.color = decide_map(component.color, particles.color, fields, "color");
+  }
+  if (!component.color_vector.empty()) {
+    particles.color_vector = fields.vectors(component.color_vector, "color.vector");
   }
   if (!component.intensity.field.empty()) {
     particles.intensity = fields.scalars(component.intensity.field, "intensity.field");

@@ -102,6 +102,21 @@ Column ComponentFields::scalars(const std::string& field, const std::string& key
   return joined(columns, types_);
 }
 
+Column ComponentFields::vectors(const std::string& field, const std::string& key) const {
+  std::vector<Column> columns;
+  for (const auto* type : types_) {
+    const FieldInfo* const info = find_field(*type, field);
+    if (info == nullptr) refuse_field(*type, field, key);
+    if (info->values_per_particle != 3) {
+      throw UsageError(fmt::format(
+          "{}: {} is \"{}\", which has {} value{} per particle, expected a field with 3", label(),
+          key, field, info->values_per_particle, info->values_per_particle == 1 ? "" : "s"));
+    }
+    columns.push_back(snapshot_.read(type->type, field));
+  }
+  return joined(columns, types_, 3);
+}
+
 bool ComponentFields::masses_are_known() const {
   return std::all_of(types_.begin(), types_.end(),
                      [](const ParticleTypeInfo* type) { return has_masses(*type); });

@@ -22,6 +22,8 @@ class ComponentFields {
   // One value per particle; of a vector field its length. Throws UsageError when a type
   // does not have the field.
   Column scalars(const std::string& field, const std::string& key) const;
+  // Three values per particle, of a vector field.
+  Column vectors(const std::string& field, const std::string& key) const;
   bool masses_are_known() const;
   Column masses() const;
   // h as the scene says: a fixed size, a field of the file, or, for "smoothing_length"

@@ -84,6 +84,15 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
   check_positive(map.maximum, label + ".max");
 }
 
+// A key that would do nothing is a mistake.
+void check_colors(const Component& component, const std::string& label, const Origins& origins) {
+  if (component.color_vector.empty() || component.color.field.empty()) return;
+  if (!component.absorption_palette.empty()) return;
+  refuse(origins.at(label + ".color.field"), label + ".color.field",
+         "it beside " + label + ".color.vector, which replaces the palette",
+         "only one of the two, or an absorption_palette in which it is looked up");
+}
+
 void check_components(const Scene& scene, const Origins& origins) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.components.size(); ++i) {
@@ -96,6 +105,7 @@ void check_components(const Scene& scene, const Origins& origins) {
              "a different name for each component");
     }
     check_field_map(component.color, label + ".color", origins);
+    check_colors(component, label, origins);
     check_field_map(component.intensity, label + ".intensity", origins);
   }
 }

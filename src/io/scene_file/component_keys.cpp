@@ -125,6 +125,16 @@ Keys component_keys() {
   append(keys, field_map_keys("component.color", &Component::color,
                               {"The field that is looked up in the palette.", "",
                                "none: the palette's first colour for all, black in many"}));
+  keys.push_back(key<Component, std::string>(
+      "component.color.vector", text(),
+      [](const Component& component) {
+        return component.color_vector.empty() ? std::nullopt
+                                              : std::optional(component.color_vector);
+      },
+      [](Component& component, const std::string& value) { component.color_vector = value; },
+      {"A field of three values per particle, its own red, green and blue >= 0, in place of the "
+       "palette's emission. `palette` is not used then.",
+       "", "none"}));
   append(keys, field_map_keys("component.intensity", &Component::intensity,
                               {"The field that becomes I, a factor on emission and absorption.", "",
                                "none: I = 1"}));
@@ -143,6 +153,19 @@ Keys component_keys() {
              key("component.palette", text(), &Component::palette,
                  {"The name of a palette, or a palette file; see palettes.md. A relative "
                   "path starts at the scene file's folder."}),
+             key<Component, std::string>(
+                 "component.absorption_palette", text(),
+                 [](const Component& component) {
+                   return component.absorption_palette.empty()
+                              ? std::nullopt
+                              : std::optional(component.absorption_palette);
+                 },
+                 [](Component& component, const std::string& value) {
+                   component.absorption_palette = value;
+                 },
+                 {"The palette whose colours are palette_A: its own absorption, or its emission "
+                  "where it has none.",
+                  "", "what `palette` says"}),
              key("component.brightness", number(light()), &Component::brightness,
                  {"Factor on the palette's colours."}),
          });

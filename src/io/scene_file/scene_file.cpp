@@ -17,8 +17,8 @@ using scene_file::SceneBuilder;
 void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
   for (Component& component : scene.components) {
-    if (is_palette_path(component.palette)) {
-      component.palette = (folder / component.palette).string();
+    for (std::string* palette : {&component.palette, &component.absorption_palette}) {
+      if (is_palette_path(*palette)) *palette = (folder / *palette).string();
     }
   }
 }
