@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include "io/common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/renderer.h"
@@ -114,26 +116,61 @@ Image draw_with_reference(const Frame& frame, RenderStats& stats, Console& conso
       .to_float();
 }
 
-Image draw(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& stats,
-           Console& console) {
-  const Stopwatch stopwatch;
-  Image image;
+// A picture may take several frames: seconds add up, and what is counted is the largest, since
+// the frames share their particles.
+void add(const RenderStats& frame, RenderStats& total) {
+  total.device = frame.device;
+  total.particles = std::max(total.particles, frame.particles);
+  total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
+  total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
+  total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
+  total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
+  total.build_seconds += frame.build_seconds;
+  total.total_seconds += frame.total_seconds;
+  for (const StageTime& stage : frame.stages) {
+    const auto known = std::find_if(total.stages.begin(), total.stages.end(),
+                                    [&](const StageTime& s) { return s.stage == stage.stage; });
+    if (known == total.stages.end()) {
+      total.stages.push_back(stage);
+    } else {
+      known->seconds += stage.seconds;
+    }
+  }
+}
+
+Image draw_frame(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& total,
+                 Console& console) {
   if (renderer) {
     console.status(fmt::format("drawing {} particles", count_particles(frame)));
-    image = renderer->render(frame);
-    stats = renderer->stats();
-  } else {
-    image = draw_with_reference(frame, stats, console);
-    stats.total_seconds = stopwatch.seconds();
+    Image image = renderer->render(frame);
+    add(renderer->stats(), total);
+    return image;
   }
-  if (stats.bad_particles > 0) {
-    console.note(fmt::format(
-        "{} of {} particles are left out: their position, smoothing length, weight, colour, "
-        "intensity or sort field is not finite, the smoothing length not above 0, or the weight "
-        "below 0",
-        stats.bad_particles, stats.particles));
-  }
+  const Stopwatch stopwatch;
+  RenderStats stats;
+  Image image = draw_with_reference(frame, stats, console);
+  stats.total_seconds = stopwatch.seconds();
+  add(stats, total);
   return image;
+}
+
+void note_bad_particles(const RenderStats& stats, Console& console) {
+  if (stats.bad_particles == 0) return;
+  console.note(
+      fmt::format("{} of {} particles are left out: their position, smoothing length, weight, "
+                  "colour, intensity or sort field is not finite, the smoothing length not above "
+                  "0, or the weight below 0",
+                  stats.bad_particles, stats.particles));
+}
+
+// The pictures' files by suffix, and whether each could be written.
+void check_outputs(const std::filesystem::path& output, const Scene& scene, int view_width,
+                   int view_height) {
+  for (const PictureSize& size : picture_sizes(scene, view_width, view_height)) {
+    const std::filesystem::path path = picture_path(output, size.suffix);
+    check_image_path(path);
+    check_image_size(path, size.width, size.height);
+  }
 }
 
 // Why a first run takes so much longer than the next.
@@ -167,8 +204,8 @@ int run_render(const RenderOptions& options, Console& console) {
   const ImageSettings& picture = source.scene.image;
   if (output) {
     const bool cropped = wanted.width > 0;
-    check_image_size(*output, cropped ? wanted.width : picture.width,
-                     cropped ? wanted.height : picture.height);
+    check_outputs(*output, source.scene, cropped ? wanted.width : picture.width,
+                  cropped ? wanted.height : picture.height);
   }
   std::optional<Renderer> renderer;
   if (output && !options.reference) {
@@ -185,11 +222,17 @@ int run_render(const RenderOptions& options, Console& console) {
   if (!output) return 0;
 
   const Stopwatch drawing;
-  const Image image = draw(report.frame, renderer, report.stats, console);
+  const std::vector<Picture> pictures = draw_pictures(
+      source.scene, report.frame,
+      [&](const Frame& frame) { return draw_frame(frame, renderer, report.stats, console); });
+  note_bad_particles(report.stats, console);
   report.draw_seconds = drawing.seconds();
   const Stopwatch writing;
-  console.status("writing " + output->string());
-  write_image(*output, image, file_options(source.scene, options, report.stats));
+  for (const Picture& drawn : pictures) {
+    const std::filesystem::path path = picture_path(*output, drawn.suffix);
+    console.status("writing " + path.string());
+    write_image(path, drawn.image, file_options(source.scene, options, report.stats));
+  }
   report.write_seconds = writing.seconds();
   if (options.stats) {
     report.scene = options.scene.string();
@@ -198,10 +241,10 @@ int run_render(const RenderOptions& options, Console& console) {
     report.reference = options.reference;
     write_stats(*options.stats, report);
   }
-  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}",
-                           output->string(), image.width, image.height, report.stats.particles,
-                           report.read_seconds, report.draw_seconds, report.stats.device,
-                           compilation(report.stats)));
+  console.done(fmt::format(
+      "{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}", output->string(),
+      pictures.front().image.width, pictures.front().image.height, report.stats.particles,
+      report.read_seconds, report.draw_seconds, report.stats.device, compilation(report.stats)));
   return 0;
 }
 
