@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,6 +71,13 @@ class Snapshot {
   // the type has none.
   virtual std::vector<std::uint64_t> read_ids(int type) const;
 
+  // A column that follows from those of the file and takes time to find, made by `make`. A
+  // snapshot that remembers calls it once for each type and name.
+  virtual Column derived(int /*type*/, const std::string& /*name*/,
+                         const std::function<Column()>& make) const {
+    return make();
+  }
+
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 };
@@ -86,5 +94,10 @@ Scene suggest_scene(const Snapshot& snapshot);
 // leaves to the data. Missing smoothing lengths are found (density and mass, else
 // nearest neighbours). `notes` takes what the user should know, a line each.
 Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes);
+
+// The scene with what it leaves to the data (camera, ranges of fields, weights, reference
+// columns) as load_frame decided it for this frame of the scene. The frames of a film are
+// drawn with what its first frame decided, or they would flicker.
+Scene decide_scene(const Scene& scene, const Frame& frame);
 
 }  // namespace splotchcl

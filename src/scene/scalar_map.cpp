@@ -17,6 +17,18 @@ double scaled(double value, Scaling scaling) {
   return value;
 }
 
+double unscaled(double value, Scaling scaling) {
+  switch (scaling) {
+    case Scaling::linear:
+      return value;
+    case Scaling::log:
+      return std::pow(10, value);
+    case Scaling::asinh:
+      return std::sinh(value);
+  }
+  return value;
+}
+
 double normalised(double value, const ScalarMap& map) {
   const double v = scaled(value, map.scaling);
   if (!std::isfinite(v) || map.maximum == map.minimum) return 0;

@@ -7,6 +7,9 @@ namespace splotchcl {
 // v, log10(v) or asinh(v). Not finite where the scaling has no value.
 double scaled(double value, Scaling scaling);
 
+// The value that is scaled to this.
+double unscaled(double value, Scaling scaling);
+
 // The value's place in [0, 1], as ScalarMap says.
 double normalised(double value, const ScalarMap& map);
 

@@ -152,7 +152,10 @@ Column ComponentFields::scalars_of_type(const ParticleTypeInfo& type, const std:
   }
   const Column column = snapshot_.read(type.type, field);
   if (info->values_per_particle == 1) return column;
-  if (info->values_per_particle == 3) return lengths_of_vectors(column);
+  if (info->values_per_particle == 3) {
+    return snapshot_.derived(type.type, "length of " + info->name,
+                             [&] { return lengths_of_vectors(column); });
+  }
   throw UsageError(fmt::format(
       "{}: {} is \"{}\", which has {} values per particle, expected a field with 1 or 3", label(),
       key, field, info->values_per_particle));
@@ -183,7 +186,9 @@ Column ComponentFields::densities_of_type(const ParticleTypeInfo& type) const {
   const Column h = smoothing_lengths_of_type(type);
   note(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                    type.type));
-  return densities_from_smoothing_lengths(mass, h, static_cast<std::size_t>(type.count));
+  return snapshot_.derived(type.type, "density", [&] {
+    return densities_from_smoothing_lengths(mass, h, static_cast<std::size_t>(type.count));
+  });
 }
 
 Column ComponentFields::smoothing_lengths_of_type(const ParticleTypeInfo& type) const {
@@ -192,7 +197,8 @@ Column ComponentFields::smoothing_lengths_of_type(const ParticleTypeInfo& type) 
   }
   const auto found = found_lengths_.find(type.type);
   if (found != found_lengths_.end()) return found->second;
-  return found_lengths_[type.type] = find_lengths(type);
+  return found_lengths_[type.type] =
+             snapshot_.derived(type.type, "smoothing_length", [&] { return find_lengths(type); });
 }
 
 Column ComponentFields::find_lengths(const ParticleTypeInfo& type) const {
