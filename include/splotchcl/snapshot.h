@@ -82,9 +82,17 @@ class Snapshot {
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 };
 
+// What a file does not say of itself.
+struct SnapshotOptions {
+  // Names for the columns of a text table or a plain NumPy array, in their order, instead of
+  // those in its header; "-" for a column that is not needed. Empty: the file's own.
+  std::vector<std::string> columns;
+};
+
 // Recognises the format by content. `path` may be any member or the base name of a
 // multi-file set. Throws DataError.
-std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path);
+std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path,
+                                        const SnapshotOptions& options = {});
 
 // A camera, components, fields and palettes that suit the data, every value spelled
 // out so that it can be saved as a scene file.

@@ -59,8 +59,16 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
   return std::shared_ptr<const MappedFile>(new MappedFile(path, data, size));
 }
 
+std::shared_ptr<const MappedFile> MappedFile::of_bytes(const std::filesystem::path& path,
+                                                       std::vector<std::byte> bytes) {
+  std::shared_ptr<MappedFile> file(new MappedFile(path, nullptr, bytes.size()));
+  file->unpacked_ = std::move(bytes);
+  file->data_ = file->unpacked_.data();
+  return file;
+}
+
 MappedFile::~MappedFile() {
-  if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);
+  if (data_ != nullptr && unpacked_.empty()) ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
 }  // namespace splotchcl

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace splotchcl {
 
@@ -13,6 +14,10 @@ class MappedFile {
  public:
   // Throws DataError when the file is missing, not a regular file, or cannot be mapped.
   static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
+
+  // A file's content that had to be unpacked, under the file's name.
+  static std::shared_ptr<const MappedFile> of_bytes(const std::filesystem::path& path,
+                                                    std::vector<std::byte> bytes);
 
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
@@ -29,6 +34,7 @@ class MappedFile {
   std::filesystem::path path_;
   const std::byte* data_ = nullptr;
   std::uint64_t size_ = 0;
+  std::vector<std::byte> unpacked_;  // instead of a mapping
 };
 
 }  // namespace splotchcl

@@ -156,7 +156,8 @@ class GadgetBinaryFormat : public SnapshotFormat {
   bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
     return is_gadget_binary(*file);
   }
-  std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                 const SnapshotOptions&) const override {
     return std::make_unique<GadgetBinarySnapshot>(path);
   }
 };

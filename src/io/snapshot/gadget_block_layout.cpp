@@ -87,6 +87,9 @@ std::optional<BlockLayout> BlockLayouts::fit(std::uint64_t bytes, TypeSet types,
     const BlockLayout layout = {types, values, kind_of(is_integer, is_wide)};
     if (bytes == numbers * size_of(layout.kind)) return layout;
   }
+  if (is_integer && bytes == numbers * size_of(ValueKind::uint48)) {
+    return BlockLayout{types, values, ValueKind::uint48};
+  }
   return std::nullopt;
 }
 

@@ -10,7 +10,8 @@ class Hdf5Formats : public SnapshotFormat {
   bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
     return Hdf5File::has_signature(file->data(), file->size());
   }
-  std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                 const SnapshotOptions&) const override {
     return is_phantom_hdf5(Hdf5File(path)) ? open_phantom_hdf5(path) : open_gadget_hdf5(path);
   }
 };

@@ -20,12 +20,18 @@ class SnapshotFormat {
   virtual bool recognises(const std::shared_ptr<const MappedFile>& file) const = 0;
 
   // `path` is any file of a multi-file set. Throws DataError.
-  virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const = 0;
+  virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                         const SnapshotOptions& options) const = 0;
+
+  // Whether SnapshotOptions::columns means something for it.
+  virtual bool has_columns() const { return false; }
 };
 
 const SnapshotFormat& gadget_binary_format();  // formats 1 and 2
-const SnapshotFormat& hdf5_formats();          // Gadget and its relatives
+const SnapshotFormat& hdf5_formats();          // Gadget and its relatives, Phantom
+const SnapshotFormat& numpy_format();          // .npy and .npz
 const SnapshotFormat& tipsy_format();
+const SnapshotFormat& text_table_format();
 
 // In the order in which they are asked.
 std::vector<const SnapshotFormat*> snapshot_formats();

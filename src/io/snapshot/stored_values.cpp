@@ -7,21 +7,28 @@
 namespace splotchcl {
 namespace {
 
+struct SixBytes {};  // stands for uint48 where a type is asked for
+
 template <typename T>
-T load(const std::byte* bytes, bool is_swapped) {
-  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-  Bits bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  if (is_swapped) {
-    if constexpr (sizeof(T) == 4) {
-      bits = __builtin_bswap32(bits);
-    } else {
-      bits = __builtin_bswap64(bits);
-    }
-  }
+T load_as(const std::byte* bytes, bool is_swapped) {
+  std::byte copy[sizeof(T)];
+  std::memcpy(copy, bytes, sizeof copy);
+  if (is_swapped) std::reverse(copy, copy + sizeof copy);
   T value;
-  std::memcpy(&value, &bits, sizeof value);
+  std::memcpy(&value, copy, sizeof value);
   return value;
+}
+
+template <typename T>
+auto load(const std::byte* bytes, bool is_swapped) {
+  if constexpr (std::is_same_v<T, SixBytes>) {
+    std::byte wide[8] = {};
+    const bool is_big = is_swapped == is_little_endian_host();
+    std::memcpy(is_big ? wide + 2 : wide, bytes, 6);
+    return load_as<std::uint64_t>(wide, is_swapped);
+  } else {
+    return load_as<T>(bytes, is_swapped);
+  }
 }
 
 // Calls `use` with a null pointer of the type that `kind` stands for.
@@ -32,8 +39,22 @@ auto with_value_type(ValueKind kind, Use&& use) {
       return use(static_cast<const float*>(nullptr));
     case ValueKind::float64:
       return use(static_cast<const double*>(nullptr));
+    case ValueKind::int8:
+      return use(static_cast<const std::int8_t*>(nullptr));
+    case ValueKind::int16:
+      return use(static_cast<const std::int16_t*>(nullptr));
+    case ValueKind::int32:
+      return use(static_cast<const std::int32_t*>(nullptr));
+    case ValueKind::int64:
+      return use(static_cast<const std::int64_t*>(nullptr));
+    case ValueKind::uint8:
+      return use(static_cast<const std::uint8_t*>(nullptr));
+    case ValueKind::uint16:
+      return use(static_cast<const std::uint16_t*>(nullptr));
     case ValueKind::uint32:
       return use(static_cast<const std::uint32_t*>(nullptr));
+    case ValueKind::uint48:
+      return use(static_cast<const SixBytes*>(nullptr));
     case ValueKind::uint64:
       break;
   }
@@ -44,12 +65,17 @@ std::uint64_t stride_of(const StoredValues& part) {
   return part.stride != 0 ? part.stride : part.packed_bytes_per_particle();
 }
 
+std::uint64_t axis_stride_of(const StoredValues& part) {
+  return part.axis_stride != 0 ? part.axis_stride : size_of(part.kind);
+}
+
 constexpr Vec3 zero = {{0, 0, 0}};
 
 bool can_point_into_file(const StoredValues& part) {
   const std::byte* const first = part.file->data() + part.offset;
   return part.kind == ValueKind::float32 && !part.is_swapped &&
          stride_of(part) == part.packed_bytes_per_particle() &&
+         axis_stride_of(part) == sizeof(float) &&
          reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0;
 }
 
@@ -58,10 +84,11 @@ float* convert_as(const StoredValues& part, const Vec3& origin, float* out) {
   const bool has_origin = part.values_per_particle == 3 && origin != zero;
   const std::byte* particle = part.file->data() + part.offset;
   const std::uint64_t stride = stride_of(part);
+  const std::uint64_t axis_stride = axis_stride_of(part);
   for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride) {
     for (int axis = 0; axis < part.values_per_particle; ++axis) {
-      const T value =
-          load<T>(particle + static_cast<std::size_t>(axis) * sizeof(T), part.is_swapped);
+      const auto value =
+          load<T>(particle + static_cast<std::uint64_t>(axis) * axis_stride, part.is_swapped);
       *out++ = has_origin ? static_cast<float>(static_cast<double>(value) - origin.a[axis])
                           : static_cast<float>(value);
     }
@@ -81,7 +108,7 @@ bool is_little_endian_host() {
 double value_at(const StoredValues& values, std::uint64_t particle, int axis) {
   const std::byte* const bytes = values.file->data() + values.offset +
                                  particle * stride_of(values) +
-                                 static_cast<std::size_t>(axis) * size_of(values.kind);
+                                 static_cast<std::uint64_t>(axis) * axis_stride_of(values);
   return with_value_type(values.kind, [&](auto* type) {
     using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
     return static_cast<double>(load<T>(bytes, values.is_swapped));
@@ -90,7 +117,7 @@ double value_at(const StoredValues& values, std::uint64_t particle, int axis) {
 
 double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t offset,
                  ValueKind kind, bool is_swapped) {
-  return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped}, 0, 0);
+  return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped, 0}, 0, 0);
 }
 
 Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origin) {

@@ -11,9 +11,40 @@
 
 namespace splotchcl {
 
-enum class ValueKind { float32, float64, uint32, uint64 };
+// uint48: six bytes, as some codes store identifiers.
+enum class ValueKind {
+  float32,
+  float64,
+  int8,
+  int16,
+  int32,
+  int64,
+  uint8,
+  uint16,
+  uint32,
+  uint48,
+  uint64
+};
 constexpr std::size_t size_of(ValueKind kind) {
-  return kind == ValueKind::float32 || kind == ValueKind::uint32 ? 4 : 8;
+  switch (kind) {
+    case ValueKind::int8:
+    case ValueKind::uint8:
+      return 1;
+    case ValueKind::int16:
+    case ValueKind::uint16:
+      return 2;
+    case ValueKind::float32:
+    case ValueKind::int32:
+    case ValueKind::uint32:
+      return 4;
+    case ValueKind::uint48:
+      return 6;
+    case ValueKind::float64:
+    case ValueKind::int64:
+    case ValueKind::uint64:
+      break;
+  }
+  return 8;
 }
 
 // One quantity of `particles` particles as it lies in a mapped file.
@@ -25,6 +56,7 @@ struct StoredValues {
   std::uint64_t stride = 0;  // bytes from particle to particle; 0: without gaps
   ValueKind kind = ValueKind::float32;
   bool is_swapped = false;  // the other endianness than this machine's
+  std::uint64_t axis_stride = 0;  // bytes from value to value of a particle; 0: without gaps
 
   std::uint64_t packed_bytes_per_particle() const {
     return static_cast<std::uint64_t>(values_per_particle) * size_of(kind);

@@ -182,7 +182,8 @@ class TipsyFormat : public SnapshotFormat {
   bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
     return find_header(file).has_value();
   }
-  std::unique_ptr<Snapshot> open(const std::filesystem::path& path) const override {
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                 const SnapshotOptions&) const override {
     return std::make_unique<TipsySnapshot>(path);
   }
 };

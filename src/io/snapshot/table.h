@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// One column of a table. Its name may end in a unit: "x [kpc]", "mass (Msun)".
+struct TableColumn {
+  std::string name;
+  int values_per_row = 1;
+};
+
+// One value of each row.
+struct TableValue {
+  std::size_t column = 0;
+  int axis = 0;
+};
+
+// Rows of named columns, a row per particle: text and NumPy files.
+class Table {
+ public:
+  using UseRow = std::function<void(const double* values)>;
+
+  virtual ~Table() = default;
+  virtual const std::vector<TableColumn>& columns() const = 0;
+  virtual std::uint64_t rows() const = 0;
+  // Calls `use` with the wanted values of each row, in order. Throws DataError.
+  virtual void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const = 0;
+};
+
+// A table as a snapshot of particles of type 0. Columns such as x, y, z or vx, vy, vz become
+// vectors; others are found by the names of fields. `info` comes with format and files.
+// Throws DataError when there are no positions.
+std::unique_ptr<Snapshot> make_table_snapshot(std::unique_ptr<const Table> table,
+                                              SnapshotInfo info);
+
+}  // namespace splotchcl
