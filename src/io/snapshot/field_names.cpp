@@ -23,7 +23,7 @@ const std::vector<FieldNames>& known_fields() {
       {"id", {"ParticleIDs", "ParticleID", "ids", "iorder", "iord"}},
       {"mass", {"Masses", "mass table", "MassTable", "m"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
-      {"density", {"RHO", "Densities"}},
+      {"density", {"RHO", "Densities", "den"}},
       {"smoothing_length", {"HSML", "SmoothingLength", "SmoothingLengths", "h", "smoothlength"}},
       {"star_smoothing_length", {"HSMS"}},
       {"temperature", {"TEMP", "Temperatures", "T"}},

@@ -42,6 +42,7 @@ std::optional<StoredValues> Member::find_values(const std::string& label, int ty
 Member read_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
   Member member;
   member.file = read_gadget_records(MappedFile::open(path));
+  count_by_blocks(member.file, notes);
   member.blocks = understand_records(member.file, notes);
   check_header(member.header(), path);
   return member;

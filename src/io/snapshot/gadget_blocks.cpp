@@ -226,6 +226,34 @@ std::vector<GadgetBlock> understand_unlabelled(const GadgetBinaryFile& file,
 
 }  // namespace
 
+void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
+  GadgetHeader& header = file.header;
+  if (header.particles() > 0 || header.files > 1 || file.records.empty()) return;
+  const auto bytes_of = [&](std::string_view label, std::size_t place) -> std::uint64_t {
+    for (std::size_t i = 0; i < file.records.size(); ++i) {
+      const bool is_it = file.format == 1 ? i == place : file.records[i].label == label;
+      if (is_it) return file.records[i].bytes;
+    }
+    return 0;
+  };
+  const std::uint64_t positions = bytes_of("POS", 0), ids = bytes_of("ID", 2);
+  // In single precision unless the identifiers fit only doubles.
+  for (const std::uint64_t bytes : {12, 24}) {
+    const std::uint64_t particles = positions / bytes;
+    const bool fits_ids = ids == 0 || ids == 4 * particles || ids == 6 * particles ||
+                          ids == 8 * particles;
+    if (particles == 0 || positions % bytes != 0 || !fits_ids) continue;
+    // All are gas where the blocks of gas have a value for each.
+    const bool is_gas = file.format == 2 && bytes_of("U", 0) == particles * bytes / 3;
+    header.counts[is_gas ? 0 : 1] = particles;
+    std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
+    notes.push_back(fmt::format(
+        "the header counts no particles; by their positions there are {}, taken for type {}",
+        particles, is_gas ? 0 : 1));
+    return;
+  }
+}
+
 std::vector<GadgetBlock> understand_records(const GadgetBinaryFile& file, Notes& notes) {
   if (file.header.particles() == 0) return {};
   const BlockLayouts layouts(file.header, position_bytes(file), read_descriptions(file));

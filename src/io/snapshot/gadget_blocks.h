@@ -15,6 +15,10 @@ struct GadgetBlock {
   BlockLayout layout;
 };
 
+// Where the header counts no particles at all, takes their number from the block of positions,
+// with a note.
+void count_by_blocks(GadgetBinaryFile& file, std::vector<std::string>& notes);
+
 // What the records of a file hold. Records that fit no particle types are left out and
 // named in `notes`. Throws DataError when there are no positions, or when the length of a
 // standard block contradicts the header.

@@ -35,7 +35,9 @@ Member read_member(const std::filesystem::path& path, std::vector<std::string>& 
   const Hdf5File file(path);
   Member member;
   member.path = path;
-  member.own_header = read_hdf5_header(file);
+  member.own_header = read_hdf5_header(file, notes);
+  count_rows_without_header(file, member.own_header, notes);
+  leave_out_tracers(file, member.own_header, notes);
   check_header(member.header(), path);
   check_hdf5_groups(file, member.header());
   for (std::size_t type = 0; type < member.header().counts.size(); ++type) {
@@ -81,7 +83,7 @@ GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
 void GadgetHdf5Snapshot::read_dialect() {
   const Hdf5File file(members_.front().path);
   const bool is_swift = is_swift_file(file);
-  info_.format = is_swift ? "SWIFT HDF5" : "Gadget HDF5";
+  info_.format = hdf5_dialect(file);
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
   const auto gamma = file.number("HydroScheme", "Kernel gamma");

@@ -36,7 +36,44 @@ void check_rows(const Hdf5File& file, const Hdf5Dataset& dataset, std::uint64_t 
                   file.path().string(), dataset.path, dataset.rows(), count, type));
 }
 
+constexpr std::size_t more_types_than_any_code = 32;
+
 }  // namespace
+
+void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
+                               std::vector<std::string>& notes) {
+  if (header.particles() > 0 || header.files > 1) return;
+  for (std::size_t type = 0; type < more_types_than_any_code; ++type) {
+    if (!file.has(group_name(type))) continue;
+    for (const Hdf5Dataset& dataset : file.datasets(group_name(type))) {
+      const bool is_position = canonical_field_name(dataset.label()) == "position" &&
+                               !dataset.shape.empty() && dataset.values_per_row() == 3;
+      if (!is_position) continue;
+      const std::size_t types = std::max(header.counts.size(), type + 1);
+      header.counts.resize(types, 0);
+      header.total_counts.resize(types, 0);
+      header.table_masses.resize(types, 0);
+      header.counts[type] = dataset.rows();
+    }
+  }
+  if (header.particles() == 0) return;
+  std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
+  notes.push_back(
+      "the header counts no particles; their numbers are those of the rows of the positions");
+}
+
+void leave_out_tracers(const Hdf5File& file, GadgetHeader& header,
+                       std::vector<std::string>& notes) {
+  for (std::size_t type = 0; type < header.counts.size(); ++type) {
+    const std::string group = group_name(type);
+    const bool are_tracers = header.counts[type] > 0 && file.has(group + "/TracerID") &&
+                             !file.has(group + "/Coordinates");
+    if (!are_tracers) continue;
+    notes.push_back(fmt::format("the tracers of {} are left out: they have no positions", group));
+    header.counts[type] = 0;
+    header.total_counts[type] = 0;
+  }
+}
 
 std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
                                         std::vector<std::string>& notes) {
@@ -70,10 +107,10 @@ std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader
 }
 
 void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header) {
-  constexpr std::size_t more_types_than_any_code = 32;
   for (std::size_t type = 0; type < more_types_than_any_code; ++type) {
     const bool is_counted = type < header.counts.size() && header.counts[type] > 0;
-    if (is_counted || !file.has(group_name(type))) continue;
+    const bool are_tracers = file.has(group_name(type) + "/TracerID");
+    if (is_counted || are_tracers || !file.has(group_name(type))) continue;
     for (const Hdf5Dataset& dataset : file.datasets(group_name(type))) {
       check_rows(file, dataset, 0, type);
     }

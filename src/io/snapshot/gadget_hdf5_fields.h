@@ -21,6 +21,14 @@ struct Hdf5Field {
 std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
                                         std::vector<std::string>& notes);
 
+// Where the header counts no particles at all, takes the numbers of rows of the positions, with
+// a note.
+void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
+                               std::vector<std::string>& notes);
+
+// AREPO's tracers are marks on cells, without positions of their own: they do not count.
+void leave_out_tracers(const Hdf5File& file, GadgetHeader& header, std::vector<std::string>& notes);
+
 // Throws DataError when a group PartTypeN has particles of which the header knows nothing.
 void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header);
 

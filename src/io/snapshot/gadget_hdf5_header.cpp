@@ -26,28 +26,27 @@ double find_number(const Hdf5File& file, const std::vector<Place>& places, doubl
   return otherwise;
 }
 
-std::vector<std::uint64_t> to_counts(const Hdf5File& file, const char* attribute,
-                                     const std::vector<double>& numbers) {
+// Whole numbers of at least 0; none, and a note, where one is something else. The datasets
+// themselves tell how many particles there are.
+std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribute,
+                                       std::vector<std::string>& notes) {
   constexpr double largest = 9007199254740992.0;  // beyond 2^53 a double is not exact
   std::vector<std::uint64_t> counts;
-  for (const double number : numbers) {
+  for (const double number : file.numbers("Header", attribute).value_or(std::vector<double>())) {
     if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
-      throw DataError(
-          fmt::format("{}: Header/{} holds {} as a number of particles; expected a whole number of "
-                      "at least 0: the header is damaged",
-                      file.path().string(), attribute, number));
+      notes.push_back(fmt::format("Header/{} holds {} as a number of particles; ignored", attribute,
+                                  number));
+      return {};
     }
     counts.push_back(static_cast<std::uint64_t>(number));
   }
   return counts;
 }
 
-std::vector<std::uint64_t> read_total_counts(const Hdf5File& file, std::size_t types) {
-  auto totals = to_counts(file, "NumPart_Total",
-                          file.numbers("Header", "NumPart_Total").value_or(std::vector<double>()));
-  const auto high =
-      to_counts(file, "NumPart_Total_HighWord",
-                file.numbers("Header", "NumPart_Total_HighWord").value_or(std::vector<double>()));
+std::vector<std::uint64_t> read_total_counts(const Hdf5File& file, std::size_t types,
+                                             std::vector<std::string>& notes) {
+  auto totals = read_counts(file, "NumPart_Total", notes);
+  const auto high = read_counts(file, "NumPart_Total_HighWord", notes);
   totals.resize(types, 0);
   for (std::size_t type = 0; type < std::min(types, high.size()); ++type) {
     totals[type] += high[type] << 32;
@@ -73,18 +72,22 @@ bool is_without_cosmology(const Hdf5File& file) {
 
 }  // namespace
 
-GadgetHeader read_hdf5_header(const Hdf5File& file) {
-  const auto counts = file.numbers("Header", "NumPart_ThisFile");
-  if (!counts) {
+GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes) {
+  constexpr std::size_t most_types = 32;  // more than any code has
+  const auto counts = read_counts(file, "NumPart_ThisFile", notes);
+  const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
+  if (!has_header || counts.size() > most_types) {
     throw DataError(
         fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
                     "groups are: {}); expected a snapshot of Gadget or SWIFT",
                     file.path().string(), fmt::join(file.groups("/"), ", ")));
   }
   GadgetHeader header;
-  header.counts = to_counts(file, "NumPart_ThisFile", *counts);
+  header.counts = counts;
+  constexpr std::size_t usual_types = 6;
+  if (header.counts.empty()) header.counts.resize(usual_types, 0);
   const std::size_t types = header.counts.size();
-  header.total_counts = read_total_counts(file, types);
+  header.total_counts = read_total_counts(file, types, notes);
   header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
   header.table_masses.resize(types, 0);
   header.time = file.number("Header", "Time").value_or(0);
@@ -101,6 +104,15 @@ GadgetHeader read_hdf5_header(const Hdf5File& file) {
       file,
       {{"Header", "OmegaLambda"}, {"Parameters", "OmegaLambda"}, {"Cosmology", "Omega_lambda"}}, 0);
   return header;
+}
+
+std::string hdf5_dialect(const Hdf5File& file) {
+  if (is_swift_file(file)) return "SWIFT HDF5";
+  if (file.number("Header", "GIZMO_version")) return "GIZMO HDF5";
+  // A moving mesh has cells with centres and volumes, and no kernel.
+  const bool is_mesh = (file.has("/PartType0/CenterOfMass") || file.has("/PartType0/Volume")) &&
+                       !file.has("/PartType0/SmoothingLength");
+  return is_mesh ? "AREPO HDF5" : "Gadget HDF5";
 }
 
 bool is_swift_file(const Hdf5File& file) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/snapshot/gadget_header.h"
 #include "io/snapshot/hdf5_file.h"
@@ -11,9 +12,11 @@ namespace splotchcl {
 
 // Reads the group Header of Gadget 2 to 4, SWIFT and their relatives: attributes may be
 // scalars or arrays of any length, and cosmology may be in other groups. Throws DataError.
-GadgetHeader read_hdf5_header(const Hdf5File& file);
+GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes);
 
 bool is_swift_file(const Hdf5File& file);
+// "SWIFT HDF5", "GIZMO HDF5", "AREPO HDF5", or "Gadget HDF5" for Gadget and all others.
+std::string hdf5_dialect(const Hdf5File& file);
 
 // The cosmology and what the velocities are, where the run follows the expansion: from the
 // header and the attributes of the datasets of positions and velocities (paths). Units that

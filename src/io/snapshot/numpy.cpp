@@ -66,6 +66,7 @@ class NumpyTable : public Table {
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
 
  private:
   void open_archive(std::vector<std::string>& notes);
@@ -274,6 +275,12 @@ void NumpyTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& u
       values[i] = value_at(stored[i], row, wanted[i].axis);
     use(values.data());
   }
+}
+
+std::optional<std::vector<std::uint64_t>> NumpyTable::integers(std::size_t column) const {
+  StoredValues stored = places_[column].values;
+  stored.file = content(places_[column].array);
+  return make_integers({stored});
 }
 
 bool is_zip(const MappedFile& file) {

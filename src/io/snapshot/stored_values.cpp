@@ -145,14 +145,15 @@ Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origi
 std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts) {
   std::vector<std::uint64_t> values;
   for (const StoredValues& part : parts) {
-    const bool is_integer = part.kind == ValueKind::uint32 || part.kind == ValueKind::uint64;
+    const bool is_integer = part.kind != ValueKind::float32 && part.kind != ValueKind::float64;
     if (!is_integer || part.values_per_particle != 1) return std::nullopt;
     const std::byte* particle = part.file->data() + part.offset;
-    for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride_of(part)) {
-      values.push_back(part.kind == ValueKind::uint32
-                           ? load<std::uint32_t>(particle, part.is_swapped)
-                           : load<std::uint64_t>(particle, part.is_swapped));
-    }
+    with_value_type(part.kind, [&](auto* type) {
+      using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
+      for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride_of(part)) {
+        values.push_back(static_cast<std::uint64_t>(load<T>(particle, part.is_swapped)));
+      }
+    });
   }
   return values;
 }

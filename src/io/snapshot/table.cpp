@@ -65,6 +65,7 @@ class TableSnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
   Vec3 position_origin() const override;
 
  private:
@@ -88,6 +89,7 @@ TableSnapshot::TableSnapshot(std::unique_ptr<const Table> table, SnapshotInfo in
     names_.push_back(split_unit(column.name));
   find_fields();
   check_positions();
+  info_.velocity_doubt = "a table does not tell its units, nor whether its time is the scale factor";
 }
 
 std::optional<std::size_t> TableSnapshot::find_column(const std::string& name) const {
@@ -201,6 +203,15 @@ Column TableSnapshot::read(int type, const std::string& name) const {
     }
   });
   return Column::owning(std::move(values));
+}
+
+std::vector<std::uint64_t> TableSnapshot::read_ids(int type) const {
+  const FieldInfo& info = require_ids(info_, type);
+  const TableField& field = field_of(info);
+  if (field.values.size() != 1) refuse_ids(info_, type, info);
+  auto ids = table_->integers(field.values.front().column);
+  if (!ids) refuse_ids(info_, type, info);
+  return std::move(*ids);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class Table {
   virtual std::uint64_t rows() const = 0;
   // Calls `use` with the wanted values of each row, in order. Throws DataError.
   virtual void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const = 0;
+  // A column of one value per row as whole numbers, exact; none where it has others.
+  virtual std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const = 0;
 };
 
 // A table as a snapshot of particles of type 0. Columns such as x, y, z or vx, vy, vz become

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -140,8 +141,8 @@ struct Layout {
 };
 
 // The words of a line as names of columns; none where they are not as many as wanted.
-std::vector<std::string> names_in(std::string_view line, char separator, std::size_t wanted) {
-  for (const char candidate : {separator, ',', ' '}) {
+std::vector<std::string> names_in(std::string_view line, std::size_t wanted) {
+  for (const char candidate : {',', ';', ' '}) {
     const std::vector<std::string_view> words = split(line, candidate);
     const bool is_complete =
         words.size() == wanted && std::none_of(words.begin(), words.end(),
@@ -180,7 +181,7 @@ std::optional<Layout> find_layout(const MappedFile& file) {
     if (is_row(layout.cells)) {
       layout.first_row = lines.start();
       layout.lines_before = lines.number() - 1;
-      if (!header.empty()) layout.names = names_in(header, layout.separator, layout.cells.size());
+      if (!header.empty()) layout.names = names_in(header, layout.cells.size());
       if (has_plain_header && layout.names.empty()) return std::nullopt;
       return layout;
     }
@@ -199,6 +200,7 @@ class TextTable : public Table {
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
 
  private:
   struct WantedCell {
@@ -294,6 +296,22 @@ void TextTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& us
     read_row(lines, cells, values.data());
     use(values.data());
   }
+}
+
+std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column) const {
+  std::vector<std::uint64_t> values;
+  Lines lines(*file_, layout_.first_row, layout_.lines_before);
+  while (lines.next()) {
+    if (is_comment(lines.line())) continue;
+    const std::vector<std::string_view> cells = split(lines.line(), layout_.separator);
+    if (cells.size() <= cells_[column]) return std::nullopt;
+    const std::string_view cell = cells[cells_[column]];
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
 }
 
 const char* separator_name(char separator) {

@@ -2,12 +2,15 @@
 // in either endianness.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 
 #include "io/snapshot/field_names.h"
 #include "io/snapshot/snapshot_format.h"
 #include "io/snapshot/stored_values.h"
+#include "io/snapshot/tipsy_arrays.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -15,6 +18,10 @@ namespace {
 
 constexpr std::uint64_t unpadded_header_bytes = 28;
 constexpr std::uint64_t header_bytes = 32;
+
+// The auxiliary array of Gasoline and ChaNGa: half of the radius that the kernel reaches.
+constexpr const char* smoothing_label = "smoothlength";
+constexpr double smoothing_length_factor = 2;
 
 struct TipsyField {
   const char* label;
@@ -103,14 +110,18 @@ class TipsySnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
 
  private:
+  const TipsyArray* find_array(const std::string& name) const;
+  std::uint64_t first_of(std::size_t group) const;  // among the particles of all types
   void find_start();
   void describe_types();
 
   std::shared_ptr<const MappedFile> file_;
   TipsyHeader header_;
   std::uint64_t start_ = header_bytes;  // of the first particle
+  std::vector<TipsyArray> arrays_;      // beside the file
   SnapshotInfo info_;
 };
 
@@ -126,7 +137,21 @@ TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFi
   info_.time = header_.time;
   info_.velocity_doubt = "Tipsy does not tell its units, nor whether its time is the scale factor";
   find_start();
+  arrays_ = find_tipsy_arrays(path, header_.particles, header_.is_swapped, info_.notes);
   describe_types();
+}
+
+const TipsyArray* TipsySnapshot::find_array(const std::string& name) const {
+  for (const TipsyArray& array : arrays_) {
+    if (array.name == name) return &array;
+  }
+  return nullptr;
+}
+
+std::uint64_t TipsySnapshot::first_of(std::size_t group) const {
+  return std::accumulate(header_.counts.begin(),
+                         header_.counts.begin() + static_cast<std::ptrdiff_t>(group),
+                         std::uint64_t{0});
 }
 
 void TipsySnapshot::find_start() {
@@ -152,6 +177,11 @@ void TipsySnapshot::describe_types() {
     for (const TipsyField& field : tipsy_types()[i].fields) {
       type.fields.push_back({"", field.label, field.values_per_particle, ""});
     }
+    for (const TipsyArray& array : arrays_) {
+      const bool is_new = std::none_of(type.fields.begin(), type.fields.end(),
+                                       [&](const FieldInfo& f) { return f.file_name == array.name; });
+      if (is_new) type.fields.push_back({"", array.name, 1, ""});
+    }
     name_fields(type);
     info_.types.push_back(std::move(type));
   }
@@ -170,11 +200,30 @@ Column TipsySnapshot::read(int type, const std::string& name) const {
     offset += header_.counts[i] * tipsy_types()[i].bytes_per_particle();
   }
   const TipsyType& layout = tipsy_types()[i];
+  const bool is_own = std::any_of(layout.fields.begin(), layout.fields.end(),
+                                  [&](const TipsyField& f) { return f.label == field.file_name; });
+  if (!is_own) {
+    return read_tipsy_array(*find_array(field.file_name), first_of(i), header_.counts[i],
+                            field.file_name == smoothing_label ? smoothing_length_factor : 1);
+  }
   for (auto before = layout.fields.begin(); before->label != field.file_name; ++before) {
     offset += before->bytes();
   }
   return make_column({{file_, offset, header_.counts[i], field.values_per_particle,
                        layout.bytes_per_particle(), ValueKind::float32, header_.is_swapped}});
+}
+
+std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {
+  const FieldInfo& field = require_ids(info_, type);
+  std::size_t group = 0;
+  while (tipsy_types()[group].type != type)
+    ++group;
+  const TipsyArray* const array = find_array(field.file_name);
+  auto ids = array == nullptr
+                 ? std::nullopt
+                 : read_tipsy_integers(*array, first_of(group), header_.counts[group]);
+  if (!ids) refuse_ids(info_, type, field);
+  return std::move(*ids);
 }
 
 class TipsyFormat : public SnapshotFormat {

@@ -81,6 +81,11 @@ std::vector<std::byte> ZipArchive::read(const Entry& entry, std::uint64_t bytes)
     }
     content.resize(have + static_cast<std::size_t>(got));
   }
+  // At the end, and only there, libzip compares the checksum.
+  std::byte beyond{};
+  if (wanted == entry.bytes && zip_fread(file.get(), &beyond, 1) < 0) {
+    fail(path_, entry.name, zip_file_strerror(file.get()));
+  }
   return content;
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <vector>
+
+#include "io/snapshot/hdf5_file.h"
+
+namespace splotchcl::testing {
+
+using Hdf5Output = Hdf5Handle<H5Fclose>;
+
+inline Hdf5Output create_hdf5(const std::filesystem::path& path) {
+  return Hdf5Output(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+// Rows of `width` values, with the groups on their way. `type` is that in the file.
+inline void write_values(const Hdf5Output& file, const std::string& path,
+                         const std::vector<double>& values, hsize_t width = 1,
+                         hid_t type = H5T_IEEE_F64LE) {
+  const hsize_t shape[2] = {values.size() / width, width};
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(width > 1 ? 2 : 1, shape, nullptr));
+  const Hdf5Handle<H5Pclose> links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), path.c_str(), type, space.id(),
+                                                links.id(), H5P_DEFAULT, H5P_DEFAULT));
+  H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+}
+
+inline void make_group(const Hdf5Output& file, const std::string& name) {
+  const Hdf5Handle<H5Gclose> group(
+      H5Gcreate2(file.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+inline void write_attribute(const Hdf5Output& file, const std::string& group,
+                            const std::string& name, const std::vector<double>& values,
+                            hid_t type = H5T_IEEE_F64LE) {
+  const hsize_t length = values.size();
+  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), group.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &length, nullptr));
+  const Hdf5Handle<H5Aclose> attribute(
+      H5Acreate2(owner.id(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT));
+  H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
+}
+
+}  // namespace splotchcl::testing
