@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "splotchcl/camera.h"
+#include "splotchcl/movie.h"
 #include "splotchcl/palette.h"
 #include "splotchcl/particles.h"
+#include "splotchcl/path.h"
 
 namespace splotchcl {
 
@@ -100,6 +102,8 @@ struct Scene {
   std::optional<Camera> camera;  // unset: chosen from the data
   KernelSettings kernel;
   SortOrder sort;
+  PathSettings path;  // of films
+  MovieSettings movie;
   double tolerance = 1e-3;
   std::vector<Component> components;
 };

@@ -46,6 +46,39 @@ inline void expect_same(const Camera& a, const Camera& b) {
   EXPECT_EQ(a.far_limit, b.far_limit);
 }
 
+inline void expect_same(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (a) {
+    EXPECT_TRUE(same(*a, *b));
+  }
+}
+
+inline void expect_same(const PathSettings& a, const PathSettings& b) {
+  EXPECT_EQ(a.file, b.file);
+  ASSERT_EQ(a.orbit.has_value(), b.orbit.has_value());
+  if (a.orbit) {
+    EXPECT_EQ(a.orbit->degrees, b.orbit->degrees);
+    expect_same(a.orbit->center, b.orbit->center);
+    expect_same(a.orbit->axis, b.orbit->axis);
+    EXPECT_EQ(a.orbit->radius, b.orbit->radius);
+  }
+  ASSERT_EQ(a.fly.has_value(), b.fly.has_value());
+  if (a.fly) {
+    ASSERT_EQ(a.fly->through.size(), b.fly->through.size());
+    for (std::size_t i = 0; i < a.fly->through.size(); ++i)
+      EXPECT_TRUE(same(a.fly->through[i], b.fly->through[i]));
+    expect_same(a.fly->look_at, b.fly->look_at);
+    EXPECT_EQ(a.fly->is_eased, b.fly->is_eased);
+  }
+  ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
+  for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
+    EXPECT_EQ(a.keyframes[i].frame, b.keyframes[i].frame);
+    EXPECT_EQ(a.keyframes[i].values, b.keyframes[i].values);
+  }
+  EXPECT_EQ(a.is_smooth, b.is_smooth);
+  EXPECT_EQ(a.look, b.look);
+}
+
 inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.snapshot, b.snapshot);
   EXPECT_EQ(a.tolerance, b.tolerance);
@@ -62,6 +95,11 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.sort.by, b.sort.by);
   EXPECT_EQ(a.sort.field, b.sort.field);
   EXPECT_EQ(a.sort.descending, b.sort.descending);
+  expect_same(a.path, b.path);
+  EXPECT_EQ(a.movie.frames, b.movie.frames);
+  EXPECT_EQ(a.movie.frames_per_second, b.movie.frames_per_second);
+  EXPECT_EQ(a.movie.codec, b.movie.codec);
+  EXPECT_EQ(a.movie.rate_factor, b.movie.rate_factor);
   ASSERT_EQ(a.components.size(), b.components.size());
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     expect_same(a.components[i], b.components[i]);

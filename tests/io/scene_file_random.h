@@ -29,6 +29,11 @@ class RandomScenes {
       scene.sort.field = word();
     }
     scene.sort.descending = coin();
+    scene.path = path();
+    scene.movie.frames_per_second = positive(0.011, 999);
+    scene.movie.rate_factor = integer(0, 51);
+    if (coin()) scene.movie.frames = integer(1, 1000000);
+    if (coin()) scene.movie.codec = static_cast<Codec>(integer(0, 2));
     const int components = integer(0, 4);
     for (int i = 0; i < components; ++i)
       scene.components.push_back(component(i));
@@ -85,6 +90,37 @@ class RandomScenes {
     } catch (const std::exception&) {
       return false;
     }
+  }
+
+  Vec3 point() { return {{length(), length(), length()}}; }
+
+  PathSettings path() {
+    PathSettings path;
+    const int motion = integer(0, 3);
+    if (motion == 1) path.file = word();
+    if (motion == 2) {
+      path.orbit.emplace().degrees = any();
+      if (coin()) path.orbit->center = point();
+      if (coin()) path.orbit->axis = point();
+      path.orbit->radius = maybe(positive());
+    }
+    if (motion == 3) {
+      path.fly.emplace().through = {point(), point()};
+      if (coin()) path.fly->through.push_back(point());
+      if (coin()) path.fly->look_at = point();
+      path.fly->is_eased = coin();
+    }
+    double frame = 0;
+    for (int i = integer(0, 3); i > 0; --i) {
+      frame += positive(1e-3, 1e3);
+      path.keyframes.push_back({frame,
+                                {{"camera.position", "[1, 2.5, -3e+40]"},
+                                 {"component." + word() + ".palette", "\"magma\""},
+                                 {"image.gamma", "1.5"}}});
+    }
+    path.is_smooth = coin();
+    path.look = coin() ? PathSettings::Look::point : PathSettings::Look::direction;
+    return path;
   }
 
   FieldMap field_map() {

@@ -93,6 +93,13 @@ void check_colors(const Component& component, const std::string& label, const Or
          "only one of the two, or an absorption_palette in which it is looked up");
 }
 
+void check_path(const PathSettings& path, const Origins& origins) {
+  if (path.fly && path.fly->through.size() < 2) {
+    refuse(origins.at("path.fly.look_at"), "path.fly.through", "nothing",
+           "two or more points that the camera flies through");
+  }
+}
+
 void check_components(const Scene& scene, const Origins& origins) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.components.size(); ++i) {
@@ -127,6 +134,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   check_image(scene.image, origins);
   if (scene.camera) check_camera(scene, origins);
   check_sort(scene.sort, origins);
+  check_path(scene.path, origins);
   check_components(scene, origins);
 }
 

@@ -16,6 +16,8 @@ namespace splotchcl::scene_file {
 using Keys = std::vector<Key>;
 
 Keys component_keys();
+Keys path_keys();
+Keys movie_keys();
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -63,6 +65,10 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.kernel;
   } else if constexpr (std::is_same_v<Part, SortOrder>) {
     return scene.sort;
+  } else if constexpr (std::is_same_v<Part, PathSettings>) {
+    return scene.path;
+  } else if constexpr (std::is_same_v<Part, MovieSettings>) {
+    return scene.movie;
   } else {
     static_assert(std::is_same_v<Part, Component>);
     return scene.components[component];

@@ -134,7 +134,7 @@ const std::vector<Key>& all_keys() {
   static const Keys keys = [] {
     Keys all;
     for (const Keys& part : {top_level_keys(), image_keys(), camera_keys(), kernel_keys(),
-                             sort_keys(), component_keys()}) {
+                             sort_keys(), path_keys(), movie_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

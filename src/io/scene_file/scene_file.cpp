@@ -16,6 +16,7 @@ using scene_file::SceneBuilder;
 // What the file names stands relative to the file; what a setting names does not.
 void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
+  if (!scene.path.file.empty()) scene.path.file = (folder / scene.path.file).string();
   for (Component& component : scene.components) {
     for (std::string* palette : {&component.palette, &component.absorption_palette}) {
       if (is_palette_path(*palette)) *palette = (folder / *palette).string();
