@@ -10,6 +10,7 @@
 #include "splotchcl/palette.h"
 #include "splotchcl/particles.h"
 #include "splotchcl/path.h"
+#include "splotchcl/selection.h"
 
 namespace splotchcl {
 
@@ -60,17 +61,27 @@ struct SortOrder {
   bool descending = false;  // false: the smallest key lies in front
 };
 
-// A scalar field as a scene names it. Missing limits come from the data (percentiles).
+// A scalar field as a scene names it. Missing limits come from the data.
 struct FieldMap {
   std::string field;  // empty: none
   Scaling scaling = Scaling::linear;
   std::optional<double> minimum, maximum;  // before scaling
+  // Of the data, in per cent, 0 <= low < high <= 100, for limits that are missing; 0 and 100
+  // are the smallest and largest value. Unset: 0.5 and 99.5.
+  std::optional<std::array<double, 2>> percentiles = std::nullopt;
 };
 
 // One kind of matter: which particles, how large, how coloured, how bright.
 struct Component {
   std::string name;
+  std::string snapshot;          // of its own; empty: the scene's
   std::vector<int> types = {0};  // Gadget particle types, drawn as one component
+  ParticleSet select;            // not given: all
+  ParticleSet exclude;           // not given: none
+  // In its snapshot's coordinates: from where the field `radius` is measured, and what is
+  // placed at the placement's origin.
+  Vec3 center = {{0, 0, 0}};
+  Placement placement;
   std::string size_field = "smoothing_length";
   double size_factor = 1;
   std::optional<double> size_fixed;  // instead of a field, in length units

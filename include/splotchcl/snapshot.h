@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +55,10 @@ struct SnapshotInfo {
   const ParticleTypeInfo* find_type(int type) const;
 };
 
-// A snapshot that has been opened: its header is known, no particle has been read.
+class LoadMemory;
+
+// A snapshot that has been opened: its header is known, no particle has been read. What it
+// holds does not change as long as it lives.
 class Snapshot {
  public:
   virtual ~Snapshot() = default;
@@ -71,15 +73,18 @@ class Snapshot {
   // the type has none.
   virtual std::vector<std::uint64_t> read_ids(int type) const;
 
-  // A column that follows from those of the file and takes time to find, made by `make`. A
-  // snapshot that remembers calls it once for each type and name.
-  virtual Column derived(int /*type*/, const std::string& /*name*/,
-                         const std::function<Column()>& make) const {
-    return make();
-  }
-
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
+
+  // What load_frame has made of the snapshot and wants again for the next frame of a film:
+  // selections, derived fields, snapshots of single components. No part of the snapshot's
+  // value; copies share it. Not for use from several threads at once.
+  LoadMemory& memory() const;
+  // For a snapshot that stands for another one, as at a time between two.
+  void share_companions_of(const Snapshot& other);
+
+ private:
+  mutable std::shared_ptr<LoadMemory> memory_;
 };
 
 // What a file does not say of itself.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "io/load/derived_fields.h"
 #include "io/snapshot/field_statistics.h"
 #include "io/snapshot/particle_types.h"
 #include "splotchcl/error.h"
@@ -80,6 +81,7 @@ std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Co
     for (const FieldRow& row : read_rows(snapshot, type.type, field))
       text += row_text(row, field);
   }
+  text += fmt::format("  derived: {}\n", fmt::join(derivable_fields(type), ", "));
   return text;
 }
 
@@ -99,6 +101,7 @@ Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type) {
                                 {"bad", s.bad}});
     }
   }
+  json["derived"] = derivable_fields(type);
   return json;
 }
 

@@ -33,6 +33,22 @@ std::vector<double> sample_scaled(const Column& column, Scaling scaling) {
   return values;
 }
 
+std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling, double low,
+                                           double high) {
+  std::vector<double> values = sample_scaled(column, scaling);
+  if (values.empty()) return std::nullopt;
+  ValueRange range = {percentile(values, low / 100), percentile(values, high / 100)};
+  if (low > 0 && high < 100) return range;
+  const std::size_t count = column.is_uniform() ? 1 : column.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = scaled(static_cast<double>(column[i]), scaling);
+    if (!std::isfinite(value)) continue;
+    if (low <= 0) range.minimum = std::min(range.minimum, value);
+    if (high >= 100) range.maximum = std::max(range.maximum, value);
+  }
+  return range;
+}
+
 std::optional<ValueRange> bulk_range(const Column& column, Scaling scaling) {
   std::vector<double> values = sample_scaled(column, scaling);
   if (values.empty()) return std::nullopt;

@@ -31,4 +31,9 @@ std::vector<double> sample_scaled(const Column& column, Scaling scaling);
 // not squeeze all others into one colour. Nothing when no value is finite.
 std::optional<ValueRange> bulk_range(const Column& column, Scaling scaling);
 
+// Between two percentiles of the scaled values, given in per cent. 0 and 100 are the
+// smallest and largest of all of them, others of those that are sampled.
+std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling, double low,
+                                           double high);
+
 }  // namespace splotchcl

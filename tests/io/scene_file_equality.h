@@ -16,11 +16,39 @@ inline void expect_same(const FieldMap& a, const FieldMap& b) {
   EXPECT_EQ(a.scaling, b.scaling);
   EXPECT_EQ(a.minimum, b.minimum);
   EXPECT_EQ(a.maximum, b.maximum);
+  EXPECT_EQ(a.percentiles, b.percentiles);
+}
+
+inline void expect_same(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_TRUE(same(*a, *b));
+}
+
+inline void expect_same(const ParticleSet& a, const ParticleSet& b) {
+  EXPECT_EQ(a.where, b.where);
+  EXPECT_EQ(a.id_file, b.id_file);
+  expect_same(a.box_minimum, b.box_minimum);
+  expect_same(a.box_maximum, b.box_maximum);
+  expect_same(a.sphere_center, b.sphere_center);
+  EXPECT_EQ(a.sphere_radius, b.sphere_radius);
+}
+
+inline void expect_same(const Placement& a, const Placement& b) {
+  expect_same(a.origin, b.origin);
+  EXPECT_TRUE(same(a.axis, b.axis));
+  EXPECT_EQ(a.angle_degrees, b.angle_degrees);
+  EXPECT_EQ(a.scale, b.scale);
 }
 
 inline void expect_same(const Component& a, const Component& b) {
   EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.snapshot, b.snapshot);
   EXPECT_EQ(a.types, b.types);
+  expect_same(a.select, b.select);
+  expect_same(a.exclude, b.exclude);
+  EXPECT_TRUE(same(a.center, b.center));
+  expect_same(a.placement, b.placement);
   EXPECT_EQ(a.size_field, b.size_field);
   EXPECT_EQ(a.size_factor, b.size_factor);
   EXPECT_EQ(a.size_fixed, b.size_fixed);

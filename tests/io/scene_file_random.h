@@ -131,7 +131,34 @@ class RandomScenes {
     const double low = map.scaling == Scaling::log ? positive(1e-290, 1) : any();
     map.minimum = maybe(low);
     map.maximum = maybe(low + positive(1, 1e280));
+    if (coin()) map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
     return map;
+  }
+
+  Vec3 place() { return {{length(), length(), length()}}; }
+
+  ParticleSet particle_set() {
+    ParticleSet set;
+    if (coin()) set.where = {"U > 1e5", "RHO <= -3.5 or \"é\" != 0"};
+    if (coin()) set.id_file = word();
+    if (coin()) {
+      set.box_minimum = place();
+      set.box_maximum = Vec3(*set.box_minimum + Vec3{{unit(), positive(1e-3, 1e3), 0}});
+    }
+    if (coin()) {
+      set.sphere_center = place();
+      set.sphere_radius = positive();
+    }
+    return set;
+  }
+
+  Placement placement() {
+    Placement placement;
+    if (coin()) placement.origin = place();
+    if (coin()) placement.axis = {{unit(), -positive(), length()}};
+    if (coin()) placement.angle_degrees = length();
+    if (coin()) placement.scale = positive();
+    return placement;
   }
 
   Absorption absorption() {
@@ -152,6 +179,11 @@ class RandomScenes {
     if (coin()) component.name = word() + "-" + std::to_string(index);
     component.types = {integer(0, 31)};
     if (coin()) component.types.push_back((component.types[0] + integer(1, 31)) % 32);
+    if (coin()) component.snapshot = word();
+    component.select = particle_set();
+    component.exclude = particle_set();
+    if (coin()) component.center = place();
+    component.placement = placement();
     component.size_factor = positive();
     if (coin()) {
       component.size_fixed = positive();

@@ -23,15 +23,6 @@ std::vector<std::uint64_t> CachedSnapshot::read_ids(int type) const {
   return snapshot_->read_ids(type);
 }
 
-Column CachedSnapshot::derived(int type, const std::string& name,
-                               const std::function<Column()>& make) const {
-  const std::pair key(type, name);
-  const auto found = derived_.find(key);
-  if (found != derived_.end()) return found->second;
-  const Column made = make();
-  return derived_[key] = made;
-}
-
 Vec3 CachedSnapshot::position_origin() const {
   return snapshot_->position_origin();
 }

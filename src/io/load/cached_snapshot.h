@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,8 +12,8 @@
 namespace splotchcl {
 
 // A snapshot that remembers every column it was once asked for, so that load_frame may be
-// called for each frame of a film and reads, and finds smoothing lengths, only once. Not for
-// use from several threads at once.
+// called for each frame of a film and reads only once (what it makes of them is in memory()).
+// Not for use from several threads at once.
 class CachedSnapshot : public Snapshot {
  public:
   explicit CachedSnapshot(std::shared_ptr<const Snapshot> snapshot);
@@ -22,15 +21,13 @@ class CachedSnapshot : public Snapshot {
   const SnapshotInfo& info() const override;
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;  // not remembered
-  Column derived(int type, const std::string& name,
-                 const std::function<Column()>& make) const override;
   Vec3 position_origin() const override;
 
  private:
   using Columns = std::map<std::pair<int, std::string>, Column>;
 
   std::shared_ptr<const Snapshot> snapshot_;
-  mutable Columns read_, derived_;
+  mutable Columns read_;
 };
 
 }  // namespace splotchcl

@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <list>
+#include <memory>
+#include <set>
 
 #include "io/load/load_frame_fields.h"
+#include "io/load/load_memory.h"
 #include "io/load/suggest_scene_camera.h"
 #include "scene/reference_column.h"
 #include "scene/scalar_map.h"
@@ -31,7 +36,13 @@ std::optional<double> scaled_limit(const std::optional<double>& limit, Scaling s
 // Limits from the data, which must leave room for a limit that the scene gives.
 ValueRange range_from_data(const Column& column, const FieldMap& map,
                            const ComponentFields& fields) {
-  const std::optional<ValueRange> bulk = bulk_range(column, map.scaling);
+  std::optional<ValueRange> bulk;
+  if (map.percentiles) {
+    bulk = percentile_range(column, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1]);
+  } else {
+    bulk = bulk_range(column, map.scaling);
+  }
+  if (!bulk && fields.count() == 0) return {0, 1};
   if (!bulk) {
     fields.note(
         fmt::format("no particle has a {} that its scaling has a value for; all take the "
@@ -105,22 +116,25 @@ Palette choose_palette(const Component& component) {
   return palette;
 }
 
-DrawnComponent load_component(const Component& component, const Scene& scene,
-                              const Snapshot& snapshot, std::vector<std::string>& notes) {
-  const ComponentFields fields(component, snapshot, notes);
-  check_factor(component.size_factor, fields, "size.factor");
-  if (component.size_fixed) check_factor(*component.size_fixed, fields, "size.fixed");
+// Lengths of the snapshot are scaled with it; a fixed size is a length of the scene.
+double drawn_size_factor(const Component& component) {
+  return component.size_fixed ? component.size_factor
+                              : component.size_factor * component.placement.scale;
+}
 
+DrawnComponent load_component(const Component& component, const Scene& scene,
+                              ComponentFields& fields) {
+  fields.select();
   DrawnComponent drawn;
   drawn.name = component.name;
-  drawn.size_factor = component.size_factor;
+  drawn.size_factor = drawn_size_factor(component);
   drawn.brightness = component.brightness;
   drawn.absorption = component.absorption;
   drawn.palette = choose_palette(component);
 
   Particles& particles = drawn.particles;
   particles.count = fields.count();
-  particles.origin = snapshot.position_origin();
+  particles.origin = fields.origin();
   particles.position = fields.positions();
   particles.smoothing_length = fields.smoothing_lengths();
   load_weight(component, fields, drawn);
@@ -149,7 +163,7 @@ void decide_reference_column(const Component& component, const Frame& frame, Dra
     return;
   }
   const std::optional<double> reference = find_reference_column(drawn, frame);
-  if (!reference) {
+  if (!reference && drawn.particles.count > 0) {
     notes.push_back(
         fmt::format("component {}: the camera sees none of its particles; check camera.position, "
                     "camera.look_at and the near and far limits",
@@ -158,13 +172,73 @@ void decide_reference_column(const Component& component, const Frame& frame, Dra
   drawn.reference_column = reference.value_or(1);
 }
 
-std::vector<int> all_types(const Scene& scene) {
+// Those that lie where the scene's snapshot has them.
+std::vector<int> types_in_place(const Scene& scene) {
   std::vector<int> types;
   for (const Component& component : scene.components) {
+    if (!component.snapshot.empty() || component.placement.moves()) continue;
     types.insert(types.end(), component.types.begin(), component.types.end());
   }
   return types;
 }
+
+Camera choose_camera(const Scene& scene, const Snapshot& snapshot) {
+  if (scene.camera) return *scene.camera;
+  const std::vector<int> types = types_in_place(scene);
+  if (types.empty()) {
+    throw UsageError(
+        "the scene has no camera and every component is placed elsewhere than its snapshot has "
+        "it, expected a camera; add a [camera]");
+  }
+  return suggest_camera(snapshot, types, scene.image.width, scene.image.height);
+}
+
+// The components with their snapshots: whatever can be refused before anything is read.
+class OpenComponents {
+ public:
+  OpenComponents(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes) {
+    for (const Component& component : scene.components) {
+      const Snapshot* source = &snapshot;
+      if (!component.snapshot.empty()) {
+        companions_.push_back(snapshot.memory().companion(component.snapshot));
+        source = companions_.back().get();
+      }
+      if (begun_.insert(source).second) source->memory().begin_load();
+      fields_.emplace_back(component, *source, notes);
+    }
+    auto fields = fields_.begin();
+    for (const Component& component : scene.components)
+      check(component, *fields++);
+  }
+
+  std::list<ComponentFields>& fields() { return fields_; }
+
+ private:
+  static void check(const Component& component, const ComponentFields& fields) {
+    check_factor(component.size_factor, fields, "size.factor");
+    if (component.size_fixed) check_factor(*component.size_fixed, fields, "size.fixed");
+    check_factor(component.placement.scale, fields, "scale");
+    check_placement(component, fields);
+    fields.check();
+  }
+
+  static void check_placement(const Component& component, const ComponentFields& fields) {
+    const Placement& placement = component.placement;
+    double largest = 0;
+    for (const double component_of_axis : placement.axis.a)
+      largest = std::max(largest, std::abs(component_of_axis));
+    if (std::isfinite(placement.angle_degrees) && std::isfinite(largest) && largest > 0) return;
+    throw UsageError(
+        fmt::format("{}: rotation is by {} degrees about the axis ({}, {}, {}), expected finite "
+                    "numbers and an axis that is not 0",
+                    fields.label(), placement.angle_degrees, placement.axis.a[0],
+                    placement.axis.a[1], placement.axis.a[2]));
+  }
+
+  std::vector<std::shared_ptr<const Snapshot>> companions_;
+  std::set<const Snapshot*> begun_;
+  std::list<ComponentFields> fields_;
+};
 
 }  // namespace
 
@@ -172,9 +246,8 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   if (scene.components.empty()) {
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
-  const Camera camera = scene.camera ? *scene.camera
-                                     : suggest_camera(snapshot, all_types(scene), scene.image.width,
-                                                      scene.image.height);
+  OpenComponents components(scene, snapshot, notes);
+  const Camera camera = choose_camera(scene, snapshot);
   Frame frame;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
@@ -187,8 +260,9 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   frame.kernel = scene.kernel;
   frame.sort = scene.sort;
   frame.tolerance = scene.tolerance;
+  auto fields = components.fields().begin();
   for (const Component& component : scene.components) {
-    DrawnComponent drawn = load_component(component, scene, snapshot, notes);
+    DrawnComponent drawn = load_component(component, scene, *fields++);
     decide_reference_column(component, frame, drawn, notes);
     frame.components.push_back(std::move(drawn));
   }

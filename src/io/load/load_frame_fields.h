@@ -1,23 +1,37 @@
 #pragma once
 
-#include <map>
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "io/load/placement.h"
+#include "io/load/select_particles.h"
+#include "io/load/type_fields.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 
-// Reads the fields of one component: the particle types that it draws, one after the
-// other. Messages name the component and the scene's key that asked for the field.
+// Reads the fields of one component: the particles that it selects of the types that it
+// draws, one type after the other. Messages name the component and the scene's key that
+// asked for the field.
 class ComponentFields {
  public:
-  // Throws UsageError when the snapshot has none of the component's types.
+  // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
+  // the component's types. Reads nothing yet.
   ComponentFields(const Component& component, const Snapshot& snapshot,
                   std::vector<std::string>& notes);
+  ComponentFields(const ComponentFields&) = delete;
+  ComponentFields& operator=(const ComponentFields&) = delete;
+
+  // Refuses a selection that cannot be made, before anything is read.
+  void check() const;
+  // Finds the selected particles; before all that follows.
+  void select();
 
   std::size_t count() const;  // particles of all types together
+  // As they are placed in the scene: origin() + positions().
+  Vec3 origin() const;
   Column positions() const;
   // One value per particle; of a vector field its length. Throws UsageError when a type
   // does not have the field.
@@ -26,8 +40,8 @@ class ComponentFields {
   Column vectors(const std::string& field, const std::string& key) const;
   bool masses_are_known() const;
   Column masses() const;
-  // h as the scene says: a fixed size, a field of the file, or, for "smoothing_length"
-  // where the file has none, found from the particles themselves.
+  // h as the scene says, before the placement's scale: a fixed size, a field of the file,
+  // or, for "smoothing_length" where the file has none, found from the particles themselves.
   Column smoothing_lengths() const;
 
   // Adds "component NAME: text" to the notes.
@@ -35,23 +49,17 @@ class ComponentFields {
   std::string label() const;  // "component NAME" for messages
 
  private:
-  Column scalars_of_type(const ParticleTypeInfo& type, const std::string& field,
-                         const std::string& key) const;
-  Column masses_of_type(const ParticleTypeInfo& type) const;
-  Column densities_of_type(const ParticleTypeInfo& type) const;
-  Column smoothing_lengths_of_type(const ParticleTypeInfo& type) const;
-  Column find_lengths(const ParticleTypeInfo& type) const;
-  std::optional<double> periodic_box(const Column& position) const;
+  using Read = std::function<Column(const TypeFields&)>;
+  Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
+  std::size_t count_of(std::size_t type) const;
+  std::string particles_key() const;
   [[noreturn]] void refuse_types() const;
-  [[noreturn]] void refuse_field(const ParticleTypeInfo& type, const std::string& field,
-                                 const std::string& key) const;
 
   const Component& component_;
   const Snapshot& snapshot_;
   std::vector<std::string>& notes_;
-  std::vector<const ParticleTypeInfo*> types_;
-  // Those that had to be found, which takes a while: by type.
-  mutable std::map<int, Column> found_lengths_;
+  std::vector<TypeFields> types_;
+  std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
 };
 
 }  // namespace splotchcl

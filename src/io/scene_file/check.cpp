@@ -65,7 +65,7 @@ void check_name(const std::string& name, const std::string& label, const Origins
 
 void check_field_map(const FieldMap& map, const std::string& label, const Origins& origins) {
   if (map.field.empty()) {
-    for (const char* part : {".scaling", ".min", ".max"}) {
+    for (const char* part : {".scaling", ".min", ".max", ".percentiles"}) {
       if (!origins.contains(label + part)) continue;
       refuse(origins.at(label + part), label + part, "a value without a field",
              label + ".field as well");
@@ -82,6 +82,34 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
   };
   check_positive(map.minimum, label + ".min");
   check_positive(map.maximum, label + ".max");
+}
+
+// Corners in order, and nothing that lacks its other half.
+void check_set(const ParticleSet& set, const std::string& label, const Origins& origins) {
+  const auto check_pair = [&](bool has_first, bool has_second, const std::string& first,
+                              const std::string& second) {
+    if (has_first == has_second) return;
+    const std::string& given = label + (has_first ? first : second);
+    refuse(origins.at(given), given, "it alone", label + (has_first ? second : first) + " as well");
+  };
+  check_pair(set.box_minimum.has_value(), set.box_maximum.has_value(), ".box.min", ".box.max");
+  check_pair(set.sphere_center.has_value(), set.sphere_radius.has_value(), ".sphere.center",
+             ".sphere.radius");
+  if (!set.box_minimum || !set.box_maximum) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = set.box_minimum->a[axis], high = set.box_maximum->a[axis];
+    if (low <= high) continue;
+    refuse(origins.at(label + ".box.min"), label + ".box.min",
+           fmt::format("{} along {}", write_number(low), "xyz"[axis]),
+           fmt::format("at most {}.box.max, which is {} there", label, write_number(high)));
+  }
+}
+
+void check_placement(const Placement& placement, const std::string& label, const Origins& origins) {
+  const auto& a = placement.axis.a;
+  if (a[0] != 0 || a[1] != 0 || a[2] != 0) return;
+  refuse(origins.at(label + ".rotation.axis"), label + ".rotation.axis", "[0, 0, 0]",
+         "a direction");
 }
 
 // A key that would do nothing is a mistake.
@@ -113,6 +141,9 @@ void check_components(const Scene& scene, const Origins& origins) {
     }
     check_field_map(component.color, label + ".color", origins);
     check_colors(component, label, origins);
+    check_set(component.select, label + ".select", origins);
+    check_set(component.exclude, label + ".exclude", origins);
+    check_placement(component.placement, label, origins);
     check_field_map(component.intensity, label + ".intensity", origins);
   }
 }

@@ -3,6 +3,22 @@
 namespace splotchcl::scene_file {
 namespace {
 
+using Percentiles = std::array<double, 2>;
+
+ValueType<Percentiles> percentiles() {
+  const auto read = [](const toml::node& node) -> std::optional<Percentiles> {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || array->size() != 2) return std::nullopt;
+    const auto low = number(between(0, 100)).read((*array)[0]);
+    const auto high = number(between(0, 100)).read((*array)[1]);
+    if (!low || !high || !(*low < *high)) return std::nullopt;
+    return Percentiles{*low, *high};
+  };
+  return {"[low, high], numbers from 0 to 100 with low < high", read, [](const Percentiles& value) {
+            return "[" + write_number(value[0]) + ", " + write_number(value[1]) + "]";
+          }};
+}
+
 // color.* and intensity.*. Without a field the others mean nothing and are not written.
 Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Text& field_text) {
   const auto optional_number = [map](std::optional<double> FieldMap::*member) {
@@ -42,6 +58,18 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
                              set_number(&FieldMap::maximum),
                              {"The value, before scaling, that becomes 1. Higher ones do too.",
                               "the field's", "a percentile of the data"}),
+      key<Component, Percentiles>(
+          path + ".percentiles", percentiles(),
+          [map](const Component& component) {
+            const FieldMap& field_map = component.*map;
+            return field_map.field.empty() ? std::nullopt : field_map.percentiles;
+          },
+          [map](Component& component, const Percentiles& value) {
+            (component.*map).percentiles = value;
+          },
+          {"Which percentiles of the component's particles stand for a missing min or max. 0 and "
+           "100 are the smallest and the largest value.",
+           "per cent", "`[0.5, 99.5]`"}),
   };
 }
 
@@ -118,9 +146,8 @@ Keys component_keys() {
           {"A name of its own, for messages and for settings such as `component.NAME.palette`. "
            "Not only digits.",
            "", "none"}),
-      key("component.types", particle_types(), &Component::types,
-          {"The particle types that are drawn as this component."}),
   };
+  append(keys, particle_keys());
   append(keys, size_keys());
   append(keys, field_map_keys("component.color", &Component::color,
                               {"The field that is looked up in the palette.", "",

@@ -18,6 +18,7 @@ using Keys = std::vector<Key>;
 Keys component_keys();
 Keys path_keys();
 Keys movie_keys();
+Keys particle_keys();  // of components, too
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());

@@ -18,6 +18,10 @@ void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
   if (!scene.path.file.empty()) scene.path.file = (folder / scene.path.file).string();
   for (Component& component : scene.components) {
+    for (std::string* file :
+         {&component.snapshot, &component.select.id_file, &component.exclude.id_file}) {
+      if (!file->empty()) *file = (folder / *file).string();
+    }
     for (std::string* palette : {&component.palette, &component.absorption_palette}) {
       if (is_palette_path(*palette)) *palette = (folder / *palette).string();
     }

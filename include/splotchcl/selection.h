@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/vector.h"
+
+namespace splotchcl {
+
+// A set of particles, by any of these; a particle belongs to it when all that are given
+// hold. Positions and fields are those of the component's own snapshot.
+struct ParticleSet {
+  // Conditions such as "temperature > 1e6" or "density >= 3 or mass < 1", one of <, <=, >,
+  // >=, ==, != between a field and a number. A value that is not a number fulfils none.
+  std::vector<std::string> where;
+  std::string id_file;  // a text file of identifiers, one on a line
+  // Faces belong to the box, the surface to the sphere.
+  std::optional<Vec3> box_minimum, box_maximum;
+  std::optional<Vec3> sphere_center;
+  std::optional<double> sphere_radius;
+
+  bool is_given() const {
+    return !where.empty() || !id_file.empty() || box_minimum || box_maximum || sphere_center ||
+           sphere_radius;
+  }
+};
+
+// How particles of a snapshot of their own are put into the scene:
+//   x' = origin + scale * R (x - center)
+// with R the right-handed rotation about `axis`. Lengths h become scale * h; masses,
+// densities and all other fields stay as they are.
+struct Placement {
+  std::optional<Vec3> origin;  // unset: the center stays where it is
+  Vec3 axis = {{0, 0, 1}};
+  double angle_degrees = 0;
+  double scale = 1;
+
+  bool moves() const { return origin || angle_degrees != 0 || scale != 1; }
+};
+
+}  // namespace splotchcl

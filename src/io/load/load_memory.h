@@ -1,0 +1,48 @@
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace splotchcl {
+
+class Snapshot;
+
+// What load_frame has made from one snapshot and will want again for the next frame of a
+// film: derived fields, selections, snapshots of single components. What two loads in a row
+// did not ask for is forgotten.
+class LoadMemory {
+ public:
+  // The value that `make` gave for this key, now or before.
+  template <class T>
+  const T& get(const std::string& key, const std::function<T()>& make) {
+    auto found = values_.find(key);
+    if (found == values_.end()) {
+      T made = make();  // may ask for others
+      found = values_.insert_or_assign(key, Value{std::move(made), 0}).first;
+    }
+    found->second.last_load = load_;
+    return std::any_cast<const T&>(found->second.value);
+  }
+
+  // The snapshot of a single component, opened once.
+  std::shared_ptr<const Snapshot> companion(const std::string& path);
+  void share_companions_of(const LoadMemory& other) { companions_ = other.companions_; }
+
+  void begin_load();
+
+ private:
+  struct Value {
+    std::any value;
+    std::uint64_t last_load;
+  };
+  using Companions = std::map<std::string, std::shared_ptr<const Snapshot>>;
+  std::map<std::string, Value> values_;
+  std::shared_ptr<Companions> companions_ = std::make_shared<Companions>();
+  std::uint64_t load_ = 0;
+};
+
+}  // namespace splotchcl
