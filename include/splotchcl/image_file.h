@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "splotchcl/image.h"
@@ -28,6 +29,18 @@ void write_image(const std::filesystem::path& path, const Image& image,
 // Values as stored: 8 bits become value / 255, without a gamma. Gray becomes equal red,
 // green and blue; missing alpha becomes 1. Throws DataError.
 Image read_image(const std::filesystem::path& path);
+
+// A picture as light, however large its file is.
+struct LinearImageOptions {
+  // Light = value^gamma. Unset: 2.2 for values stored as whole numbers, 1 for floats.
+  std::optional<double> gamma;
+  // A picture with a longer side is averaged over squares of the fewest whole pixels that
+  // make it fit; only a band of rows is in memory at a time. 0: never.
+  int longest_side = 0;
+};
+// Light premultiplied by alpha. Throws DataError, also where a value is not finite, or below 0
+// where gamma is not 1.
+Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options = {});
 
 struct ImageFileInfo {
   int width = 0, height = 0;

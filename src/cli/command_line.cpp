@@ -1,49 +1,18 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/galaxy_commands.h"
 #include "io/common/nearest_name.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {
 namespace {
-
-using Run = std::function<int()>;
-
-// Help beside a column of names, in lines of at most 100 characters.
-constexpr std::size_t name_column = 24;
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t width = 99 - name_column;
-  std::string lines;
-  std::size_t line_start = 0;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (lines.size() > line_start) {
-      const bool fits = lines.size() + 1 + word.size() - line_start <= width;
-      lines += fits ? ' ' : '\n';
-      if (!fits) line_start = lines.size();
-    }
-    lines += word;
-  }
-  return lines;
-}
-
-// Each command's options live as long as its `run`, which CLI11 fills in and we call.
-template <typename Options>
-CLI::App* add_command(CLI::App& app, Run& run, const char* name, const char* description,
-                      const std::shared_ptr<Options>& options,
-                      std::function<int(const Options&)> command) {
-  CLI::App* const sub = app.add_subcommand(name, description);
-  sub->callback(
-      [&run, options, command] { run = [options, command] { return command(*options); }; });
-  return sub;
-}
 
 void add_render(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<RenderOptions>();
@@ -247,6 +216,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_compare(app, run, console);
   add_devices(app, run);
   add_generate(app, run, console);
+  add_galaxy(app, run, console);
   app.footer(
       "splotchcl COMMAND --help tells more.\n"
       "Exit codes: 0 done; 1 the data or the device failed; 2 the call or the scene is wrong.");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "splotchcl/galaxy.h"
 #include "splotchcl/generate.h"
 
 // What a user asks of each command, and what carries it out. A command's answer goes to
@@ -51,5 +52,14 @@ struct GenerateOptions {
   GenerateSettings settings;
 };
 int run_generate(const GenerateOptions& options, Console& console);
+
+struct GalaxyOptions {
+  std::filesystem::path image, output;
+  GalaxySettings settings;  // but for the rotation, which follows from what is below
+  std::optional<double> gamma;
+  double speed = 200, core = 1;  // km/s and kpc
+  std::optional<std::filesystem::path> rotation_curve;
+};
+int run_galaxy(const GalaxyOptions& options, Console& console);
 
 }  // namespace splotchcl::cli

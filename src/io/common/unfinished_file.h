@@ -20,6 +20,8 @@ class UnfinishedFile {
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
   void write(const void* data, std::size_t bytes);
+  // For libraries that write a file by its name; they must be done with it at finish().
+  const std::filesystem::path& temporary_path() const { return temporary_; }
   void finish();
 
  private:

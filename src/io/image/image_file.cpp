@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/common/unfinished_file.h"
+#include "io/image/image_input.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -62,11 +63,6 @@ const Format& format_of(const std::filesystem::path& path) {
   const std::string problem =
       ending.empty() ? "has no ending" : "its ending " + ending + " names no image format";
   throw UsageError(path.string() + ": " + problem + "; the ending chooses one of " + endings());
-}
-
-// OpenImageIO may report a line for each part that failed; ours are one line.
-std::string first_line(const std::string& text) {
-  return text.empty() ? "unknown error" : text.substr(0, text.find('\n'));
 }
 
 std::uint8_t to_byte(float value, float exponent) {
@@ -143,39 +139,6 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Image
   return file;
 }
 
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    throw DataError(path.string() +
-                    ": cannot be read as a picture: " + first_line(OIIO::geterror()));
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
-    throw DataError(path.string() + ": is not a flat picture of colours");
-  }
-  return input;
-}
-
-// Where a picture's red, green, blue and alpha are among the channels of its file.
-struct ChannelPlaces {
-  std::array<int, 3> color = {0, 0, 0};
-  int alpha = -1;
-};
-
-ChannelPlaces find_channels(const OIIO::ImageSpec& spec) {
-  ChannelPlaces places;
-  places.alpha = spec.alpha_channel;
-  const int red = spec.channelindex("R");
-  const int green = spec.channelindex("G");
-  const int blue = spec.channelindex("B");
-  if (red >= 0 && green >= 0 && blue >= 0) {
-    places.color = {red, green, blue};
-  } else if (spec.nchannels >= 3) {
-    places.color = {0, 1, 2};
-  }
-  return places;
-}
-
 }  // namespace
 
 void check_image_path(const std::filesystem::path& path) {
@@ -201,7 +164,7 @@ void write_image(const std::filesystem::path& path, const Image& image,
 }
 
 Image read_image(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open(path);
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
   const OIIO::ImageSpec spec = input->spec();
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   Image image(spec.width, spec.height);
@@ -225,7 +188,7 @@ Image read_image(const std::filesystem::path& path) {
 }
 
 ImageFileInfo read_image_info(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open(path);
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
   const OIIO::ImageSpec& spec = input->spec();
   ImageFileInfo info;
   info.width = spec.width;

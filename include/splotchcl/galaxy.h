@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "splotchcl/image.h"
+#include "splotchcl/rotation_curve.h"
+
+// A galaxy of three dimensions from one picture of it. Lengths are in kpc, speeds in km/s,
+// the disk lies in z = 0 around the origin, x to the right and y up in the picture, z towards
+// the observer of a disk seen face-on.
+namespace splotchcl {
+
+struct GalaxySettings {
+  // Where the galaxy is in the picture.
+  std::optional<std::array<double, 2>> centre;  // pixels from the left and top; unset: found
+  double inclination_degrees = 0;               // 0 face-on, below 80
+  // Of the disk's longest diameter, from up counter-clockwise.
+  double position_angle_degrees = 0;
+  std::optional<double> radius_pixels;  // unset: as far as the picture's farthest corner
+  double size_kpc = 30;                 // of the picture's longer side
+
+  // What is the galaxy's light and what is not.
+  double threshold = 2;        // over the sky, in deviations of its noise: half of such light counts
+  double border_fade = 0.06;   // of the shorter side, over which light fades at the border
+  bool removes_stars = true;   // points of light that the Milky Way's stars make
+  double star_contrast = 2.5;  // of such a point, against the median around it
+
+  // Gas: a cloud for each bright pixel.
+  double gas_height_kpc = 0.12;  // standard deviation of the clouds' heights
+  int cloud_points = 4;          // particles in a cloud
+  double cloud_radius_pixels = 1.6;
+
+  // Stars of the disk.
+  std::uint64_t disk_stars = 300000;
+  double disk_width = 0.35;  // standard deviation across, of the galaxy's radius
+  double disk_height_kpc = 0.2;
+  double disk_light = 0.2;  // their part of the picture's light
+
+  // The bulge, a Plummer sphere a little flattened.
+  std::uint64_t bulge_stars = 150000;
+  double bulge_radius_kpc = 0.7;
+  double bulge_flattening = 0.8;  // height over width
+  double bulge_light = 0.6;       // its part of the light at the centre
+
+  // Globular clusters.
+  int clusters = 150;
+  int cluster_stars = 2000;  // the median of a random number
+  double cluster_radius_kpc = 0.012;
+  double cluster_light = 0.005;  // of the picture's
+
+  bool turns_clockwise = false;  // as seen in the picture
+  RotationCurve rotation = RotationCurve::flat();
+  std::uint64_t seed = 1;
+};
+
+// Particles of one kind; vectors have 3 values for each.
+struct GalaxyParticles {
+  std::vector<float> position, velocity;
+  std::vector<float> color;             // linear red, green and blue >= 0
+  std::vector<float> mass;              // the area, in kpc^2, that its colour covers
+  std::vector<float> smoothing_length;  // reaches to neighbour 24 of its kind
+  std::vector<float> orbit_axis;        // unit vector: it circles the centre about this axis,
+  std::vector<float> orbit_radius;      // with the angular speed of this radius
+  std::size_t count() const { return mass.size(); }
+};
+
+struct Galaxy {
+  GalaxyParticles gas;       // Gadget type 0
+  GalaxyParticles disk;      // 2
+  GalaxyParticles bulge;     // 3
+  GalaxyParticles clusters;  // 4
+  // What was decided about the picture, in pixels of the file.
+  std::array<double, 2> centre = {0, 0};
+  double sky = 0, noise = 0;  // mean of the channels, linear light
+  std::uint64_t pixels_of_stars = 0;
+  double pixel_size_kpc = 0;  // of the squares that clouds are made from
+};
+
+// Pictures are averaged down to this many pixels on their longer side before anything else.
+constexpr int galaxy_picture_limit = 1024;
+
+// `picture` is linear light. `file_pixels` is how many pixels of the file, on a side, one pixel
+// of it is the average of; positions in the settings count those of the file. The sum over
+// particles of mass * color, seen along z, is the picture's light integrated over area: with
+// weight "mass" and a reference column of 1, light without absorption shows the picture again.
+// The same settings give the same particles. Throws UsageError for settings out of range,
+// DataError for a picture without a galaxy.
+Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double file_pixels = 1);
+
+// From a file of any size. `gamma` as in LinearImageOptions.
+Galaxy read_galaxy(const std::filesystem::path& picture, const GalaxySettings& settings,
+                   std::optional<double> gamma = std::nullopt);
+
+// Gadget HDF5 with Coordinates, Velocities, ParticleIDs, Masses, SmoothingLength, Color,
+// OrbitAxis and OrbitRadius. Appears under its name only when complete. Throws DataError.
+void write_galaxy(const std::filesystem::path& path, const Galaxy& galaxy);
+
+}  // namespace splotchcl

@@ -1,0 +1,44 @@
+#pragma once
+
+// CLI11 is slow to compile: only files that describe commands include this one.
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+
+namespace splotchcl::cli {
+
+using Run = std::function<int()>;
+
+// Help beside a column of names, in lines of at most 100 characters.
+constexpr std::size_t name_column = 24;
+inline std::string wrapped(const std::string& text) {
+  constexpr std::size_t width = 99 - name_column;
+  std::string lines;
+  std::size_t line_start = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.size() > line_start) {
+      const bool fits = lines.size() + 1 + word.size() - line_start <= width;
+      lines += fits ? ' ' : '\n';
+      if (!fits) line_start = lines.size();
+    }
+    lines += word;
+  }
+  return lines;
+}
+
+// Each command's options live as long as its `run`, which CLI11 fills in and we call.
+template <typename Options>
+CLI::App* add_command(CLI::App& app, Run& run, const char* name, const char* description,
+                      const std::shared_ptr<Options>& options,
+                      std::function<int(const Options&)> command) {
+  CLI::App* const sub = app.add_subcommand(name, description);
+  sub->callback(
+      [&run, options, command] { run = [options, command] { return command(*options); }; });
+  return sub;
+}
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,104 @@
+#include "cli/galaxy_commands.h"
+
+#include "cli/commands.h"
+
+namespace splotchcl::cli {
+namespace {
+
+// Where the galaxy is in the picture, and what of the picture is its light.
+void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
+  GalaxySettings& s = options.settings;
+  sub.add_option("--centre", s.centre,
+                 wrapped("The galaxy's centre in pixels from the left and top. Default: the centre "
+                         "of light"))
+      ->type_name("X,Y")
+      ->delimiter(',');
+  sub.add_option("--inclination", s.inclination_degrees,
+                 wrapped("Degrees by which the disk is tilted, 0 (face-on) to 80"))
+      ->type_name("DEG")
+      ->capture_default_str();
+  sub.add_option("--position-angle", s.position_angle_degrees,
+                 wrapped("Degrees from up, counter-clockwise, of the tilted disk's longest "
+                         "diameter"))
+      ->type_name("DEG")
+      ->capture_default_str();
+  sub.add_option("--radius", s.radius_pixels,
+                 wrapped("Where the galaxy ends, in pixels along its longest diameter; keeps a "
+                         "companion out. Default: the whole picture"))
+      ->type_name("PIXELS");
+  sub.add_option("--size", s.size_kpc, wrapped("Length of the picture's longer side, in kpc"))
+      ->type_name("KPC")
+      ->capture_default_str();
+  sub.add_option("--gamma", options.gamma,
+                 wrapped("Light = value^gamma. Default: 2.2 for whole numbers, 1 for floats"))
+      ->type_name("G");
+  sub.add_option("--threshold", s.threshold,
+                 wrapped("Pixels count that exceed the sky, the median of the picture's border, by "
+                         "so many deviations of its noise"))
+      ->type_name("K")
+      ->capture_default_str();
+  sub.add_flag("--keep-stars{false}", s.removes_stars,
+               wrapped("Keep the points of light that are taken for stars of the Milky Way"));
+}
+
+void add_matter_options(CLI::App& sub, GalaxySettings& s) {
+  const auto add = [&sub](const char* name, auto& value, const char* type, const char* help) {
+    sub.add_option(name, value, wrapped(help))->type_name(type)->capture_default_str();
+  };
+  add("--gas-height", s.gas_height_kpc, "KPC", "Standard deviation of the gas clouds' heights");
+  add("--cloud-points", s.cloud_points, "N", "Particles in each pixel's cloud");
+  add("--cloud-radius", s.cloud_radius_pixels, "PIXELS", "Radius of a cloud");
+  add("--disk-stars", s.disk_stars, "N", "Stars of the disk");
+  add("--disk-width", s.disk_width, "FRACTION",
+      "Standard deviation of their places, of the galaxy's radius");
+  add("--disk-height", s.disk_height_kpc, "KPC", "Standard deviation of their heights");
+  add("--disk-light", s.disk_light, "FRACTION", "Their part of the picture's light");
+  add("--bulge-stars", s.bulge_stars, "N", "Stars of the bulge");
+  add("--bulge-radius", s.bulge_radius_kpc, "KPC", "Its Plummer radius");
+  add("--bulge-light", s.bulge_light, "FRACTION", "Its part of the light at the centre");
+  add("--clusters", s.clusters, "N", "Globular clusters");
+  add("--cluster-stars", s.cluster_stars, "N", "Stars of one, as a median: the number is random");
+  add("--cluster-light", s.cluster_light, "FRACTION", "Their part of the picture's light");
+  add("--seed", s.seed, "N", "The same seed makes the same galaxy");
+}
+
+void add_rotation_options(CLI::App& sub, GalaxyOptions& options) {
+  sub.add_option("--speed", options.speed, wrapped("Speed of the flat rotation curve"))
+      ->type_name("KM/S")
+      ->capture_default_str();
+  sub.add_option("--core", options.core,
+                 wrapped("Radius inside of which it turns like a solid body"))
+      ->type_name("KPC")
+      ->capture_default_str();
+  sub.add_option("--rotation-curve", options.rotation_curve,
+                 wrapped("A file of two columns, kpc and km/s, instead"))
+      ->type_name("FILE");
+  sub.add_flag("--clockwise", options.settings.turns_clockwise,
+               wrapped("Turn clockwise in the picture"));
+}
+
+}  // namespace
+
+void add_galaxy(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<GalaxyOptions>();
+  CLI::App* const sub = add_command<GalaxyOptions>(
+      app, run, "galaxy", "Make a galaxy in three dimensions from a picture of one", options,
+      [&console](const GalaxyOptions& o) { return run_galaxy(o, console); });
+  sub->add_option("IMAGE", options->image,
+                  wrapped("A picture of a spiral galaxy, in any format; averaged down to 1024 "
+                          "pixels"))
+      ->required();
+  sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget HDF5"))
+      ->required()
+      ->type_name("FILE");
+  add_picture_options(*sub, *options);
+  add_matter_options(*sub, options->settings);
+  add_rotation_options(*sub, *options);
+  sub->footer(
+      "Makes gas (type 0), disk stars (2), a bulge (3) and globular clusters (4), each particle\n"
+      "with a Color, around the origin, in kpc and km/s. docs/galaxy.md says how.\n"
+      "Example:\n"
+      "  splotchcl galaxy m51.jpg -o m51.hdf5 --radius 700 --size 25 --inclination 20");
+}
+
+}  // namespace splotchcl::cli

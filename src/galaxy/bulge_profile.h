@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "galaxy/light_map.h"
+
+namespace splotchcl {
+
+// A Plummer sphere's light seen through, which is what the disk leaves to the bulge.
+class BulgeProfile {
+ public:
+  BulgeProfile(const LightMap& map, const GalaxySettings& settings)
+      : radius_(settings.bulge_radius_kpc),
+        peak_((settings.bulge_stars > 0 ? settings.bulge_light : 0.0) * map.center_color()) {}
+
+  Light column(double radius) const {
+    return std::pow(1 + radius * radius / (radius_ * radius_), -2) * peak_;
+  }
+  // What remains of the picture's light for the disk.
+  Light rest(const Light& light, double radius) const {
+    const Light taken = column(radius);
+    Light rest;
+    for (std::size_t i = 0; i < 3; ++i)
+      rest[i] = std::max(0.0, light[i] - taken[i]);
+    return rest;
+  }
+  const Light& peak() const { return peak_; }
+  // Of a face-on area that, at the peak's light, gives off all of the bulge's.
+  double area() const { return 3.14159265358979323846 * radius_ * radius_; }
+
+ private:
+  double radius_;
+  Light peak_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+
+#include "galaxy/kinds.h"
+#include "galaxy/plummer.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double two_pi = 6.283185307179586;
+constexpr double color_spread = 0.2;
+
+// A star's own light against the mean of its neighbourhood; 1 on average over stars.
+Light star_color(const Light& around, Random& random) {
+  const double brightness = star_brightness(random);
+  const double warmth = std::clamp(color_spread * random.normal(), -0.6, 0.6);
+  return {brightness * (1 + warmth) * around[0], brightness * around[1],
+          brightness * (1 - warmth) * around[2]};
+}
+
+}  // namespace
+
+GalaxyParticles make_disk_stars(const LightMap& map, const BulgeProfile& bulge,
+                                const GalaxySettings& settings) {
+  Random random(settings.seed + 1);
+  GalaxyParticles stars;
+  const double width = settings.disk_width * map.radius();
+  const double central_density =
+      static_cast<double>(settings.disk_stars) / (two_pi * width * width);
+  const Vec3 axis = disk_axis(settings);
+  for (std::uint64_t i = 0; i < settings.disk_stars; ++i) {
+    const Vec3 place = {{width * random.normal(), width * random.normal(),
+                         settings.disk_height_kpc * random.normal()}};
+    const double radius = std::hypot(place.a[0], place.a[1]);
+    const Light around = bulge.rest(map.at({place.a[0], place.a[1]}), radius);
+    const Light color = star_color(settings.disk_light * around, random);
+    // Where stars are few each stands for a larger area. Dark places have none.
+    const double density = central_density * std::exp(-radius * radius / (2 * width * width));
+    if (mean(color) > 0) add_particle(stars, place, color, 1 / density, axis, radius);
+  }
+  return stars;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,107 @@
+#include "splotchcl/galaxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "galaxy/check_settings.h"
+#include "galaxy/kinds.h"
+#include "io/load/smoothing_lengths.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int neighbours = 24;
+constexpr int smallest_side = 16;  // of a picture in which a border tells what sky is
+
+void find_lengths(GalaxyParticles& particles) {
+  const Column position(nullptr, particles.position.data(), particles.position.size());
+  const Column lengths =
+      find_smoothing_lengths(position, particles.count(), std::nullopt, neighbours);
+  particles.smoothing_length.assign(lengths.data(), lengths.data() + lengths.size());
+}
+
+Vec3 vector_at(const std::vector<float>& values, std::size_t i) {
+  return {{static_cast<double>(values[3 * i]), static_cast<double>(values[3 * i + 1]),
+           static_cast<double>(values[3 * i + 2])}};
+}
+
+void find_velocities(GalaxyParticles& particles, const RotationCurve& curve) {
+  particles.velocity.resize(particles.position.size());
+  for (std::size_t i = 0; i < particles.count(); ++i) {
+    const double angular_speed =
+        curve.angular_speed(static_cast<double>(particles.orbit_radius[i])) * myr_per_kpc_s_km;
+    const Vec3 velocity = angular_speed * boost::qvm::cross(vector_at(particles.orbit_axis, i),
+                                                            vector_at(particles.position, i));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      particles.velocity[3 * i + axis] = static_cast<float>(velocity.a[axis]);
+  }
+}
+
+void check_picture(const Image& picture) {
+  if (std::min(picture.width, picture.height) >= smallest_side) return;
+  throw DataError("the picture has " + std::to_string(picture.width) + "x" +
+                  std::to_string(picture.height) + " pixels, expected at least " +
+                  std::to_string(smallest_side) + " a side to tell a galaxy from its sky");
+}
+
+}  // namespace
+
+void add_particle(GalaxyParticles& particles, const Vec3& place, const Light& color, double mass,
+                  const Vec3& orbit_axis, double orbit_radius) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    particles.position.push_back(static_cast<float>(place.a[i]));
+    particles.color.push_back(static_cast<float>(color[i]));
+    particles.orbit_axis.push_back(static_cast<float>(orbit_axis.a[i]));
+  }
+  particles.mass.push_back(static_cast<float>(mass));
+  particles.orbit_radius.push_back(static_cast<float>(orbit_radius));
+}
+
+Vec3 disk_axis(const GalaxySettings& settings) {
+  return {{0, 0, settings.turns_clockwise ? -1.0 : 1.0}};
+}
+
+Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double file_pixels) {
+  check_settings(settings);
+  check_picture(picture);
+  const LightMap map(picture, settings, file_pixels);
+  const BulgeProfile bulge(map, settings);
+  Galaxy galaxy;
+  galaxy.centre = {map.centre()[0] * file_pixels, map.centre()[1] * file_pixels};
+  galaxy.sky = mean(map.sky().level);
+  galaxy.noise = map.sky().noise;
+  galaxy.pixels_of_stars = map.pixels_of_stars();
+  galaxy.pixel_size_kpc = map.plane().pixel_size();
+  galaxy.gas = make_gas(map, bulge, settings);
+  galaxy.disk = make_disk_stars(map, bulge, settings);
+  galaxy.bulge = make_bulge(bulge, settings);
+  galaxy.clusters = make_clusters(map, settings);
+  for (GalaxyParticles* kind : {&galaxy.gas, &galaxy.disk, &galaxy.bulge, &galaxy.clusters}) {
+    find_lengths(*kind);
+    find_velocities(*kind, settings.rotation);
+  }
+  return galaxy;
+}
+
+Galaxy read_galaxy(const std::filesystem::path& path, const GalaxySettings& settings,
+                   std::optional<double> gamma) {
+  check_settings(settings);
+  const ImageFileInfo info = read_image_info(path);
+  LinearImageOptions options;
+  options.gamma = gamma;
+  options.longest_side = galaxy_picture_limit;
+  try {
+    const Image picture = read_linear_image(path, options);
+    const int longest = std::max(info.width, info.height);
+    const int square = (longest + galaxy_picture_limit - 1) / galaxy_picture_limit;
+    return make_galaxy(picture, settings, square);
+  } catch (const DataError& error) {
+    const std::string text = error.what();
+    if (text.rfind(path.string(), 0) == 0) throw;
+    throw DataError(path.string() + ": " + text);
+  }
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,130 @@
+#include "galaxy/light_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "galaxy/centre.h"
+#include "galaxy/foreground_stars.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double nucleus_fraction = 0.04;  // of the shorter side, kept from star removal
+constexpr double rim_fraction = 0.1;       // of the radius, over which the disk ends
+
+double smooth_step(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+DiskPlane::Place choose_centre(const Image& picture, const GalaxySettings& settings,
+                               double file_pixels) {
+  if (!settings.centre) return find_centre(picture);
+  const DiskPlane::Place centre = {(*settings.centre)[0] / file_pixels,
+                                   (*settings.centre)[1] / file_pixels};
+  const bool inside =
+      centre[0] >= 0 && centre[1] >= 0 && centre[0] <= picture.width && centre[1] <= picture.height;
+  if (!inside) {
+    throw UsageError("the centre " + std::to_string((*settings.centre)[0]) + "," +
+                     std::to_string((*settings.centre)[1]) +
+                     " lies outside the picture; give pixels from its left and top");
+  }
+  return centre;
+}
+
+// To the farthest corner, as it lies in the disk.
+double whole_radius(const Image& picture, const DiskPlane& plane) {
+  double radius = 0;
+  for (const double x : {0.0, static_cast<double>(picture.width)}) {
+    for (const double y : {0.0, static_cast<double>(picture.height)}) {
+      const DiskPlane::Place corner = plane.in_disk({x, y});
+      radius = std::max(radius, std::hypot(corner[0], corner[1]));
+    }
+  }
+  return radius;
+}
+
+}  // namespace
+
+LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double file_pixels)
+    : sky_(measure_sky(picture)),
+      picture_(without_sky(picture, sky_)),
+      centre_(choose_centre(picture_, settings, file_pixels)),
+      plane_(centre_, settings.inclination_degrees, settings.position_angle_degrees,
+             settings.size_kpc / std::max(picture.width, picture.height)) {
+  threshold_ = settings.threshold * sky_.noise;
+  if (settings.removes_stars) {
+    StarCriteria criteria;
+    criteria.contrast = settings.star_contrast;
+    criteria.least_light = threshold_;
+    criteria.centre_x = static_cast<int>(centre_[0]);
+    criteria.centre_y = static_cast<int>(centre_[1]);
+    criteria.protected_radius = nucleus_fraction * std::min(picture.width, picture.height);
+    pixels_of_stars_ = remove_foreground_stars(picture_, criteria);
+  }
+  radius_ = settings.radius_pixels ? *settings.radius_pixels / file_pixels * plane_.pixel_size()
+                                   : whole_radius(picture_, plane_);
+  fade(settings);
+  center_color_ = mean_light_within(std::max(settings.bulge_radius_kpc, plane_.pixel_size()));
+  if (!(total_light() > 0)) {
+    throw DataError(
+        "no pixel of the picture is brighter than its sky, expected a galaxy on a darker "
+        "background; check the picture, or lower the threshold");
+  }
+}
+
+void LightMap::fade(const GalaxySettings& settings) {
+  const double border =
+      std::max(1.0, settings.border_fade * std::min(picture_.width, picture_.height));
+  for (int y = 0; y < picture_.height; ++y) {
+    for (int x = 0; x < picture_.width; ++x) {
+      const DiskPlane::Place disk = plane_.in_disk({x + 0.5, y + 0.5});
+      const int edge = std::min({x, y, picture_.width - 1 - x, picture_.height - 1 - y});
+      // From half to one and a half thresholds: a sharp limit would show as an edge.
+      const double brightness = mean(light_at(picture_, x, y));
+      const double above = threshold_ > 0 ? brightness / threshold_ - 0.5 : 1;
+      const double kept =
+          smooth_step(above) * smooth_step((edge + 0.5) / border) *
+          smooth_step((radius_ - std::hypot(disk[0], disk[1])) / (rim_fraction * radius_));
+      float* const pixel = picture_.at(x, y);
+      for (int i = 0; i < 3; ++i)
+        pixel[i] = static_cast<float>(kept * static_cast<double>(pixel[i]));
+    }
+  }
+}
+
+Light LightMap::mean_light_within(double radius) const {
+  Light sum = {0, 0, 0};
+  int count = 0;
+  for (int y = 0; y < picture_.height; ++y) {
+    for (int x = 0; x < picture_.width; ++x) {
+      const DiskPlane::Place disk = plane_.in_disk({x + 0.5, y + 0.5});
+      if (std::hypot(disk[0], disk[1]) > radius) continue;
+      const Light light = light_at(picture_, x, y);
+      for (std::size_t i = 0; i < 3; ++i)
+        sum[i] += light[i];
+      ++count;
+    }
+  }
+  return count > 0 ? (1.0 / count) * sum : sum;
+}
+
+double LightMap::total_light() const {
+  double sum = 0;
+  for (int y = 0; y < picture_.height; ++y) {
+    for (int x = 0; x < picture_.width; ++x)
+      sum += mean(light_at(picture_, x, y));
+  }
+  return sum * plane_.area_of_pixel();
+}
+
+Light LightMap::at(const DiskPlane::Place& disk) const {
+  const DiskPlane::Place pixel = plane_.in_picture(disk);
+  const bool inside =
+      pixel[0] >= 0 && pixel[1] >= 0 && pixel[0] < picture_.width && pixel[1] < picture_.height;
+  if (!inside) return {0, 0, 0};
+  return light_at(picture_, static_cast<int>(pixel[0]), static_cast<int>(pixel[1]));
+}
+
+}  // namespace splotchcl

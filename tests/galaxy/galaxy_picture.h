@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "io/generate/random.h"
+#include "splotchcl/galaxy.h"
+
+namespace splotchcl::testing {
+
+constexpr double sky_level = 0.02, sky_noise = 0.001;
+
+// Linear light of an exponential disk around a pixel, on a noisy sky.
+struct DiskPicture {
+  int width = 160, height = 160;
+  double centre_x = 80, centre_y = 80;
+  double scale = 12;  // of the exponential, in pixels
+  double peak = 0.8;
+  double axis_ratio = 1;  // of the ellipses of equal light, longest upright
+  std::array<double, 3> color = {1, 0.9, 0.7};
+
+  Image draw() const {
+    Random random(5);
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double radius = std::hypot((x + 0.5 - centre_x) / axis_ratio, y + 0.5 - centre_y);
+        const double light = peak * std::exp(-radius / scale);
+        for (std::size_t i = 0; i < 3; ++i) {
+          image.at(x, y)[i] =
+              static_cast<float>(light * color[i] + sky_level + sky_noise * random.normal());
+        }
+        image.at(x, y)[3] = 1;
+      }
+    }
+    return image;
+  }
+};
+
+// Few particles, so that tests are fast.
+inline GalaxySettings small_settings() {
+  GalaxySettings settings;
+  settings.size_kpc = 16;  // 0.1 kpc a pixel in a picture of 160
+  settings.disk_stars = 20000;
+  settings.bulge_stars = 5000;
+  settings.clusters = 20;
+  settings.cluster_stars = 100;
+  return settings;
+}
+
+}  // namespace splotchcl::testing
