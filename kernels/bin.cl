@@ -142,13 +142,18 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
   const uint end = slots_end(p, visible, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef LIGHT_ORDERED
-    const Splat splat = splats[order[slot]];
+    const uint place = order[slot];
 #else
-    const Splat splat = splats[slot];
+    const uint place = slot;
 #endif
+    const Splat splat = splats[place];
     const Grid grid = grids[splat.component_and_grid >> 16];
     const int4 range = tile_range(splat, grid);
     if (range.x > range.y) continue;
+#ifdef EXACT_NUMBERS
+    TileSplat entry;
+    entry.slot = place;
+#else
     float emission[3], absorption[3];
     amplitudes(splat, component_colors[splat.component_and_grid & 0xffffu], knots, p, emission,
                absorption);
@@ -165,10 +170,13 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
       entry.light[c] = absorption[c];
 #endif
     }
+#endif
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
+#ifndef EXACT_NUMBERS
         entry.x = splat.x - (float)(tx * TILE_WIDTH);
         entry.y = splat.y - (float)(ty * TILE_HEIGHT);
+#endif
         const uint tile = grid.first_tile + (uint)(ty * grid.tiles_x + tx);
         entries[(size_t)starts[tile] + count[tile]++] = entry;
       }

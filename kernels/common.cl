@@ -17,6 +17,11 @@ typedef struct ResolveParameters ResolveParameters;
 // A splat in the list of one tile, positions relative to the tile's corner, amplitudes
 // at the splat's centre: LIGHT_ORDERED carries A w and E w, the sums only the one that
 // they add up.
+#ifdef EXACT_NUMBERS
+typedef struct TileSplat {
+  uint slot;  // of the exact splat (composite_exact.cl)
+} TileSplat;
+#else
 typedef struct TileSplat {
   float x, y;
   float sigma, radius;
@@ -25,6 +30,7 @@ typedef struct TileSplat {
   float emission[3];
 #endif
 } TileSplat;
+#endif
 
 inline size_t first_float(const Grid grid) {
   return (size_t)grid.first_float_low | ((size_t)grid.first_float_high << 32);

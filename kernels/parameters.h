@@ -124,6 +124,35 @@ struct BinParameters {
   float widening;
 };
 
+// A number as the sum of two floats, for the most exact mode (exact.cl).
+struct FloatPair {
+  float high, low;
+};
+
+// Constants of the exact projection of one component, beside ProjectParameters.
+struct ExactParameters {
+  float position[3][3];  // of the camera, relative to the component's origin: a sum of three
+  struct FloatPair right[3], down[3], forward[3];
+  struct FloatPair pixels_per_length, centre_x, centre_y;
+  struct FloatPair near_limit, far_limit, near_factor;
+  int has_near_limit, has_far_limit;
+  struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
+  struct FloatPair weight_scale;  // as in ProjectParameters
+  struct FloatPair color_minimum, color_inverse_range;
+  struct FloatPair intensity_minimum, intensity_inverse_range;
+  struct FloatPair brightness, absorption_factor;
+  float inverse_share;  // 1 / (light that one splat may leave out)
+};
+
+// A splat of the exact mode, in pixels of the crop, with its amplitudes at the centre.
+struct ExactSplat {
+  struct FloatPair x, y, sigma;
+  struct FloatPair light[3];     // A w; where nothing absorbs, E w
+  struct FloatPair emission[3];  // E w
+  struct FloatPair cut;          // radius of the cut disc
+  float radius;                  // drawn up to here
+};
+
 // A stretch of one tile's list, composited by one work-item or work-group.
 struct Segment {
   unsigned int tile, begin, end;

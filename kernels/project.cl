@@ -175,6 +175,16 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE x = p.centre_x + across * scale;
   const VALUE y = p.centre_y + along * scale;
 
+#ifdef EXACT_NUMBERS
+  // Only what certainly lies off the picture; exact_splat() decides. Ten sigma reach beyond
+  // the truncation of any amplitude that single precision holds.
+  const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(scale);
+  const VALUE reach = 10.0f * fabs(sigma) + 4.0f + rounding + 1e-4f * (fabs(x) + fabs(y));
+  const INTEGER off = x + reach < 0.0f | x - reach > (float)grids[0].width | y + reach < 0.0f |
+                      y - reach > (float)grids[0].height;
+  s.visible = exists & good & (off == 0);
+  return s;
+#else
   // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
   // amplitude that single precision can hold against the smallest tolerance.
   const VALUE far_reach = 7.0f * sigma + 2.0f;
@@ -229,6 +239,7 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.blue = own.z;
 #endif
   return s;
+#endif
 }
 
 #ifdef LANES_8
@@ -241,6 +252,18 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
 #define SPREAD(type, v)
 #endif
 
+// What the exact mode needs beyond that (project_exact.cl).
+#ifdef EXACT_NUMBERS
+#ifndef VECTOR_COLORS
+#define color_vectors colors
+#endif
+#define EXACT_PARAMETERS                                                          \
+  , const ExactParameters e, __global const ComponentColors *component_colors,    \
+      __global const float *knots, __global ExactSplat *exact_splats
+#else
+#define EXACT_PARAMETERS
+#endif
+
 // visible[2 b] and visible[2 b + 1] take the block's numbers of visible and bad particles.
 // With OUTPUT_SPLATS the splats are written from offsets[b] on; with OUTPUT_KEYS their
 // sort keys and identity permutation, too.
@@ -250,7 +273,7 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const uint* offsets, __global uint* visible,
                       __global Splat* splats, __global uint* keys,
-                      __global uint* order COLOR_VECTORS_PARAMETER) {
+                      __global uint* order COLOR_VECTORS_PARAMETER EXACT_PARAMETERS) {
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
@@ -266,7 +289,7 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
     }
     if (!ANY(s.visible)) continue;
     SPREAD(int, visible)
-#ifdef OUTPUT_SPLATS
+#if defined(OUTPUT_SPLATS) && !defined(EXACT_NUMBERS)
     SPREAD(float, x)
     SPREAD(float, y)
     SPREAD(float, sigma)
@@ -285,7 +308,19 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #endif
     for (uint k = 0; k < LANES; ++k) {
       if (!LANE(visible, k)) continue;
+#ifdef EXACT_NUMBERS
+      Splat found;
+      ExactSplat exact;
+      if (!exact_splat(i + k, p, e, grids, positions, smoothing_lengths, weights, colors,
+                       intensities, color_vectors, component_colors, knots, &found, &exact)) {
+        continue;
+      }
 #ifdef OUTPUT_SPLATS
+      found.component_and_grid = p.component;
+      splats[slot] = found;
+      exact_splats[slot] = exact;
+#endif
+#elif defined(OUTPUT_SPLATS)
       __global Splat* splat = splats + slot;
       splat->x = LANE(x, k);
       splat->y = LANE(y, k);

@@ -61,8 +61,23 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
   float light[4][8];
   float8 transmitted = (float8)(0.0f);
   for (int c = 0; c < 3; ++c) {
+#ifdef EXACT_NUMBERS
+    // The two parts of a sum (composite_exact.cl); in the ordered plan three more of depths.
+    __global const float* parts = pixels + (size_t)(2 * c) * grid.plane_size;
+    const float8 sum = vload8(0, parts), low = vload8(0, parts + grid.plane_size);
+#else
     const float8 sum = vload8(0, pixels + (size_t)c * grid.plane_size);
-#if defined(LIGHT_ORDERED)
+#endif
+#if defined(EXACT_NUMBERS) && defined(LIGHT_ORDERED)
+    const float8 depth = vload8(0, parts + (size_t)6 * grid.plane_size);
+    const float8 transmittance =
+        precise_exp_negative(depth, vload8(0, parts + (size_t)7 * grid.plane_size));
+    const float8 own = sum;
+#elif defined(EXACT_NUMBERS) && !defined(LIGHT_EMISSION)
+    const float8 opacity = sum * precise_phi(sum);
+    const float8 transmittance = precise_exp_negative(sum, low);
+    const float8 own = p.source[c] * opacity;
+#elif defined(LIGHT_ORDERED)
     const float8 transmittance = 1.0f - vload8(0, pixels + (size_t)(c + 3) * grid.plane_size);
     const float8 own = sum;
 #elif defined(LIGHT_EMISSION)

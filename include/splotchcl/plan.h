@@ -14,12 +14,17 @@ namespace splotchcl {
 //   ordered       anything else:    sort, then layers nearer over farther
 enum class LightPlan { emission, proportional, ordered };
 
+// What tolerance 0 promises instead, of max(1, |oracle|) (docs/accuracy.md).
+constexpr double most_exact_tolerance = 1e-6;
+
 struct Plan {
   LightPlan light = LightPlan::emission;
   std::array<double, 3> source = {1, 1, 1};  // q, for proportional
   bool needs_sort = false;
+  bool exact = false;  // tolerance 0: numbers of 45 bits, no coarse grids, no early stop
 
-  // How the tolerance is shared out (docs/accuracy.md). They add up to it.
+  // How the tolerance (most_exact_tolerance for 0) is shared out (docs/accuracy.md). They
+  // add up to it.
   double truncation_share = 0;  // of a splat's light left out by ending its disc
   double coarse_share = 0;      // coarse grids (sums only)
   double arithmetic_share = 0;  // exp, phi, single precision, early stop

@@ -35,6 +35,9 @@ enum class CompositeShape {
 struct RendererOptions {
   std::string device;  // part of a device's name, any case; empty: a GPU, else the CPU
   CompositeShape shape = CompositeShape::automatic;
+  // Tolerance 0 computes in double precision where the device has it, else, or if this is
+  // false, in pairs of floats: slower, with the same bounds.
+  bool use_double = true;
 };
 
 struct StageTime {

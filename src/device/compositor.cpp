@@ -9,12 +9,19 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
   parameters_.phi_short = layout.phi_short;
   parameters_.phi_series = layout.phi_series;
   parameters_.opaque = layout.opaque;
+  planes_ = device.buffers.get("planes", 4 * layout.plane_floats);
   const std::string defines = kernel_defines(frame, plan, layout);
+  if (layout.exact_numbers) {
+    program_ =
+        device.programs.get(defines + exact_number_defines(device.traits) + "#define LANES_8\n",
+                            {"common.cl", "lanes.cl", "precise.cl", "exact.cl", "exact_lanes.cl",
+                             "composite_exact.cl"});
+    return;
+  }
   program_ = device.programs.get(
       defines + (rows ? "#define LANES_8\n" : ""),
       {"common.cl", "lanes.cl", "shape.cl", rows ? "composite_rows.cl" : "composite_groups.cl"});
   join_program_ = device.programs.get(defines, {"common.cl", "join.cl"});
-  planes_ = device.buffers.get("planes", 4 * layout.plane_floats);
 }
 
 void Compositor::clear() {
@@ -38,12 +45,27 @@ void Compositor::composite(const TileLists& lists) {
       .arg(lists.entries)
       .arg(planes_)
       .arg(partials);
-  if (rows_) {
+  const std::size_t tile_pixels = std::size_t{layout_.tile_width} * layout_.tile_height;
+  if (layout_.exact_numbers) {
+    launch.arg(device_.buffers.get("exact splats", 0))
+        .run_groups(lists.segment_count, tile_pixels / 8);
+  } else if (rows_) {
     launch.run_items(lists.segment_count);
   } else {
-    launch.run_groups(lists.segment_count, std::size_t{layout_.tile_width} * layout_.tile_height);
+    launch.run_groups(lists.segment_count, tile_pixels);
   }
   if (lists.partial_count == 0) return;
+  if (layout_.exact_numbers) {
+    Launch(device_, "composite", program_.create_kernel("join_exact"))
+        .value(parameters_.grid_count)
+        .arg(grids_)
+        .arg(lists.segments)
+        .arg(lists.totals)
+        .arg(planes_)
+        .arg(partials)
+        .run_groups(lists.segment_count, tile_pixels / 8);
+    return;
+  }
   Launch(device_, "composite", join_program_.create_kernel("join"))
       .value(parameters_.grid_count)
       .arg(grids_)

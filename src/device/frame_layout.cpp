@@ -41,7 +41,7 @@ void append_grid(FrameLayout& layout, int width, int height, int guard) {
 }
 
 bool may_use_coarse_grids(const Plan& plan) {
-  return plan.light != LightPlan::ordered && plan.coarse_share > 0;
+  return plan.coarse_share > 0;
 }
 
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
@@ -141,9 +141,16 @@ std::size_t splat_bytes(const FrameLayout& layout) {
 
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
-  layout.tile_width = rows ? (plan.light == LightPlan::ordered ? 32 : 64) : 16;
-  layout.tile_height = rows ? 32 : 16;
+  layout.exact_numbers = plan.exact;
+  layout.tile_width = 16;
+  layout.tile_height = 16;
+  if (rows && !plan.exact) {
+    layout.tile_width = plan.light == LightPlan::ordered ? 32 : 64;
+    layout.tile_height = 32;
+  }
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
+  // A high and a low part of each.
+  if (plan.exact) layout.planes *= 2;
   layout.vector_colors =
       std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
   append_grid(layout, frame.crop.width, frame.crop.height, 0);
@@ -157,10 +164,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   }
 
   const double picture_error = response(frame);
-  // Tolerance 0 asks for the most that single precision gives.
-  const double smallest = 1e-7;
-  const double arithmetic = std::max(plan.arithmetic_share, smallest);
-  const double truncation = std::max(plan.truncation_share, smallest);
+  const double arithmetic = plan.arithmetic_share;
+  const double truncation = plan.truncation_share;
   layout.exact = frame.tolerance < 3e-4;
   // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
   layout.builtin_erf = frame.tolerance < 3e-5;
@@ -187,7 +192,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));
   layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * 0.25 * arithmetic, 0.25)));
-  layout.opaque = opaque_limit(frame, 0.25 * plan.arithmetic_share);
+  layout.opaque = opaque_limit(frame, plan.exact ? 0 : 0.25 * plan.arithmetic_share);
   return layout;
 }
 
@@ -201,6 +206,7 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (frame.kernel.cut) define("KERNEL_CUT");
   if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
   if (layout.vector_colors) define("VECTOR_COLORS");
+  if (layout.exact_numbers) define("EXACT_NUMBERS");
   if (layout.exact) define("EXACT");
   if (layout.builtin_erf) define("BUILTIN_ERF");
   std::ostringstream weights;

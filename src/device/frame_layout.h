@@ -31,6 +31,7 @@ struct FrameLayout {
   float inverse_edge = 0;               // 1 / (value at which a splat may end)
   float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;
+  bool exact_numbers = false;  // tolerance 0: kernels of exact.cl
   bool vector_colors = false;  // some particles have colours of their own
   bool exact = false;          // polynomials of full single precision
   bool builtin_erf = false;    // for tolerances that the polynomial cannot hold

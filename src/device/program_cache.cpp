@@ -19,13 +19,14 @@ std::string kernel_text(const std::string& name) {
 
 compute::program ProgramCache::get(const std::string& defines,
                                    const std::vector<std::string>& files,
-                                   const std::string& options) {
+                                   const std::string& options, const std::string& more) {
   std::string source = defines + kernel_text("parameters.h");
   std::string names;
   for (const std::string& file : files) {
     source += kernel_text(file);
     names += (names.empty() ? "" : " + ") + file;
   }
+  source += more;
   const compute::device device = context_.get_device();
   const std::string key =
       device.name() + '\n' + device.driver_version() + '\n' + options + '\n' + source;

@@ -16,9 +16,10 @@ class ProgramCache {
   explicit ProgramCache(const compute::context& context) : context_(context) {}
 
   // `files` are names in kernels/, put together in order after parameters.h and the
-  // lines of `defines`. Throws DeviceError with the compiler's first message.
+  // lines of `defines`; `more` source comes after them. Throws DeviceError with the compiler's
+  // first message.
   compute::program get(const std::string& defines, const std::vector<std::string>& files,
-                       const std::string& options = "");
+                       const std::string& options = "", const std::string& more = "");
 
   double build_seconds() const { return build_seconds_; }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "device/exact_parameters.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -150,9 +151,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.widening = layout_.widening;
   p.mean_sigma = layout_.mean_sigma;
 
-  // A power of two near the scene's size keeps sigma^2 inside single precision, whether
-  // lengths are in centimetres or in megaparsecs.
-  const double length_scale = std::exp2(-std::round(std::log2(frame_.camera.look_at_distance)));
+  const double length_scale = splotchcl::length_scale(frame_);
   p.length_scale = static_cast<float>(length_scale);
   switch (component.weight) {
     case WeightModel::mass:
@@ -197,8 +196,20 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
 
 compute::program Projector::program(const std::string& outputs) const {
   std::string defines = device_.traits.rows ? "#define LANES_8\n" : "";
+  if (layout_.exact_numbers) {
+    defines += kernel_defines(frame_, make_plan(frame_), layout_);
+    defines += exact_number_defines(device_.traits);
+    return device_.programs.get(
+        defines + outputs, {"common.cl", "lanes.cl", "exact.cl", "project_exact.cl", "project.cl"});
+  }
   if (layout_.vector_colors) defines += "#define VECTOR_COLORS\n";
   return device_.programs.get(defines + outputs, {"common.cl", "lanes.cl", "project.cl"});
+}
+
+void Projector::make_room(std::uint64_t splats) {
+  device_.buffers.get("splats", splats * splat_bytes(layout_));
+  if (layout_.exact_numbers)
+    device_.buffers.get("exact splats", splats * sizeof(kernel::ExactSplat));
 }
 
 void Projector::launch(const compute::program& program, const kernel::ProjectParameters& parameters,
@@ -220,6 +231,12 @@ void Projector::launch(const compute::program& program, const kernel::ProjectPar
       .arg(buffers.get("keys", 0))
       .arg(buffers.get("order", 0));
   if (layout_.vector_colors) launch.arg(particles.color_vector);
+  if (layout_.exact_numbers) {
+    launch.value(make_exact_parameters(frame_, frame_.components[parameters.component]))
+        .arg(buffers.get("component colours", 0))
+        .arg(buffers.get("palette knots", 0))
+        .arg(buffers.get("exact splats", 0));
+  }
   launch.run_items(block_count);
 }
 
@@ -239,7 +256,7 @@ SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint3
     offsets[b] = b * blocks.stride;
   Buffers& buffers = device_.buffers;
   const compute::buffer visible = buffers.get("visible", 8ull * blocks.block_count);
-  buffers.get("splats", std::uint64_t{blocks.block_count} * blocks.stride * splat_bytes(layout_));
+  make_room(std::uint64_t{blocks.block_count} * blocks.stride);
   launch(compiled, parameters, particles, buffers.upload("offsets", offsets), visible,
          blocks.block_count);
   return blocks;
@@ -291,7 +308,7 @@ std::uint32_t Projector::project_all(const std::vector<DrawnComponent>& componen
       .run_items(1);
   std::uint32_t splat_count = 0;
   device_.queue.enqueue_read_buffer(offsets, 4ull * block_count, sizeof(splat_count), &splat_count);
-  buffers.get("splats", std::uint64_t{splat_count} * splat_bytes(layout_));
+  make_room(splat_count);
   buffers.get("keys", 4ull * splat_count);
   buffers.get("order", 4ull * splat_count);
   pass("#define OUTPUT_SPLATS\n#define OUTPUT_KEYS\n");

@@ -45,6 +45,7 @@ class Projector {
   kernel::ProjectParameters parameters_for(const DrawnComponent& component,
                                            std::uint32_t component_index,
                                            const ParticleBuffers& particles) const;
+  void make_room(std::uint64_t splats);
   void launch(const compute::program& program, const kernel::ProjectParameters& parameters,
               const ParticleBuffers& particles, const compute::buffer& offsets,
               const compute::buffer& visible, std::uint32_t block_count);

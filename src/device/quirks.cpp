@@ -2,10 +2,15 @@
 
 namespace splotchcl {
 
+std::string exact_number_defines(const DeviceTraits& traits) {
+  return traits.double_numbers ? "#define DOUBLE_NUMBERS\n" : "";
+}
+
 DeviceTraits traits_of(const compute::device& device) {
   DeviceTraits traits;
   traits.is_gpu = (device.type() & CL_DEVICE_TYPE_GPU) != 0;
   traits.shares_host_memory = device.get_info<cl_bool>(CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
+  traits.double_numbers = device.supports_extension("cl_khr_fp64");
   if (traits.is_gpu) {
     traits.rows = false;
     traits.project_block = 256;

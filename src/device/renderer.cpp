@@ -49,6 +49,7 @@ struct Renderer::State {
       : device(choose_device(options.device)), particles(device) {
     rows = options.shape == CompositeShape::automatic ? device.traits.rows
                                                       : options.shape == CompositeShape::rows;
+    device.traits.double_numbers &= options.use_double;
   }
 
   Image render(const Frame& frame);

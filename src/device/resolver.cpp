@@ -21,7 +21,7 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
     parameters_.background[c] = static_cast<float>(frame.background[c]);
   }
   program_ = device.programs.get(kernel_defines(frame, plan, layout) + "#define LANES_8\n",
-                                 {"common.cl", "lanes.cl", "shape.cl", "resolve.cl"});
+                                 {"common.cl", "lanes.cl", "shape.cl", "precise.cl", "resolve.cl"});
 }
 
 // From the coarsest grid to the picture's own, each added to the next finer one.

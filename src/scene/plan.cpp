@@ -46,9 +46,16 @@ Plan make_plan(const Frame& frame) {
   Plan plan;
   choose_light(frame, plan);
   plan.needs_sort = plan.light == LightPlan::ordered;
-  plan.truncation_share = 0.5 * frame.tolerance;
-  plan.coarse_share = plan.needs_sort ? 0 : 0.25 * frame.tolerance;
-  plan.arithmetic_share = frame.tolerance - plan.truncation_share - plan.coarse_share;
+  plan.exact = frame.tolerance == 0;
+  const double tolerance = plan.exact ? most_exact_tolerance : frame.tolerance;
+  if (plan.exact) {
+    // Farther discs cost little; single precision's last digits cannot be had back.
+    plan.truncation_share = 0.01 * tolerance;
+  } else {
+    plan.truncation_share = 0.5 * tolerance;
+    plan.coarse_share = plan.needs_sort ? 0 : 0.25 * tolerance;
+  }
+  plan.arithmetic_share = tolerance - plan.truncation_share - plan.coarse_share;
   return plan;
 }
 

@@ -213,6 +213,7 @@ std::vector<HardCase> data_cases() {
        {LightPlan::emission, LightPlan::ordered},
        one_pixel_everywhere,
        false,
+       false,
        false},
       {"BadValuesInEveryField", "one not-a-number that is drawn spoils every pixel", bad_values},
       {"ManyComponents", "colours and offsets of each must be its own", many_components},

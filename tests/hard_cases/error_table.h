@@ -28,8 +28,8 @@ class ErrorTable {
 
   void print(std::ostream& out) const {
     out << "\nlargest |frame - exact| / max(1, |exact|) of each hard case\n"
-        << std::left << std::setw(34) << "case" << std::setw(14) << "plan" << std::setw(8)
-        << "shape" << std::right << std::setw(9) << "error" << std::setw(9) << "bound"
+        << std::left << std::setw(34) << "case" << std::setw(14) << "plan" << std::setw(8) << "way"
+        << std::right << std::setw(9) << "error" << std::setw(9) << "bound"
         << "\n";
     for (const std::string& row : rows_)
       out << row << "\n";

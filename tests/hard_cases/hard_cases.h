@@ -31,6 +31,7 @@ struct HardCase {
   };
   bool dark = false;       // nothing to see: a black picture is right
   bool groups_too = true;  // false: too slow on a processor in the shape made for GPUs
+  bool exact_too = true;   // false: too slow in the most exact mode
   std::vector<KnownLimit> limits = {};
 };
 

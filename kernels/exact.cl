@@ -1,0 +1,172 @@
+// Numbers of at least 45 bits for the most exact mode (tolerance 0): the device's double
+// precision where it has one (DOUBLE_NUMBERS), else a pair of floats whose sum is the
+// number, the second at most half a unit in the last place of the first. What follows needs
+// no more than the pairs give, so both have the same bounds (docs/accuracy.md). In memory
+// numbers are pairs always.
+
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef struct FloatPair FloatPair;
+typedef struct ExactParameters ExactParameters;
+typedef struct ExactSplat ExactSplat;
+
+#ifdef DOUBLE_NUMBERS
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double Exact;
+
+inline Exact exact_of(float a) { return (double)a; }
+inline Exact exact_pair(FloatPair a) { return (double)a.high + (double)a.low; }
+inline float high_part(Exact a) { return (float)a; }
+inline float low_part(Exact a) { return (float)(a - (double)(float)a); }
+inline Exact exact_negative(Exact a) { return -a; }
+inline Exact exact_sum(Exact a, Exact b) { return a + b; }
+inline Exact exact_product(Exact a, Exact b) { return a * b; }
+inline Exact exact_scaled(Exact a, float power_of_two) { return a * (double)power_of_two; }
+inline Exact exact_quotient(Exact a, Exact b) { return a / b; }
+inline Exact exact_root(Exact a) { return sqrt(a); }
+inline int exact_less(Exact a, Exact b) { return a < b; }
+#else
+typedef float2 Exact;
+
+inline Exact exact_of(float a) { return (float2)(a, 0.0f); }
+inline Exact exact_pair(FloatPair a) { return (float2)(a.high, a.low); }
+inline float high_part(Exact a) { return a.x; }
+inline float low_part(Exact a) { return a.y; }
+inline Exact exact_negative(Exact a) { return -a; }
+
+// a + b where |a| >= |b| or a = 0. An infinite sum has no low part.
+inline Exact renormalised(float a, float b) {
+  const float sum = a + b;
+  const float low = b - (sum - a);
+  return (float2)(sum, isfinite(sum) ? low : 0.0f);
+}
+inline float2 exact_float_sum(float a, float b) {
+  const float sum = a + b;
+  const float back = sum - a;
+  return (float2)(sum, (a - (sum - back)) + (b - back));
+}
+inline Exact exact_sum(Exact a, Exact b) {
+  const float2 high = exact_float_sum(a.x, b.x);
+  const float2 low = exact_float_sum(a.y, b.y);
+  const float2 first = renormalised(high.x, high.y + low.x);
+  return renormalised(first.x, first.y + low.y);
+}
+inline Exact exact_product(Exact a, Exact b) {
+  const float high = a.x * b.x;
+  const float low = fma(a.x, b.x, -high) + (a.x * b.y + a.y * b.x);
+  return renormalised(high, low);
+}
+inline Exact exact_scaled(Exact a, float power_of_two) { return a * power_of_two; }
+inline Exact exact_quotient(Exact a, Exact b) {
+  const float first = a.x / b.x;
+  const Exact rest = exact_sum(a, exact_negative(exact_product(b, exact_of(first))));
+  const float second = rest.x / b.x;
+  return isfinite(first) ? renormalised(first, second) : exact_of(first);
+}
+inline Exact exact_root(Exact a) {
+  if (!(a.x > 0.0f)) return exact_of(0.0f);
+  const float root = sqrt(a.x);
+  const Exact rest = exact_sum(a, exact_negative(exact_product(exact_of(root), exact_of(root))));
+  return renormalised(root, rest.x / (2.0f * root));
+}
+inline int exact_less(Exact a, Exact b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+#endif
+
+inline FloatPair pair_of(Exact a) {
+  FloatPair pair;
+  pair.high = high_part(a);
+  pair.low = low_part(a);
+  return pair;
+}
+inline Exact exact_constant(float high, float low) {
+  FloatPair pair;
+  pair.high = high;
+  pair.low = low;
+  return exact_pair(pair);
+}
+inline Exact exact_difference(Exact a, Exact b) { return exact_sum(a, exact_negative(b)); }
+inline int is_negative(Exact a) { return high_part(a) < 0.0f; }
+inline Exact exact_magnitude(Exact a) { return is_negative(a) ? exact_negative(a) : a; }
+
+// 2^n for -126 <= n <= 127.
+inline float power_of_two(int n) { return as_float((n + 127) << 23); }
+
+// exp(t) for t <= 80, relative error 3e-9; 0 below -86, where single precision ends.
+inline Exact exact_exp(Exact t) {
+  if (!(high_part(t) > -86.0f)) return exact_of(0.0f);
+  const float n = rint(high_part(t) * 1.44269504f);
+  const Exact ln2 = exact_constant(6.931471825e-01f, -1.904654212e-09f);
+  const Exact r = exact_sum(t, exact_product(exact_of(-n), ln2));
+  const float f = high_part(r);
+  // The terms from r^3 on are small enough for single precision, |r| <= 0.35.
+  float tail = f * 2.75573192e-6f + 2.48015873e-5f;
+  tail = tail * f + 1.98412698e-4f;
+  tail = tail * f + 1.38888889e-3f;
+  tail = tail * f + 8.33333333e-3f;
+  tail = tail * f + 4.16666667e-2f;
+  tail = tail * f + 1.66666667e-1f;
+  tail = tail * f * f * f;
+  const Exact square = exact_scaled(exact_product(r, r), 0.5f);
+  const Exact sum = exact_sum(exact_of(1.0f), exact_sum(r, exact_sum(square, exact_of(tail))));
+  return exact_scaled(sum, power_of_two((int)n));
+}
+
+// erfc(x) for x >= 0, relative error 5e-9; 0 from 9.2 on, where exp(-x^2) ends above. As
+// (1 + 2 x) exp(x^2) erfc(x), a smooth function of x / (x + 3): Chebyshev polynomial of
+// degree 14 over [0, 12].
+inline Exact exact_erfc(Exact x) {
+  if (!(high_part(x) < 9.2f)) return exact_of(0.0f);
+  const Exact place = exact_quotient(x, exact_sum(x, exact_of(3.0f)));
+  const Exact z = exact_difference(exact_product(place, exact_of(2.5f)), exact_of(1.0f));
+  const float f = high_part(z);
+  float tail = f * -2.041410454e-07f - 3.219571738e-07f;
+  tail = tail * f + 2.862102292e-06f;
+  tail = tail * f + 5.002209036e-06f;
+  tail = tail * f - 3.482328248e-05f;
+  tail = tail * f - 4.348198490e-05f;
+  tail = tail * f + 4.948288552e-04f;
+  Exact p = exact_of(tail);
+  p = exact_sum(exact_product(p, z), exact_constant(-3.045031917e-04f, -5.610564097e-12f));
+  p = exact_sum(exact_product(p, z), exact_constant(-6.481598131e-03f, -1.143227735e-10f));
+  p = exact_sum(exact_product(p, z), exact_constant(3.210152313e-02f, -1.082891110e-09f));
+  p = exact_sum(exact_product(p, z), exact_constant(-8.286666125e-02f, -5.373627654e-10f));
+  p = exact_sum(exact_product(p, z), exact_constant(1.312227398e-01f, -5.444477313e-09f));
+  p = exact_sum(exact_product(p, z), exact_constant(-1.024150252e-01f, 2.890789386e-09f));
+  p = exact_sum(exact_product(p, z), exact_constant(-7.730318606e-02f, -2.746548988e-09f));
+  p = exact_sum(exact_product(p, z), exact_constant(1.276978374e+00f, 8.024336751e-09f));
+  const Exact scale = exact_sum(exact_of(1.0f), exact_scaled(x, 2.0f));
+  return exact_quotient(exact_product(p, exact_exp(exact_negative(exact_product(x, x)))), scale);
+}
+
+// ln(x) of a positive, finite number, absolute error 3e-9: one step of Newton's from single
+// precision.
+inline Exact exact_log(Exact x) {
+  // Denormals and numbers near the largest stay inside exp's range.
+  const float size = high_part(x);
+  const int tiny = size < 1e-20f, huge = size > 1e20f;
+  const Exact middle = exact_scaled(x, tiny ? 0x1p84f : huge ? 0x1p-64f : 1.0f);
+  const Exact guess = exact_of(log(high_part(middle)));
+  const Exact ratio = exact_product(middle, exact_exp(exact_negative(guess)));
+  const Exact ln2 = exact_constant(6.931471825e-01f, -1.904654212e-09f);
+  const Exact moved = exact_product(ln2, exact_of(tiny ? -84.0f : huge ? 64.0f : 0.0f));
+  return exact_sum(moved, exact_sum(guess, exact_difference(ratio, exact_of(1.0f))));
+}
+
+// asinh(v), absolute error 3e-9, relative 1e-7 or better near 0.
+inline Exact exact_asinh(float v) {
+  const float size = fabs(v);
+  const Exact a = exact_of(size);
+  Exact result;
+  if (size < 0.02f) {
+    // v - v^3 / 6 + 3 v^5 / 40
+    const float square = size * size;
+    result = exact_sum(a, exact_of(size * square * (-0.166666667f + 0.075f * square)));
+  } else if (size > 1e6f) {
+    // ln(2 v) + 1 / (4 v^2)
+    result = exact_sum(exact_log(a), exact_constant(6.931471825e-01f, -1.904654212e-09f));
+  } else {
+    const Exact root = exact_root(exact_sum(exact_product(a, a), exact_of(1.0f)));
+    result = exact_log(exact_sum(a, root));
+  }
+  return v < 0.0f ? exact_negative(result) : result;
+}
