@@ -90,7 +90,7 @@ inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
     return raw * p.weight_scale / sigma_scaled * p.weight_scale / sigma_scaled;
   }
   if (p.weight_model == WEIGHT_DENSITY) return raw * p.weight_scale * sigma_scaled;
-  return p.weight_scale / (h * p.length_scale);
+  return raw * p.weight_scale / (h * p.length_scale);
 }
 
 // How many sigma a splat is drawn (docs/accuracy.md): at least so far that the light

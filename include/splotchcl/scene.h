@@ -11,6 +11,7 @@
 #include "splotchcl/particles.h"
 #include "splotchcl/path.h"
 #include "splotchcl/selection.h"
+#include "splotchcl/sequence.h"
 
 namespace splotchcl {
 
@@ -108,7 +109,8 @@ struct ImageSettings {
 
 // What a scene file says. Nothing in it depends on the data yet.
 struct Scene {
-  std::string snapshot;
+  std::string snapshot;   // empty with a sequence
+  SequenceSettings time;  // a sequence of snapshots instead of one
   ImageSettings image;
   std::optional<Camera> camera;  // unset: chosen from the data
   KernelSettings kernel;

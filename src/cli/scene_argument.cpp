@@ -44,7 +44,7 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
   SceneWithSnapshot result;
   if (ending == ".toml" || begins_like_text(path)) {
     result.scene = read_scene_file(path, settings);
-    result.snapshot = open_snapshot(result.scene.snapshot);
+    result.snapshot = SnapshotSource().at(result.scene);
   } else {
     result.snapshot = open_snapshot(path);
     result.scene = apply_settings(suggest_scene(*result.snapshot), settings);

@@ -12,7 +12,7 @@ namespace splotchcl::cli {
 
 struct SceneWithSnapshot {
   Scene scene;
-  std::unique_ptr<Snapshot> snapshot;  // opened; no particle has been read
+  std::shared_ptr<const Snapshot> snapshot;  // opened; no particle has been read
 };
 
 // `path` is a scene file, or a snapshot for which a scene is chosen; `settings` override

@@ -7,8 +7,8 @@
 namespace splotchcl {
 
 // w, the column of matter through a particle's centre, before intensity and colour:
-// see WeightModel. `value` is the particle's mass or density, sigma its width; lengths
-// are the snapshot's.
+// see WeightModel. `value` is the particle's mass or density, or with a constant weight a
+// factor, sigma its width; lengths are the snapshot's.
 inline double central_column(WeightModel model, double value, double h, double sigma) {
   constexpr double pi = 3.14159265358979323846;
   switch (model) {
@@ -17,7 +17,7 @@ inline double central_column(WeightModel model, double value, double h, double s
     case WeightModel::density:
       return value * sigma * std::sqrt(pi);
     case WeightModel::constant:
-      return 1 / h;
+      return value / h;
   }
   return 0;
 }

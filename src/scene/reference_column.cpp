@@ -152,8 +152,9 @@ std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& fram
   cloud.x = coarse_pixels * frame.camera.centre_x + scale * dot(from_camera, frame.camera.right);
   cloud.y = coarse_pixels * frame.camera.centre_y + scale * dot(from_camera, frame.camera.down);
   cloud.sigma = scale * sigma;
-  cloud.column =
-      central_column(component.weight, static_cast<double>(particles.weight[i]), h, sigma);
+  const double weight =
+      particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
+  cloud.column = central_column(component.weight, weight, h, sigma);
   if (!particles.intensity.is_absent()) {
     cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);
   }

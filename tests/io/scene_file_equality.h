@@ -105,6 +105,16 @@ inline void expect_same(const PathSettings& a, const PathSettings& b) {
   }
   EXPECT_EQ(a.is_smooth, b.is_smooth);
   EXPECT_EQ(a.look, b.look);
+inline void expect_same(const SequenceSettings& a, const SequenceSettings& b) {
+  EXPECT_EQ(a.snapshots, b.snapshots);
+  EXPECT_EQ(a.pattern, b.pattern);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.last, b.last);
+  EXPECT_EQ(a.index, b.index);
+  EXPECT_EQ(a.interpolation, b.interpolation);
+  EXPECT_EQ(a.omega_matter, b.omega_matter);
+  EXPECT_EQ(a.omega_lambda, b.omega_lambda);
+  EXPECT_EQ(a.hubble_rate, b.hubble_rate);
 }
 
 inline void expect_same(const Scene& a, const Scene& b) {
@@ -128,6 +138,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.movie.frames_per_second, b.movie.frames_per_second);
   EXPECT_EQ(a.movie.codec, b.movie.codec);
   EXPECT_EQ(a.movie.rate_factor, b.movie.rate_factor);
+  expect_same(a.time, b.time);
   ASSERT_EQ(a.components.size(), b.components.size());
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     expect_same(a.components[i], b.components[i]);

@@ -18,7 +18,11 @@ class RandomScenes {
 
   Scene next() {
     Scene scene;
-    if (coin()) scene.snapshot = word();
+    if (coin()) {
+      scene.snapshot = word();
+    } else if (coin()) {
+      scene.time = time();
+    }
     scene.tolerance = unit();
     scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma()};
     if (coin()) scene.camera = camera();
@@ -121,6 +125,25 @@ class RandomScenes {
     path.is_smooth = coin();
     path.look = coin() ? PathSettings::Look::point : PathSettings::Look::direction;
     return path;
+  }
+
+  SequenceSettings time() {
+    SequenceSettings time;
+    if (coin()) {
+      const int count = integer(1, 3);
+      for (int i = 0; i < count; ++i)
+        time.snapshots.push_back(word());
+    } else {
+      time.pattern = "a%03d" + std::string(coin() ? "b%%" : "");
+      if (coin()) time.first = integer(0, 99);
+      if (coin()) time.last = integer(99, 999);
+    }
+    time.index = any();
+    time.interpolation = static_cast<Interpolation>(integer(0, 2));
+    time.omega_matter = maybe(unit());
+    time.omega_lambda = maybe(any());
+    time.hubble_rate = maybe(positive());
+    return time;
   }
 
   FieldMap field_map() {

@@ -92,6 +92,16 @@ void load_weight(const Component& component, const ComponentFields& fields, Draw
   }
 }
 
+// Particles that vanish or appear between two snapshots are but partly there.
+void apply_fade(const ComponentFields& fields, Particles& particles) {
+  const Column fade = fields.fade();
+  if (fade.is_absent()) return;
+  std::vector<float> faded(particles.count);
+  for (std::size_t i = 0; i < faded.size(); ++i)
+    faded[i] = fade[i] * (particles.weight.is_absent() ? 1 : particles.weight[i]);
+  particles.weight = Column::owning(std::move(faded));
+}
+
 void check_factor(double value, const ComponentFields& fields, const char* key) {
   if (!(value > 0) || !std::isfinite(value)) {
     throw UsageError(
@@ -138,6 +148,7 @@ DrawnComponent load_component(const Component& component, const Scene& scene,
   particles.position = fields.positions();
   particles.smoothing_length = fields.smoothing_lengths();
   load_weight(component, fields, drawn);
+  apply_fade(fields, particles);
   if (!component.color.field.empty()) {
     particles.color = fields.scalars(component.color.field, "color.field");
     drawn.color = decide_map(component.color, particles.color, fields, "color");

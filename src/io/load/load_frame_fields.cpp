@@ -159,6 +159,19 @@ Column ComponentFields::masses() const {
   return collected("mass", [](const TypeFields& type) { return type.masses(); });
 }
 
+Column ComponentFields::fade() const {
+  std::vector<Column> columns;
+  bool some_fade = false;
+  for (const auto* type : types_) {
+    const FieldInfo* const field = find_field(*type, fade_field);
+    // A file may have a field of that name, which means something else.
+    const bool fades = field != nullptr && field->file_name.empty();
+    columns.push_back(fades ? snapshot_.read(type->type, fade_field) : Column::uniform(1));
+    some_fade = some_fade || fades;
+  }
+  return some_fade ? joined(columns, types_) : Column();
+}
+
 Column ComponentFields::smoothing_lengths() const {
   if (component_.size_fixed) return Column::uniform(static_cast<float>(*component_.size_fixed));
   if (canonical_field_name(component_.size_field) == "smoothing_length") {

@@ -40,6 +40,8 @@ class ComponentFields {
   Column vectors(const std::string& field, const std::string& key) const;
   bool masses_are_known() const;
   Column masses() const;
+  // How much of each particle is there, 0 to 1; absent: all of each.
+  Column fade() const;
   // h as the scene says, before the placement's scale: a fixed size, a field of the file,
   // or, for "smoothing_length" where the file has none, found from the particles themselves.
   Column smoothing_lengths() const;

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <limits>
 #include <nanoflann.hpp>
-#include <system_error>
-#include <thread>
 #include <vector>
 
+#include "io/common/for_blocks.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -184,47 +181,6 @@ class NeighbourSearch {
   std::vector<Shift> shifts_;
 };
 
-// Calls work(first, last) for blocks of [0, count) on all cores; `progress` on this thread.
-void for_blocks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work,
-                const Progress& progress) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<std::size_t> done{0};
-  const std::size_t threads = std::min<std::size_t>(
-      std::max(1U, std::thread::hardware_concurrency()), (count + block_size - 1) / block_size);
-  std::vector<std::exception_ptr> errors(std::max<std::size_t>(threads, 1));
-  const auto run = [&](std::size_t thread) {
-    try {
-      for (std::size_t first = next.fetch_add(block_size); first < count;
-           first = next.fetch_add(block_size)) {
-        const std::size_t last = std::min(first + block_size, count);
-        work(first, last);
-        done += last - first;
-        if (thread == 0 && progress) {
-          progress(static_cast<double>(done.load()) / static_cast<double>(count));
-        }
-      }
-    } catch (...) {
-      errors[thread] = std::current_exception();
-      next = count;  // the others need not go on
-    }
-  };
-  std::vector<std::thread> others;
-  others.reserve(threads);
-  try {
-    for (std::size_t thread = 1; thread < threads; ++thread)
-      others.emplace_back(run, thread);
-  } catch (const std::system_error&) {
-    // A limit on threads: fewer do the same.
-  }
-  run(0);
-  for (std::thread& other : others)
-    other.join();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-  if (progress) progress(1);
-}
-
 // Lengths of zero, of particles that coincide with all their neighbours, become `fallback`
 // or the smallest length of another particle.
 void replace_zeros(std::vector<float>& lengths, double fallback) {
@@ -261,7 +217,7 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
   const NeighbourSearch search(cloud, periodic_box);
   const std::size_t k = std::min(static_cast<std::size_t>(neighbours), points - 1);
   for_blocks(
-      points,
+      points, block_size,
       [&](std::size_t first, std::size_t last) {
         NearestDistances nearest(k);
         for (std::size_t i = first; i < last; ++i) {

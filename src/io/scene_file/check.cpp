@@ -53,6 +53,33 @@ void check_sort(const SortOrder& sort, const Origins& origins) {
   }
 }
 
+void check_time(const Scene& scene, const Origins& origins) {
+  const SequenceSettings& time = scene.time;
+  if (!time.is_set()) {
+    for (const char* label : {"time.first", "time.last", "time.index", "time.interpolation",
+                              "time.omega_matter", "time.omega_lambda", "time.hubble_rate"}) {
+      if (!origins.contains(label)) continue;
+      refuse(origins.at(label), label, "a value without a sequence", "time.snapshots as well");
+    }
+    return;
+  }
+  if (!scene.snapshot.empty()) {
+    refuse(origins.at("time.snapshots"), "time.snapshots", "it beside snapshot",
+           "only one of the two");
+  }
+  if (time.pattern.empty()) {
+    for (const char* label : {"time.first", "time.last"}) {
+      if (!origins.contains(label)) continue;
+      refuse(origins.at(label), label, "a number beside a list of snapshots",
+             "a pattern such as \"snapshot_%03d\" in time.snapshots");
+    }
+  }
+  if (time.first && time.last && *time.first > *time.last) {
+    refuse(origins.at("time.first"), "time.first", std::to_string(*time.first),
+           fmt::format("at most time.last, which is {}", *time.last));
+  }
+}
+
 void check_name(const std::string& name, const std::string& label, const Origins& origins) {
   const bool is_number = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -166,6 +193,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   if (scene.camera) check_camera(scene, origins);
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
+  check_time(scene, origins);
   check_components(scene, origins);
 }
 

@@ -53,11 +53,11 @@ std::string format_scene(const Scene& scene) {
   const std::string name = "the scene to write";
   scene_file::check_scene(scene, {name, {}});
   std::string text = format_table("", scene, 0);
-  for (const std::string table : {"image", "camera", "kernel", "sort", "path", "movie"}) {
+  for (const std::string table : {"image", "camera", "kernel", "sort", "time", "path", "movie"}) {
     if (table == "camera" && !scene.camera) continue;
     const std::string lines = format_table(table, scene, 0);
     // What most scenes have nothing of.
-    const bool is_for_some = table == "path" || table == "movie";
+    const bool is_for_some = table == "time" || table == "path" || table == "movie";
     if (is_for_some && lines == format_table(table, {}, 0)) continue;
     text += fmt::format("\n[{}]\n{}", table, lines);
   }

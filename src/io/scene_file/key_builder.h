@@ -19,6 +19,7 @@ Keys component_keys();
 Keys path_keys();
 Keys movie_keys();
 Keys particle_keys();  // of components, too
+Keys time_keys();
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -70,6 +71,8 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.path;
   } else if constexpr (std::is_same_v<Part, MovieSettings>) {
     return scene.movie;
+  } else if constexpr (std::is_same_v<Part, SequenceSettings>) {
+    return scene.time;
   } else {
     static_assert(std::is_same_v<Part, Component>);
     return scene.components[component];

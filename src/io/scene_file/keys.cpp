@@ -26,7 +26,7 @@ Keys top_level_keys() {
           [](Scene& scene, const std::string& value) { scene.snapshot = value; },
           {"The snapshot to draw: a file, any member of a multi-file set, or the set's base "
            "name. A relative path starts at the scene file's folder.",
-           "", "required"}),
+           "", "required, unless there is `time.snapshots`"}),
       key("tolerance", number(between(0, 1)), &Scene::tolerance,
           {"How far a pixel may be from the exact picture: error <= tolerance * max(1, value). "
            "0 asks for the most exact that the device can do.",
@@ -133,8 +133,9 @@ bool is_prefix(const std::string& table, const std::string& path) {
 const std::vector<Key>& all_keys() {
   static const Keys keys = [] {
     Keys all;
-    for (const Keys& part : {top_level_keys(), image_keys(), camera_keys(), kernel_keys(),
-                             sort_keys(), path_keys(), movie_keys(), component_keys()}) {
+    for (const Keys& part :
+         {top_level_keys(), image_keys(), camera_keys(), kernel_keys(), sort_keys(), time_keys(),
+          path_keys(), movie_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

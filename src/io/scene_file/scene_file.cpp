@@ -13,10 +13,22 @@ namespace {
 
 using scene_file::SceneBuilder;
 
+// A folder's own percent signs are no conversions.
+std::string in_folder(const std::filesystem::path& folder, const std::string& pattern) {
+  if (std::filesystem::path(pattern).is_absolute()) return pattern;
+  std::string escaped;
+  for (const char c : (folder / "").string())
+    escaped += c == '%' ? "%%" : std::string(1, c);
+  return escaped + pattern;
+}
+
 // What the file names stands relative to the file; what a setting names does not.
 void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
   if (!scene.path.file.empty()) scene.path.file = (folder / scene.path.file).string();
+  for (std::string& snapshot : scene.time.snapshots)
+    snapshot = (folder / snapshot).string();
+  if (!scene.time.pattern.empty()) scene.time.pattern = in_folder(folder, scene.time.pattern);
   for (Component& component : scene.components) {
     for (std::string* file :
          {&component.snapshot, &component.select.id_file, &component.exclude.id_file}) {
@@ -36,8 +48,9 @@ Scene read_scene_file(const std::filesystem::path& path, const std::vector<std::
   resolve_paths(builder.scene(), path.parent_path());
   builder.apply_settings(settings);
   const Scene scene = builder.finish();
-  if (scene.snapshot.empty()) {
-    scene_file::refuse(path.string(), "snapshot", "nothing", "the path of a snapshot");
+  if (scene.snapshot.empty() && !scene.time.is_set()) {
+    scene_file::refuse(path.string(), "snapshot", "nothing",
+                       "the path of a snapshot, or time.snapshots");
   }
   return scene;
 }

@@ -20,6 +20,10 @@ void name_fields(ParticleTypeInfo& type);
 // star_smoothing_length where it has no other. Null when there is none.
 const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name);
 
+// The field, of no file, that tells how much of a particle is there, 0 to 1, where some vanish
+// or appear between two snapshots.
+constexpr const char* fade_field = "fade";
+
 // Whether each particle's mass is known, from a field or the header's table.
 bool has_masses(const ParticleTypeInfo& type);
 

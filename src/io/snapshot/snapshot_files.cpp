@@ -88,4 +88,22 @@ fs::path find_by_base_name(const fs::path& path) {
   return found.front();
 }
 
+bool ExistingFiles::have(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const auto [found, is_new] = names_.try_emplace(folder);
+  std::set<std::string>& names = found->second;
+  if (is_new && fs::is_directory(folder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      names.insert(entry.path().filename().string());
+  }
+  const std::string name = path.filename().string();
+  if (name.empty()) return !names.empty();
+  for (const std::string number : {"", ".0"}) {
+    for (const std::string ending : endings) {
+      if (names.count(name + number + ending) > 0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace splotchcl

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,5 +25,15 @@ std::vector<std::filesystem::path> find_members(const std::filesystem::path& mem
 // The existing file that `path` stands for when it is the base name of a set or lacks
 // its ending. Throws DataError when there is none, or more than one.
 std::filesystem::path find_by_base_name(const std::filesystem::path& path);
+
+// Tells whether a path is a file or a folder, or the base name of a set, or lacks its ending.
+// Reads each folder once, for looking up many names.
+class ExistingFiles {
+ public:
+  bool have(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, std::set<std::string>> names_;  // by folder
+};
 
 }  // namespace splotchcl

@@ -1,0 +1,36 @@
+#include "io/sequence/sequence_member.h"
+
+#include "io/snapshot/field_names.h"
+
+namespace splotchcl {
+
+Column SequenceMember::read(int type, const std::string& field) const {
+  const TypeField key = {type, require_field(info(), type, field).name};
+  const std::lock_guard lock(mutex_);
+  const auto found = columns_.find(key);
+  if (found != columns_.end()) return found->second;
+  return columns_[key] = snapshot_->read(type, field);
+}
+
+Column SequenceMember::derived(int type, const std::string& name,
+                               const std::function<Column()>& make) const {
+  const TypeField key = {type, name};
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = derived_.find(key);
+    if (found != derived_.end()) return found->second;
+  }
+  const Column made = make();  // reads other columns
+  const std::lock_guard lock(mutex_);
+  return derived_[key] = made;
+}
+
+std::set<TypeField> SequenceMember::fields_read() const {
+  const std::lock_guard lock(mutex_);
+  std::set<TypeField> fields;
+  for (const auto& [field, column] : columns_)
+    fields.insert(field);
+  return fields;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A field of a particle type.
+using TypeField = std::pair<int, std::string>;
+
+// One snapshot of a sequence: its columns are read once. May be used by several threads.
+class SequenceMember : public Snapshot {
+ public:
+  explicit SequenceMember(std::unique_ptr<Snapshot> snapshot) : snapshot_(std::move(snapshot)) {}
+
+  const SnapshotInfo& info() const override { return snapshot_->info(); }
+  Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
+  Column derived(int type, const std::string& name,
+                 const std::function<Column()>& make) const override;
+  Vec3 position_origin() const override { return snapshot_->position_origin(); }
+
+  std::set<TypeField> fields_read() const;  // by canonical names
+
+ private:
+  std::unique_ptr<Snapshot> snapshot_;
+  mutable std::mutex mutex_;
+  mutable std::map<TypeField, Column> columns_, derived_;
+};
+
+}  // namespace splotchcl
