@@ -160,16 +160,15 @@ Column ComponentFields::masses() const {
 }
 
 Column ComponentFields::fade() const {
-  std::vector<Column> columns;
-  bool some_fade = false;
-  for (const auto* type : types_) {
-    const FieldInfo* const field = find_field(*type, fade_field);
+  const auto fades = [](const TypeFields& type) {
+    const FieldInfo* const field = find_field(type.info(), fade_field);
     // A file may have a field of that name, which means something else.
-    const bool fades = field != nullptr && field->file_name.empty();
-    columns.push_back(fades ? snapshot_.read(type->type, fade_field) : Column::uniform(1));
-    some_fade = some_fade || fades;
-  }
-  return some_fade ? joined(columns, types_) : Column();
+    return field != nullptr && field->file_name.empty();
+  };
+  if (std::none_of(types_.begin(), types_.end(), fades)) return {};
+  return collected("fade", [&fades](const TypeFields& type) {
+    return fades(type) ? type.scalars(fade_field, "fade") : Column::uniform(1);
+  });
 }
 
 Column ComponentFields::smoothing_lengths() const {

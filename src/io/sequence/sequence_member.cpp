@@ -12,19 +12,6 @@ Column SequenceMember::read(int type, const std::string& field) const {
   return columns_[key] = snapshot_->read(type, field);
 }
 
-Column SequenceMember::derived(int type, const std::string& name,
-                               const std::function<Column()>& make) const {
-  const TypeField key = {type, name};
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = derived_.find(key);
-    if (found != derived_.end()) return found->second;
-  }
-  const Column made = make();  // reads other columns
-  const std::lock_guard lock(mutex_);
-  return derived_[key] = made;
-}
-
 std::set<TypeField> SequenceMember::fields_read() const {
   const std::lock_guard lock(mutex_);
   std::set<TypeField> fields;

@@ -23,8 +23,6 @@ class SequenceMember : public Snapshot {
   const SnapshotInfo& info() const override { return snapshot_->info(); }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
-  Column derived(int type, const std::string& name,
-                 const std::function<Column()>& make) const override;
   Vec3 position_origin() const override { return snapshot_->position_origin(); }
 
   std::set<TypeField> fields_read() const;  // by canonical names
@@ -32,7 +30,7 @@ class SequenceMember : public Snapshot {
  private:
   std::unique_ptr<Snapshot> snapshot_;
   mutable std::mutex mutex_;
-  mutable std::map<TypeField, Column> columns_, derived_;
+  mutable std::map<TypeField, Column> columns_;
 };
 
 }  // namespace splotchcl

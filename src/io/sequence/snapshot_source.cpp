@@ -14,7 +14,7 @@
 namespace splotchcl {
 namespace {
 
-using Member = std::shared_ptr<const SequenceMember>;
+using Member = std::shared_ptr<SequenceMember>;
 using Pair = std::shared_ptr<const SnapshotPair>;
 
 bool is_same_list(const SequenceSettings& a, const SequenceSettings& b) {
@@ -131,13 +131,16 @@ std::shared_ptr<const Snapshot> SnapshotSource::State::at_moment(const SequenceS
   if (settings.interpolation == Interpolation::none) place.fraction = 0;
   const std::size_t last_needed = place.snapshot + (place.fraction > 0 ? 1 : 0);
   take_ahead(place.snapshot, last_needed);
-  last_.reset();
   keep_only(place.snapshot, last_needed);
+  std::shared_ptr<Snapshot> moment;
   if (place.fraction > 0) {
-    last_ = std::make_shared<InterpolatedSnapshot>(pair(place.snapshot), place.fraction);
+    moment = std::make_shared<InterpolatedSnapshot>(pair(place.snapshot), place.fraction);
   } else {
-    last_ = member(place.snapshot);
+    moment = member(place.snapshot);
   }
+  // Snapshots of single components are not opened anew for each frame.
+  if (last_ && last_ != moment) moment->share_companions_of(*last_);
+  last_ = std::move(moment);
   read_ahead(place);
   last_index_ = settings.index;
   return last_;
