@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A simulation's own arrays as a snapshot, so that load_frame and draw_pictures take them in
+// place of a file. Field names are those of files: position, mass, density, internal_energy,
+// smoothing_length, Coordinates, HSML, ... or any other that a scene asks for. A type needs
+// "position"; what else it needs follows from the scene.
+class ArraySnapshot : public Snapshot {
+ public:
+  explicit ArraySnapshot(const std::string& name_for_messages = "arrays");
+
+  // `count` particles, 1 or 3 values for each, x y z of one particle after those of another.
+  // Floats are borrowed: they stay the caller's and must outlive the snapshot. A simulation sets
+  // its fields once, and calls changed() before the next picture. Doubles are copied as floats,
+  // positions relative to the origin. A field that is set again replaces the earlier one.
+  // Throws UsageError for a type outside 0 to 31, for other numbers of values, and for a count
+  // that differs from that of the type's other fields.
+  void set_field(int type, const std::string& field, const float* values, std::uint64_t count,
+                 int values_per_particle = 1);
+  void set_field(int type, const std::string& field, const double* values, std::uint64_t count,
+                 int values_per_particle = 1);
+  // The same mass for all of a type.
+  void set_mass(int type, double mass);
+  // What the arrays hold has changed: nothing that was found from it is used again.
+  void changed() const;
+  // Leaves a type's fields out, so that its count may change.
+  void clear(int type);
+
+  void set_box_size(double size);  // of a periodic box
+  void set_time(double time);
+  // What positions are relative to. Throws UsageError when double positions are set already.
+  void set_position_origin(const Vec3& origin);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  Vec3 position_origin() const override { return origin_; }
+
+ private:
+  ParticleTypeInfo& type_info(int type);
+  void add_field(int type, const std::string& field, std::uint64_t count, int values_per_particle,
+                 const Column& column);
+
+  SnapshotInfo info_;
+  std::map<std::pair<int, std::string>, Column> columns_;  // by type and the caller's name
+  Vec3 origin_ = {{0, 0, 0}};
+  bool has_double_positions_ = false;
+};
+
+}  // namespace splotchcl

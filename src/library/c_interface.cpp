@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "splotchcl/array_snapshot.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/splotchcl.h"
+
+struct splotchcl_scene {
+  splotchcl::Scene scene;
+};
+
+struct splotchcl_particles {
+  splotchcl::ArraySnapshot arrays;
+};
+
+struct splotchcl_renderer {
+  splotchcl::Renderer renderer;
+  std::string notes;
+};
+
+namespace {
+
+constexpr int done = 0, failed = 1, called_wrong = 2;
+
+int report(splotchcl_error* error, int code, const char* message) {
+  if (error == nullptr) return code;
+  error->code = code;
+  std::snprintf(error->message, sizeof error->message, "%s", message);
+  return code;
+}
+
+// Runs `work`; what it throws becomes a code and a message: nothing is thrown into C.
+template <typename Work>
+int guarded(splotchcl_error* error, Work&& work) noexcept {
+  try {
+    work();
+    return report(error, done, "");
+  } catch (const splotchcl::UsageError& failure) {
+    return report(error, called_wrong, failure.what());
+  } catch (const std::bad_alloc&) {
+    return report(error, failed, "out of memory");
+  } catch (const std::exception& failure) {
+    return report(error, failed, failure.what());
+  }
+}
+
+template <typename Object, typename Make>
+Object* made(splotchcl_error* error, Make&& make) noexcept {
+  std::unique_ptr<Object> object;
+  guarded(error, [&] { object = make(); });
+  return object.release();
+}
+
+template <typename Pointer>
+Pointer require(Pointer pointer, const char* what) {
+  if (pointer != nullptr) return pointer;
+  throw splotchcl::UsageError(std::string(what) + " is a null pointer");
+}
+
+// The arrays as they are now: what an earlier picture found from them may be out of date.
+const splotchcl::ArraySnapshot& arrays_now(const splotchcl_particles* particles) {
+  const splotchcl::ArraySnapshot& arrays = require(particles, "the particles")->arrays;
+  arrays.changed();
+  return arrays;
+}
+
+// A scene whose particles are the caller's needs no file of them.
+const char* const no_snapshot = "snapshot=\"arrays\"";
+
+}  // namespace
+
+const char* splotchcl_version(void) {
+  return SPLOTCHCL_VERSION;
+}
+
+splotchcl_scene* splotchcl_scene_from_text(const char* toml, splotchcl_error* error) {
+  return made<splotchcl_scene>(error, [&] {
+    return std::make_unique<splotchcl_scene>(splotchcl_scene{
+        splotchcl::parse_scene(require(toml, "the scene's text"), "scene", {no_snapshot})});
+  });
+}
+
+splotchcl_scene* splotchcl_scene_from_file(const char* path, splotchcl_error* error) {
+  return made<splotchcl_scene>(error, [&] {
+    return std::make_unique<splotchcl_scene>(splotchcl_scene{
+        splotchcl::read_scene_file(require(path, "the scene's path"), {no_snapshot})});
+  });
+}
+
+int splotchcl_scene_set(splotchcl_scene* scene, const char* key_and_value, splotchcl_error* error) {
+  return guarded(error, [&] {
+    splotchcl::Scene& changed = require(scene, "the scene")->scene;
+    changed = splotchcl::apply_settings(changed, {require(key_and_value, "the setting")});
+  });
+}
+
+size_t splotchcl_scene_picture_count(const splotchcl_scene* scene) {
+  if (scene == nullptr) return 0;
+  const splotchcl::ImageSettings& image = scene->scene.image;
+  return splotchcl::picture_sizes(scene->scene, image.width, image.height).size();
+}
+
+int splotchcl_scene_picture_size(const splotchcl_scene* scene, size_t picture, int* width,
+                                 int* height, splotchcl_error* error) {
+  return guarded(error, [&] {
+    const splotchcl::ImageSettings& image = require(scene, "the scene")->scene.image;
+    const auto sizes = splotchcl::picture_sizes(scene->scene, image.width, image.height);
+    if (picture >= sizes.size()) {
+      throw splotchcl::UsageError("picture " + std::to_string(picture) + " of a scene that has " +
+                                  std::to_string(sizes.size()) + ", counted from 0");
+    }
+    *require(width, "the width") = sizes[picture].width;
+    *require(height, "the height") = sizes[picture].height;
+  });
+}
+
+int splotchcl_scene_decide(splotchcl_scene* scene, const splotchcl_particles* particles,
+                           splotchcl_error* error) {
+  return guarded(error, [&] {
+    std::vector<std::string> notes;
+    const splotchcl::Frame frame =
+        splotchcl::load_frame(require(scene, "the scene")->scene, arrays_now(particles), notes);
+    scene->scene = splotchcl::decide_scene(scene->scene, frame);
+  });
+}
+
+void splotchcl_scene_free(splotchcl_scene* scene) {
+  delete scene;
+}
+
+splotchcl_particles* splotchcl_particles_new(void) {
+  return made<splotchcl_particles>(nullptr, [] { return std::make_unique<splotchcl_particles>(); });
+}
+
+int splotchcl_particles_set_floats(splotchcl_particles* particles, int type, const char* field,
+                                   const float* values, uint64_t count, int values_per_particle,
+                                   splotchcl_error* error) {
+  return guarded(error, [&] {
+    require(particles, "the particles")
+        ->arrays.set_field(type, require(field, "the field's name"), values, count,
+                           values_per_particle);
+  });
+}
+
+int splotchcl_particles_set_doubles(splotchcl_particles* particles, int type, const char* field,
+                                    const double* values, uint64_t count, int values_per_particle,
+                                    splotchcl_error* error) {
+  return guarded(error, [&] {
+    require(particles, "the particles")
+        ->arrays.set_field(type, require(field, "the field's name"), values, count,
+                           values_per_particle);
+  });
+}
+
+int splotchcl_particles_set_mass(splotchcl_particles* particles, int type, double mass,
+                                 splotchcl_error* error) {
+  return guarded(error, [&] { require(particles, "the particles")->arrays.set_mass(type, mass); });
+}
+
+void splotchcl_particles_clear(splotchcl_particles* particles, int type) {
+  if (particles != nullptr) particles->arrays.clear(type);
+}
+
+void splotchcl_particles_set_box_size(splotchcl_particles* particles, double size) {
+  if (particles != nullptr) particles->arrays.set_box_size(size);
+}
+
+void splotchcl_particles_free(splotchcl_particles* particles) {
+  delete particles;
+}
+
+splotchcl_renderer* splotchcl_renderer_new(const char* device, splotchcl_error* error) {
+  return made<splotchcl_renderer>(error, [&] {
+    splotchcl::RendererOptions options;
+    if (device != nullptr) options.device = device;
+    return std::unique_ptr<splotchcl_renderer>(
+        new splotchcl_renderer{splotchcl::Renderer(options), ""});
+  });
+}
+
+const char* splotchcl_renderer_notes(const splotchcl_renderer* renderer) {
+  return renderer == nullptr ? "" : renderer->notes.c_str();
+}
+
+void splotchcl_renderer_free(splotchcl_renderer* renderer) {
+  delete renderer;
+}
+
+int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
+                   const splotchcl_particles* particles, float* const* images, size_t count,
+                   splotchcl_error* error) {
+  return guarded(error, [&] {
+    const std::size_t expected = splotchcl_scene_picture_count(require(scene, "the scene"));
+    if (count != expected) {
+      throw splotchcl::UsageError("memory for " + std::to_string(count) +
+                                  " images, but the scene has " + std::to_string(expected) +
+                                  " pictures; see splotchcl_scene_picture_count");
+    }
+    require(images, "the array of images");
+    for (std::size_t i = 0; i < count; ++i)
+      require(images[i], "an image");
+    std::vector<std::string> notes;
+    const auto pictures = splotchcl::draw_pictures(
+        scene->scene, arrays_now(particles),
+        [&](const splotchcl::Frame& frame) {
+          return require(renderer, "the renderer")->renderer.render(frame);
+        },
+        notes);
+    renderer->notes.clear();
+    for (const std::string& note : notes)
+      renderer->notes += note + "\n";
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::vector<float>& pixels = pictures.at(i).image.pixels;
+      std::copy(pixels.begin(), pixels.end(), images[i]);
+    }
+  });
+}
+
+int splotchcl_write_image(const char* path, const float* rgba, int width, int height, double gamma,
+                          splotchcl_error* error) {
+  return guarded(error, [&] {
+    require(path, "the path");
+    require(rgba, "the image");
+    if (width < 1 || height < 1) {
+      throw splotchcl::UsageError("an image of " + std::to_string(width) + "x" +
+                                  std::to_string(height) + " pixels, expected at least 1x1");
+    }
+    splotchcl::check_image_path(path);
+    splotchcl::Image image(width, height);
+    std::copy(rgba, rgba + image.pixels.size(), image.pixels.begin());
+    splotchcl::ImageFileOptions options;
+    options.gamma = gamma;
+    splotchcl::write_image(path, image, options);
+  });
+}

@@ -1,0 +1,66 @@
+#include "splotchcl/array_snapshot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ArraySnapshot, FloatsAreBorrowed) {
+  std::vector<float> position = {1, 2, 3, 4, 5, 6};
+  ArraySnapshot snapshot;
+  snapshot.set_field(0, "position", position.data(), 2, 3);
+  EXPECT_EQ(snapshot.read(0, "position").data(), position.data());
+  position[4] = 50;
+  EXPECT_EQ(snapshot.read(0, "position")[4], 50);
+  EXPECT_EQ(snapshot.info().find_type(0)->count, 2u);
+}
+
+TEST(ArraySnapshot, AFilesNamesForAFieldFindIt) {
+  const std::vector<float> values = {1, 2};
+  ArraySnapshot snapshot;
+  snapshot.set_field(0, "HSML", values.data(), 2);
+  EXPECT_EQ(snapshot.read(0, "smoothing_length")[1], 2);
+  EXPECT_EQ(snapshot.read(0, "SmoothingLength")[1], 2);
+}
+
+TEST(ArraySnapshot, DoublePositionsKeepTheirOffsetsFromTheOrigin) {
+  const std::vector<double> position = {1e9 + 0.25, -1e9, 3};
+  ArraySnapshot snapshot;
+  snapshot.set_position_origin({{1e9, -1e9, 0}});
+  snapshot.set_field(1, "position", position.data(), 1, 3);
+  EXPECT_EQ(snapshot.read(1, "position")[0], 0.25F);
+  EXPECT_EQ(snapshot.read(1, "position")[1], 0);
+  EXPECT_THROW(snapshot.set_position_origin({{0, 0, 0}}), UsageError);
+}
+
+TEST(ArraySnapshot, CountsOfATypeAgree) {
+  const std::vector<float> values(9);
+  ArraySnapshot snapshot;
+  snapshot.set_field(0, "position", values.data(), 3, 3);
+  EXPECT_THROW(snapshot.set_field(0, "mass", values.data(), 2), UsageError);
+  snapshot.set_field(4, "mass", values.data(), 2);
+  snapshot.clear(0);
+  snapshot.set_field(0, "mass", values.data(), 2);
+  EXPECT_EQ(snapshot.info().find_type(0)->count, 2u);
+}
+
+TEST(ArraySnapshot, WhatIsNoFieldIsRefused) {
+  const std::vector<float> values(9);
+  const float* const nothing = nullptr;
+  ArraySnapshot snapshot;
+  EXPECT_THROW(snapshot.set_field(-1, "mass", values.data(), 2), UsageError);
+  EXPECT_THROW(snapshot.set_field(0, "", values.data(), 2), UsageError);
+  EXPECT_THROW(snapshot.set_field(0, "mass", values.data(), 2, 2), UsageError);
+  EXPECT_THROW(snapshot.set_field(0, "position", values.data(), 2, 1), UsageError);
+  EXPECT_THROW(snapshot.set_field(0, "mass", nothing, 2), UsageError);
+}
+
+}  // namespace
+}  // namespace splotchcl::testing
