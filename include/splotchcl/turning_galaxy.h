@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "splotchcl/rotation_curve.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+enum class OrbitIntegrator {
+  exact,        // circles
+  first_order,  // x += v dt, as in the paper: each step leaves the circle along its tangent
+};
+
+struct TurningSettings {
+  OrbitIntegrator integrator = OrbitIntegrator::exact;
+  double step_myr = 1;                 // of the first-order integrator
+  std::optional<RotationCurve> curve;  // unset: the speeds that the snapshot's velocities show
+};
+
+// Arms wind up: beyond this a galaxy that turns by itself looks like none.
+constexpr double turning_limit_myr = 300;
+// A line for the user where a time is beyond the limit.
+std::optional<std::string> turning_warning(double myr);
+
+// A place and a velocity on an orbit about an axis through the origin, after a time.
+struct OrbitState {
+  Vec3 position, velocity;
+};
+// `axis` has length 1; `angular_speed` is in radians per Myr. Exact circles keep distance and
+// height. n steps dt of the first order multiply the distance from the axis by
+// (1 + (angular_speed dt)^2)^(n/2) and turn by n atan(angular_speed dt); what is left of the
+// time is a shorter step. Velocities turn along, and keep their length.
+OrbitState move_on_orbit(const OrbitState& start, const Vec3& axis, double angular_speed,
+                         double myr, const TurningSettings& settings);
+
+// A galaxy as `splotchcl galaxy` makes it, at any time. Every particle keeps the angular speed
+// of its OrbitRadius about its OrbitAxis.
+class TurningGalaxy {
+ public:
+  // Throws DataError for a snapshot without orbits, UsageError for a step that is not above 0.
+  TurningGalaxy(std::shared_ptr<const Snapshot> galaxy, TurningSettings settings);
+
+  // The snapshot with its positions and velocities as they are then; all else is as it was.
+  std::shared_ptr<const Snapshot> at(double myr) const;
+
+  const std::shared_ptr<const Snapshot>& start() const { return galaxy_; }
+
+ private:
+  std::shared_ptr<const Snapshot> galaxy_;
+  TurningSettings settings_;
+};
+
+// Writes any snapshot whose fields are those of a galaxy, as write_galaxy does. Throws DataError.
+void write_galaxy_snapshot(const std::filesystem::path& path, const Snapshot& snapshot, double myr);
+
+}  // namespace splotchcl
