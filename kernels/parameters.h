@@ -178,6 +178,7 @@ struct ResolveParameters {
   int width, height;
   float source[3];
   float background[3];
+  int background_stride;  // pixels in a row of the background's picture; 0: there is none
 };
 
 #endif

@@ -51,9 +51,20 @@ __kernel void refine_rows(uint coarse_index, __global const Grid* grids, __globa
   vstore8(sum, 0, target);
 }
 
+// The light behind everything: a colour, or a picture with one plane per channel, in rows
+// that are padded to whole eights.
+#ifdef BACKGROUND_IMAGE
+#define BACKGROUND_ARGUMENT __global const float* background,
+#define BACKGROUND(c, x, y) \
+  vload8(0, background + ((size_t)(c) * p.height + (y)) * p.background_stride + (x))
+#else
+#define BACKGROUND_ARGUMENT
+#define BACKGROUND(c, x, y) p.background[c]
+#endif
+
 // Work-item (eight pixels, y): linear red, green, blue and alpha.
 __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
-                      __global const float* planes, __global float* image) {
+                      __global const float* planes, BACKGROUND_ARGUMENT __global float* image) {
   const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
   if (x >= p.width) return;
   const Grid grid = grids[0];
@@ -90,7 +101,7 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
     const float8 transmittance = 1.0f - opacity;
     const float8 own = p.source[c] * opacity;
 #endif
-    vstore8(own + transmittance * p.background[c], 0, light[c]);
+    vstore8(own + transmittance * BACKGROUND(c, x, y), 0, light[c]);
     transmitted += transmittance;
   }
   vstore8(1.0f - transmitted / 3.0f, 0, light[3]);

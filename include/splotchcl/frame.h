@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "splotchcl/image.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl {
@@ -45,6 +47,9 @@ struct Frame {
   Projection projection = Projection::perspective;
   std::optional<double> near_limit, far_limit;
   std::array<double, 3> background = {0, 0, 0};
+  // Light behind everything, pixel by pixel, instead of `background`: width x height
+  // pixels, linear, finite and >= 0. Null: there is none.
+  std::shared_ptr<const Image> background_image;
   KernelSettings kernel;
   SortOrder sort;
   double tolerance = 1e-3;

@@ -108,23 +108,33 @@ double brightest_source(const DrawnComponent& component) {
   return factor * brightest_quotient(component.palette);
 }
 
+double brightest_background(const Frame& frame) {
+  if (!frame.background_image) {
+    return *std::max_element(frame.background.begin(), frame.background.end());
+  }
+  float brightest = 0;
+  const std::vector<float>& pixels = frame.background_image->pixels;
+  for (std::size_t i = 0; i < pixels.size(); i += 4) {
+    brightest = std::max({brightest, pixels[i], pixels[i + 1], pixels[i + 2]});
+  }
+  return static_cast<double>(brightest);
+}
+
 // What a relative error of every splat does to the picture, relative to max(1, I). Light
 // that nothing absorbs errs by as much. Otherwise I = q (1 - exp(-x)) for source q and
 // depth x, and with x off by a part e the error is e q x exp(-x): at most q / e times
 // exp(-1), and never more than e I.
-double response(const Frame& frame) {
+double response(const Frame& frame, double background) {
   constexpr double depth_to_light = 0.36787944117144233;  // the maximum of x exp(-x)
-  double brightest = 1;
-  for (std::size_t c = 0; c < 3; ++c)
-    brightest = std::max(brightest, frame.background[c]);
+  double brightest = std::max(1.0, background);
   for (const DrawnComponent& component : frame.components) {
     brightest = std::max(brightest, brightest_source(component));
   }
   return std::min(1.0, depth_to_light * brightest);
 }
 
-float opaque_limit(const Frame& frame, double share) {
-  double brightest = *std::max_element(frame.background.begin(), frame.background.end());
+float opaque_limit(const Frame& frame, double background, double share) {
+  double brightest = background;
   for (const DrawnComponent& component : frame.components) {
     brightest = std::max(brightest, brightest_source(component));
   }
@@ -163,7 +173,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     }
   }
 
-  const double picture_error = response(frame);
+  const double background = brightest_background(frame);
+  const double picture_error = response(frame, background);
   const double arithmetic = plan.arithmetic_share;
   const double truncation = plan.truncation_share;
   layout.exact = frame.tolerance < 3e-4;
@@ -192,7 +203,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));
   layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * 0.25 * arithmetic, 0.25)));
-  layout.opaque = opaque_limit(frame, plan.exact ? 0 : 0.25 * plan.arithmetic_share);
+  layout.opaque = opaque_limit(frame, background, plan.exact ? 0 : 0.25 * plan.arithmetic_share);
   return layout;
 }
 

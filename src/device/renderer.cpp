@@ -28,6 +28,13 @@ void check_frame(const Frame& frame) {
                      ", expected a part of the picture, which is " + std::to_string(frame.width) +
                      " x " + std::to_string(frame.height) + " pixels");
   }
+  if (const Image* const background = frame.background_image.get();
+      background != nullptr &&
+      (background->width != frame.width || background->height != frame.height)) {
+    throw UsageError("background_image: found " + std::to_string(background->width) + " x " +
+                     std::to_string(background->height) + " pixels, expected the picture's " +
+                     std::to_string(frame.width) + " x " + std::to_string(frame.height));
+  }
   std::uint64_t total = 0;
   for (const DrawnComponent& component : frame.components)
     total += component.particles.count;

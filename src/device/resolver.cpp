@@ -1,6 +1,8 @@
 #include "device/resolver.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace splotchcl {
 namespace {
@@ -13,14 +15,16 @@ std::size_t strips(std::size_t pixels, std::size_t per_item) {
 
 Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame& frame,
                    const Plan& plan, const compute::buffer& grids)
-    : device_(device), layout_(layout), grids_(grids) {
+    : device_(device), layout_(layout), frame_(frame), grids_(grids) {
   parameters_.width = frame.crop.width;
   parameters_.height = frame.crop.height;
   for (std::size_t c = 0; c < 3; ++c) {
     parameters_.source[c] = static_cast<float>(plan.source[c]);
     parameters_.background[c] = static_cast<float>(frame.background[c]);
   }
-  program_ = device.programs.get(kernel_defines(frame, plan, layout) + "#define LANES_8\n",
+  std::string defines = kernel_defines(frame, plan, layout) + "#define LANES_8\n";
+  if (frame.background_image) defines += "#define BACKGROUND_IMAGE\n";
+  program_ = device.programs.get(defines,
                                  {"common.cl", "lanes.cl", "shape.cl", "precise.cl", "resolve.cl"});
 }
 
@@ -54,18 +58,36 @@ void Resolver::refine(const compute::buffer& planes) {
   }
 }
 
+// The crop's part of the background's picture, a plane per channel.
+compute::buffer Resolver::upload_background() {
+  const Rectangle& crop = frame_.crop;
+  const std::size_t stride = 8 * strips(static_cast<std::size_t>(crop.width), 8);
+  parameters_.background_stride = static_cast<int>(stride);
+  const std::size_t plane = stride * static_cast<std::size_t>(crop.height);
+  std::vector<float> planes(3 * plane);
+  for (int y = 0; y < crop.height; ++y) {
+    for (int x = 0; x < crop.width; ++x) {
+      const float* pixel = frame_.background_image->at(crop.x + x, crop.y + y);
+      const std::size_t place = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+      for (std::size_t c = 0; c < 3; ++c)
+        planes[c * plane + place] = pixel[c];
+    }
+  }
+  return device_.buffers.upload("background", planes);
+}
+
 Image Resolver::resolve(const compute::buffer& planes) {
   refine(planes);
   Image image(parameters_.width, parameters_.height);
   const std::uint64_t bytes = image.pixels.size() * sizeof(float);
   const compute::buffer pixels = device_.buffers.get("image", bytes);
-  Launch(device_, "resolve", program_.create_kernel("resolve"))
-      .value(parameters_)
-      .arg(grids_)
-      .arg(planes)
-      .arg(pixels)
-      .run_grid(strips(static_cast<std::size_t>(image.width), 8),
-                static_cast<std::size_t>(image.height), 1);
+  const compute::buffer background =
+      frame_.background_image ? upload_background() : compute::buffer();
+  Launch launch(device_, "resolve", program_.create_kernel("resolve"));
+  launch.value(parameters_).arg(grids_).arg(planes);
+  if (frame_.background_image) launch.arg(background);
+  launch.arg(pixels).run_grid(strips(static_cast<std::size_t>(image.width), 8),
+                              static_cast<std::size_t>(image.height), 1);
   device_.queue.enqueue_read_buffer(pixels, 0, bytes, image.pixels.data());
   return image;
 }

@@ -17,9 +17,11 @@ class Resolver {
 
  private:
   void refine(const compute::buffer& planes);
+  compute::buffer upload_background();
 
   DeviceContext& device_;
   const FrameLayout& layout_;
+  const Frame& frame_;
   kernel::ResolveParameters parameters_{};
   compute::buffer grids_;
   compute::program program_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
 #include <thread>
@@ -109,13 +110,24 @@ std::vector<Layer> composite(const std::vector<Splat>& splats, const Frame& fram
   return layers;
 }
 
+// What stands behind pixel i of the crop.
+std::array<double, 3> background_of(std::size_t i, const Frame& frame) {
+  if (!frame.background_image) return frame.background;
+  const int x = static_cast<int>(i % static_cast<std::size_t>(frame.crop.width));
+  const int y = static_cast<int>(i / static_cast<std::size_t>(frame.crop.width));
+  const float* pixel = frame.background_image->at(frame.crop.x + x, frame.crop.y + y);
+  return {static_cast<double>(pixel[0]), static_cast<double>(pixel[1]),
+          static_cast<double>(pixel[2])};
+}
+
 ExactImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
   ExactImage image(frame.crop.width, frame.crop.height);
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    const std::array<double, 3> background = background_of(i, frame);
     double opacity = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double depth = layers[i].optical_depth[c];
-      image.pixels[4 * i + c] = layers[i].source[c] + std::exp(-depth) * frame.background[c];
+      image.pixels[4 * i + c] = layers[i].source[c] + std::exp(-depth) * background[c];
       opacity += -std::expm1(-depth) / 3;
     }
     image.pixels[4 * i + 3] = opacity;
