@@ -108,7 +108,8 @@ int run(const std::filesystem::path& folder) {
     // What the first picture chose from the data, such as its exposure, holds for all.
     if (picture == 0) scene = splotchcl::decide_scene(scene, frame);
     for (const auto& drawn : splotchcl::draw_pictures(
-             scene, frame, [&](const splotchcl::Frame& view) { return renderer.render(view); })) {
+             scene, frame, snapshot.info(),
+             [&](const splotchcl::Frame& view) { return renderer.render(view); }, notes)) {
       splotchcl::ImageFileOptions options;
       options.gamma = scene.image.gamma;
       const auto path = folder / ("in_situ_" + std::to_string(picture) + drawn.suffix + ".png");

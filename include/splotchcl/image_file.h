@@ -45,6 +45,7 @@ Image read_linear_image(const std::filesystem::path& path, const LinearImageOpti
 struct ImageFileInfo {
   int width = 0, height = 0;
   bool has_alpha = false;
+  bool is_float = false;  // linear light; otherwise whole numbers, display values
   std::map<std::string, std::string> metadata;  // text only
 };
 ImageFileInfo read_image_info(const std::filesystem::path& path);

@@ -43,7 +43,9 @@ std::vector<PictureSize> picture_sizes(const Scene& scene, int view_width, int v
 std::vector<Picture> draw_pictures(const Scene& scene, const Snapshot& snapshot,
                                    const DrawFrame& draw, std::vector<std::string>& notes);
 // The same for a frame of the scene that is loaded already, with any crop.
-std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame, const DrawFrame& draw);
+std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
+                                   const SnapshotInfo& snapshot, const DrawFrame& draw,
+                                   std::vector<std::string>& notes);
 
 // pair.png and "_left" are pair_left.png.
 std::filesystem::path picture_path(const std::filesystem::path& output, const std::string& suffix);

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "splotchcl/camera.h"
+#include "splotchcl/finish.h"
 #include "splotchcl/movie.h"
 #include "splotchcl/palette.h"
 #include "splotchcl/particles.h"
 #include "splotchcl/path.h"
+#include "splotchcl/periodic.h"
 #include "splotchcl/selection.h"
 #include "splotchcl/sequence.h"
 
@@ -105,6 +107,8 @@ struct ImageSettings {
   int height = 1024;
   std::array<double, 3> background = {0, 0, 0};
   double gamma = 1;  // 8-bit files store value^(1/gamma)
+  // A picture that stands behind everything, instead of the colour; empty: none.
+  std::string background_image;
 };
 
 // What a scene file says. Nothing in it depends on the data yet.
@@ -118,6 +122,8 @@ struct Scene {
   PathSettings path;  // of films
   MovieSettings movie;
   double tolerance = 1e-3;
+  PeriodicSettings periodic;
+  FinishSettings finish;
   std::vector<Component> components;
 };
 

@@ -222,9 +222,13 @@ int run_render(const RenderOptions& options, Console& console) {
   if (!output) return 0;
 
   const Stopwatch drawing;
+  std::vector<std::string> notes;
   const std::vector<Picture> pictures = draw_pictures(
-      source.scene, report.frame,
-      [&](const Frame& frame) { return draw_frame(frame, renderer, report.stats, console); });
+      source.scene, report.frame, source.snapshot->info(),
+      [&](const Frame& frame) { return draw_frame(frame, renderer, report.stats, console); },
+      notes);
+  for (const std::string& note : notes)
+    console.note(note);
   note_bad_particles(report.stats, console);
   report.draw_seconds = drawing.seconds();
   const Stopwatch writing;

@@ -74,13 +74,6 @@ inline void expect_same(const Camera& a, const Camera& b) {
   EXPECT_EQ(a.far_limit, b.far_limit);
 }
 
-inline void expect_same(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
-  ASSERT_EQ(a.has_value(), b.has_value());
-  if (a) {
-    EXPECT_TRUE(same(*a, *b));
-  }
-}
-
 inline void expect_same(const PathSettings& a, const PathSettings& b) {
   EXPECT_EQ(a.file, b.file);
   ASSERT_EQ(a.orbit.has_value(), b.orbit.has_value());
@@ -105,6 +98,8 @@ inline void expect_same(const PathSettings& a, const PathSettings& b) {
   }
   EXPECT_EQ(a.is_smooth, b.is_smooth);
   EXPECT_EQ(a.look, b.look);
+}
+
 inline void expect_same(const SequenceSettings& a, const SequenceSettings& b) {
   EXPECT_EQ(a.snapshots, b.snapshots);
   EXPECT_EQ(a.pattern, b.pattern);
@@ -117,6 +112,61 @@ inline void expect_same(const SequenceSettings& a, const SequenceSettings& b) {
   EXPECT_EQ(a.hubble_rate, b.hubble_rate);
 }
 
+inline void expect_same(const TextSettings& a, const TextSettings& b) {
+  EXPECT_EQ(a.text, b.text);
+  EXPECT_EQ(a.at, b.at);
+  EXPECT_EQ(a.size, b.size);
+}
+
+inline void expect_same(const ColorBarSettings& a, const ColorBarSettings& b) {
+  EXPECT_EQ(a.show, b.show);
+  EXPECT_EQ(a.at, b.at);
+  EXPECT_EQ(a.length, b.length);
+  EXPECT_EQ(a.components, b.components);
+  EXPECT_EQ(a.labels, b.labels);
+}
+
+inline void expect_same(const ScaleBarSettings& a, const ScaleBarSettings& b) {
+  EXPECT_EQ(a.show, b.show);
+  EXPECT_EQ(a.at, b.at);
+  EXPECT_EQ(a.length, b.length);
+  EXPECT_EQ(a.unit, b.unit);
+}
+
+inline void expect_same(const InsetSettings& a, const InsetSettings& b) {
+  EXPECT_EQ(a.show, b.show);
+  EXPECT_EQ(a.at, b.at);
+  EXPECT_EQ(a.size, b.size);
+  EXPECT_EQ(a.border, b.border);
+  EXPECT_EQ(a.border_color, b.border_color);
+  expect_same(a.position, b.position);
+  expect_same(a.look_at, b.look_at);
+  expect_same(a.sky, b.sky);
+  EXPECT_EQ(a.field_of_view_degrees, b.field_of_view_degrees);
+  EXPECT_EQ(a.components, b.components);
+}
+
+inline void expect_same(const FinishSettings& a, const FinishSettings& b) {
+  EXPECT_EQ(a.exposure, b.exposure);
+  EXPECT_EQ(a.saturation, b.saturation);
+  EXPECT_EQ(a.contrast, b.contrast);
+  EXPECT_EQ(a.contrast_pivot, b.contrast_pivot);
+  EXPECT_EQ(a.font, b.font);
+  EXPECT_EQ(a.text_size, b.text_size);
+  EXPECT_EQ(a.text_color, b.text_color);
+  expect_same(a.title, b.title);
+  expect_same(a.label, b.label);
+  expect_same(a.caption, b.caption);
+  EXPECT_EQ(a.frame, b.frame);
+  expect_same(a.color_bar, b.color_bar);
+  expect_same(a.scale_bar, b.scale_bar);
+  expect_same(a.inset, b.inset);
+  EXPECT_EQ(a.cross_fade.scene, b.cross_fade.scene);
+  EXPECT_EQ(a.cross_fade.amount, b.cross_fade.amount);
+  EXPECT_EQ(a.fade, b.fade);
+  EXPECT_EQ(a.fade_color, b.fade_color);
+}
+
 inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.snapshot, b.snapshot);
   EXPECT_EQ(a.tolerance, b.tolerance);
@@ -124,6 +174,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.image.height, b.image.height);
   EXPECT_EQ(a.image.background, b.image.background);
   EXPECT_EQ(a.image.gamma, b.image.gamma);
+  EXPECT_EQ(a.image.background_image, b.image.background_image);
   ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
   if (a.camera) expect_same(*a.camera, *b.camera);
   EXPECT_EQ(a.kernel.width, b.kernel.width);
@@ -139,6 +190,9 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.movie.codec, b.movie.codec);
   EXPECT_EQ(a.movie.rate_factor, b.movie.rate_factor);
   expect_same(a.time, b.time);
+  EXPECT_EQ(a.periodic.wrap, b.periodic.wrap);
+  EXPECT_EQ(a.periodic.box, b.periodic.box);
+  expect_same(a.finish, b.finish);
   ASSERT_EQ(a.components.size(), b.components.size());
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     expect_same(a.components[i], b.components[i]);

@@ -24,7 +24,11 @@ class RandomScenes {
       scene.time = time();
     }
     scene.tolerance = unit();
-    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma()};
+    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma(), ""};
+    if (coin()) {
+      scene.image.background = {0, 0, 0};
+      scene.image.background_image = word();
+    }
     if (coin()) scene.camera = camera();
     scene.kernel = {positive(1e-6, 1e6), maybe(positive()),
                     coin() ? Sampling::mean : Sampling::center, coin() ? 0 : unit()};
@@ -38,6 +42,8 @@ class RandomScenes {
     scene.movie.rate_factor = integer(0, 51);
     if (coin()) scene.movie.frames = integer(1, 1000000);
     if (coin()) scene.movie.codec = static_cast<Codec>(integer(0, 2));
+    scene.periodic = {coin(), maybe(positive())};
+    if (coin()) scene.finish = finish();
     const int components = integer(0, 4);
     for (int i = 0; i < components; ++i)
       scene.components.push_back(component(i));
@@ -144,6 +150,46 @@ class RandomScenes {
     time.omega_lambda = maybe(any());
     time.hubble_rate = maybe(positive());
     return time;
+  }
+
+  Place place_on_picture() { return static_cast<Place>(integer(0, 7)); }
+  DisplayColor display_color() { return {unit(), unit(), unit()}; }
+  TextSettings text_settings() {
+    return {coin() ? word() : "", place_on_picture(), maybe(0.001 + 0.4 * unit())};
+  }
+  std::optional<Vec3> maybe_vector() {
+    return coin() ? std::make_optional(Vec3{{length(), length(), length()}}) : std::nullopt;
+  }
+  std::vector<std::string> words() {
+    std::vector<std::string> list;
+    for (int i = integer(0, 3); i > 0; --i)
+      list.push_back(word());
+    return list;
+  }
+
+  FinishSettings finish() {
+    FinishSettings finish;
+    finish.exposure = 20 * unit() - 10;
+    finish.saturation = coin() ? 1 : 2 * unit();
+    finish.contrast = coin() ? 1 : 2 * unit();
+    finish.contrast_pivot = 0.001 + unit();
+    finish.font = word();
+    finish.text_size = 0.001 + 0.4 * unit();
+    finish.text_color = display_color();
+    finish.title = text_settings();
+    finish.label = text_settings();
+    finish.caption = text_settings();
+    if (coin()) finish.frame = integer(-1000, 1000000);
+    finish.color_bar = {coin(), place_on_picture(), 0.05 + 0.9 * unit(), words(), words()};
+    finish.scale_bar = {coin(), place_on_picture(), maybe(positive()), coin() ? word() : ""};
+    finish.inset = {coin(),         place_on_picture(), {0.1 + 0.5 * unit(), 0.1 + 0.5 * unit()},
+                    0.1 * unit(),   display_color(),    maybe_vector(),
+                    maybe_vector(), maybe_vector(),     maybe(0.1 + 179 * unit()),
+                    words()};
+    finish.cross_fade = {coin() ? word() : "", unit()};
+    finish.fade = unit();
+    finish.fade_color = display_color();
+    return finish;
   }
 
   FieldMap field_map() {

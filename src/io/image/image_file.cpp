@@ -194,6 +194,7 @@ ImageFileInfo read_image_info(const std::filesystem::path& path) {
   info.width = spec.width;
   info.height = spec.height;
   info.has_alpha = spec.alpha_channel >= 0;
+  info.is_float = spec.format.is_floating_point();
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
     if (attribute.type() == OIIO::TypeDesc::STRING) {
       info.metadata[attribute.name().string()] = attribute.get_string();

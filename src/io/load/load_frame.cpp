@@ -6,8 +6,11 @@
 #include <memory>
 #include <set>
 
+#include "io/finish/finish_picture.h"
+#include "io/image/background_image.h"
 #include "io/load/load_frame_fields.h"
 #include "io/load/load_memory.h"
+#include "io/load/periodic_wrap.h"
 #include "io/load/suggest_scene_camera.h"
 #include "scene/reference_column.h"
 #include "scene/scalar_map.h"
@@ -257,6 +260,8 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   if (scene.components.empty()) {
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
+  check_finish(scene, snapshot.info());
+  const double box = scene.periodic.wrap ? periodic_box(scene.periodic, snapshot.info()) : 0;
   OpenComponents components(scene, snapshot, notes);
   const Camera camera = choose_camera(scene, snapshot);
   Frame frame;
@@ -268,12 +273,19 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   frame.near_limit = camera.near_limit;
   frame.far_limit = camera.far_limit;
   frame.background = scene.image.background;
+  if (!scene.image.background_image.empty()) {
+    frame.background_image = load_background_image(scene.image.background_image, frame.width,
+                                                   frame.height, scene.image.gamma);
+  }
   frame.kernel = scene.kernel;
   frame.sort = scene.sort;
   frame.tolerance = scene.tolerance;
   auto fields = components.fields().begin();
   for (const Component& component : scene.components) {
     DrawnComponent drawn = load_component(component, scene, *fields++);
+    if (scene.periodic.wrap && component.snapshot.empty()) {
+      wrap_around(camera.look_at, box, drawn.particles);
+    }
     decide_reference_column(component, frame, drawn, notes);
     frame.components.push_back(std::move(drawn));
   }

@@ -27,11 +27,12 @@ std::pair<std::string, std::string> split_first(const std::string& path) {
 std::string format_table(const std::string& table, const Scene& scene, std::size_t component) {
   std::vector<std::string> lines;
   std::string open_group;
+  const Scene plain;
   for (const Key& key : scene_file::all_keys()) {
     const auto [key_table, rest] = split_first(key.path);
     if (key_table != table || !key.is_written) continue;
     const std::optional<std::string> value = key.get(scene, component);
-    if (!value) continue;
+    if (!value || (!key.is_written_by_default && value == key.get(plain, 0))) continue;
     const auto [group, name] = split_first(rest);
     const std::string entry = fmt::format("{} = {}", name, *value);
     if (group.empty()) {
@@ -53,11 +54,13 @@ std::string format_scene(const Scene& scene) {
   const std::string name = "the scene to write";
   scene_file::check_scene(scene, {name, {}});
   std::string text = format_table("", scene, 0);
-  for (const std::string table : {"image", "camera", "kernel", "sort", "time", "path", "movie"}) {
+  for (const std::string table :
+       {"image", "camera", "kernel", "sort", "time", "path", "movie", "periodic", "finish"}) {
     if (table == "camera" && !scene.camera) continue;
     const std::string lines = format_table(table, scene, 0);
     // What most scenes have nothing of.
     const bool is_for_some = table == "time" || table == "path" || table == "movie";
+    if (lines == "\n") continue;
     if (is_for_some && lines == format_table(table, {}, 0)) continue;
     text += fmt::format("\n[{}]\n{}", table, lines);
   }

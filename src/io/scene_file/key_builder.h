@@ -20,6 +20,8 @@ Keys path_keys();
 Keys movie_keys();
 Keys particle_keys();  // of components, too
 Keys time_keys();
+Keys finish_keys();
+Keys periodic_keys();
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -40,6 +42,12 @@ inline Range more_than(double limit) {
 inline Range between(double lowest, double highest) {
   Range range = at_least(lowest);
   range.at_most = highest;
+  return range;
+}
+
+inline Range field_of_view_range() {
+  Range range = more_than(0);
+  range.less_than = 180;
   return range;
 }
 
@@ -73,6 +81,10 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.movie;
   } else if constexpr (std::is_same_v<Part, SequenceSettings>) {
     return scene.time;
+  } else if constexpr (std::is_same_v<Part, PeriodicSettings>) {
+    return scene.periodic;
+  } else if constexpr (std::is_same_v<Part, FinishSettings>) {
+    return scene.finish;
   } else {
     static_assert(std::is_same_v<Part, Component>);
     return scene.components[component];
@@ -115,6 +127,13 @@ Key key(const std::string& path, const ValueType<V>& type, Member Part::*member,
 inline Key excluding(Key key, std::vector<std::string> paths) {
   key.excludes = std::move(paths);
   return key;
+}
+
+// Keys of tables that few scenes need: written only where they are not the default.
+inline Keys written_if_set(Keys keys) {
+  for (Key& key : keys)
+    key.is_written_by_default = false;
+  return keys;
 }
 
 inline Key not_written(Key key) {

@@ -1,6 +1,7 @@
 #include "io/scene_file/keys.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "io/scene_file/key_builder.h"
@@ -9,12 +10,6 @@ namespace splotchcl::scene_file {
 namespace {
 
 constexpr int largest_side = 65536;
-
-Range field_of_view_range() {
-  Range range = more_than(0);
-  range.less_than = 180;
-  return range;
-}
 
 Keys top_level_keys() {
   return {
@@ -34,6 +29,40 @@ Keys top_level_keys() {
   };
 }
 
+// A colour and a picture replace each other, so that a setting can change a scene's mind.
+Keys background_keys() {
+  using Color = std::array<double, 3>;
+  return {
+      excluding(key<ImageSettings, Color>(
+                    "image.background", three_numbers(light(), "[red, green, blue]"),
+                    [](const ImageSettings& image) {
+                      return image.background_image.empty() ? std::optional(image.background)
+                                                            : std::nullopt;
+                    },
+                    [](ImageSettings& image, const Color& value) {
+                      image.background = value;
+                      image.background_image.clear();
+                    },
+                    {"Light behind everything.", "white is 1"}),
+                {"image.background_image"}),
+      key<ImageSettings, std::string>(
+          "image.background_image", text(),
+          [](const ImageSettings& image) {
+            return image.background_image.empty() ? std::nullopt
+                                                  : std::optional(image.background_image);
+          },
+          [](ImageSettings& image, const std::string& value) {
+            image.background = ImageSettings().background;
+            image.background_image = value;
+          },
+          {"A picture behind everything, instead of a colour. It is scaled to fill the whole "
+           "picture, and what overhangs is cut off. Files of 8 and 16 bits hold display values, "
+           "which become value^gamma; others hold linear light. A relative path starts at the "
+           "scene file's folder.",
+           "", "none"}),
+  };
+}
+
 Keys image_keys() {
   using Size = std::pair<int, int>;
   return {
@@ -50,8 +79,6 @@ Keys image_keys() {
                       {"The width alone, instead of `size`.", "pixels"})),
       not_written(key("image.height", integer(1, largest_side), &ImageSettings::height,
                       {"The height alone, instead of `size`.", "pixels"})),
-      key("image.background", three_numbers(light(), "[red, green, blue]"),
-          &ImageSettings::background, {"Light behind everything.", "white is 1"}),
       key("image.gamma", number(between(0.01, 100)), &ImageSettings::gamma,
           {"Files of 8 bits store value^(1/gamma). EXR, TIFF and HDR always keep linear light."}),
   };
@@ -133,9 +160,9 @@ bool is_prefix(const std::string& table, const std::string& path) {
 const std::vector<Key>& all_keys() {
   static const Keys keys = [] {
     Keys all;
-    for (const Keys& part :
-         {top_level_keys(), image_keys(), camera_keys(), kernel_keys(), sort_keys(), time_keys(),
-          path_keys(), movie_keys(), component_keys()}) {
+    for (const Keys& part : {top_level_keys(), image_keys(), background_keys(), camera_keys(),
+                             kernel_keys(), sort_keys(), time_keys(), path_keys(), movie_keys(),
+                             periodic_keys(), finish_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

@@ -27,7 +27,8 @@ struct Key {
   std::function<bool(Scene&, std::size_t component, const toml::node&)> set;
   // The value as TOML; nothing when it is absent.
   std::function<std::optional<std::string>(const Scene&, std::size_t component)> get;
-  bool is_written = true;  // false: another key writes the same value
+  bool is_written = true;             // false: another key writes the same value
+  bool is_written_by_default = true;  // false: the default is left out
 };
 
 // In the order in which they are documented and written.

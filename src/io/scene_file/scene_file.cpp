@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/common/text_file.h"
+#include "io/image/text.h"
 #include "io/palette/palette_file.h"
 #include "io/scene_file/builder.h"
 
@@ -29,6 +30,10 @@ void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   for (std::string& snapshot : scene.time.snapshots)
     snapshot = (folder / snapshot).string();
   if (!scene.time.pattern.empty()) scene.time.pattern = in_folder(folder, scene.time.pattern);
+  for (std::string* const path : {&scene.image.background_image, &scene.finish.cross_fade.scene}) {
+    if (!path->empty()) *path = (folder / *path).string();
+  }
+  if (is_font_path(scene.finish.font)) scene.finish.font = (folder / scene.finish.font).string();
   for (Component& component : scene.components) {
     for (std::string* file :
          {&component.snapshot, &component.select.id_file, &component.exclude.id_file}) {

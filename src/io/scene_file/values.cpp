@@ -43,6 +43,34 @@ std::optional<std::array<double, 3>> read_three_numbers(const toml::node& node,
   return values;
 }
 
+std::optional<std::array<double, 2>> read_two_numbers(const toml::node& node, const Range& range) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 2) return std::nullopt;
+  const std::optional<double> first = read_number((*array)[0], range);
+  const std::optional<double> second = read_number((*array)[1], range);
+  if (!first || !second) return std::nullopt;
+  return std::array<double, 2>{*first, *second};
+}
+
+std::optional<std::vector<std::string>> read_texts(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return std::nullopt;
+  std::vector<std::string> texts;
+  for (const toml::node& element : *array) {
+    const std::optional<std::string> text = element.value_exact<std::string>();
+    if (!text || text->empty()) return std::nullopt;
+    texts.push_back(*text);
+  }
+  return texts;
+}
+
+std::string write_texts(const std::vector<std::string>& texts) {
+  std::vector<std::string> quoted;
+  for (const std::string& text : texts)
+    quoted.push_back(write_text(text));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
 template <class Three>
 std::string write_three_numbers(const Three& values) {
   return fmt::format("[{}, {}, {}]", write_number(values[0]), write_number(values[1]),
@@ -133,6 +161,23 @@ ValueType<int> integer(int at_least, int at_most) {
   return {fmt::format("an integer from {} to {}", at_least, at_most),
           [=](const toml::node& node) { return read_integer(node, at_least, at_most); },
           [](const int& value) { return std::to_string(value); }};
+}
+
+ValueType<bool> boolean() {
+  return {"true or false", [](const toml::node& node) { return node.value_exact<bool>(); },
+          [](const bool& value) { return std::string(value ? "true" : "false"); }};
+}
+
+ValueType<std::vector<std::string>> texts() {
+  return {"an array of strings that are not empty", read_texts, write_texts};
+}
+
+ValueType<std::array<double, 2>> two_numbers(const Range& range, const std::string& order) {
+  return {fmt::format("{}, each {}", order, range.description()),
+          [range](const toml::node& node) { return read_two_numbers(node, range); },
+          [](const std::array<double, 2>& values) {
+            return fmt::format("[{}, {}]", write_number(values[0]), write_number(values[1]));
+          }};
 }
 
 ValueType<std::string> text() {

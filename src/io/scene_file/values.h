@@ -33,7 +33,10 @@ struct Range {
 
 ValueType<double> number(const Range& range = {});
 ValueType<int> integer(int at_least, int at_most);
-ValueType<std::string> text();  // not empty
+ValueType<bool> boolean();
+ValueType<std::string> text();                // not empty
+ValueType<std::vector<std::string>> texts();  // none of them empty
+ValueType<std::array<double, 2>> two_numbers(const Range& range, const std::string& order);
 ValueType<std::array<double, 3>> three_numbers(const Range& range, const std::string& order);
 ValueType<Vec3> vector();
 ValueType<std::pair<int, int>> size_in_pixels(int at_most);

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/vector.h"
+
+// What is done to a picture after it has been drawn (docs/finish.md). In this order:
+// exposure, saturation, contrast, inset, colour bars, scale bar, texts, cross-fade, fade.
+namespace splotchcl {
+
+// Red, green, blue from 0 to 1 as the display shows them, whatever image.gamma is.
+using DisplayColor = std::array<double, 3>;
+
+// Where something lies. Things at the same place stand below each other.
+enum class Place { top_left, top, top_right, left, right, bottom_left, bottom, bottom_right };
+
+// A line of text, or several with line breaks, with placeholders: "z = {redshift:.2f}".
+struct TextSettings {
+  std::string text;  // empty: none
+  Place at = Place::top_left;
+  std::optional<double> size;  // of the picture's shorter side; unset: FinishSettings::text_size
+};
+
+// The palettes with their fields' values.
+struct ColorBarSettings {
+  bool show = false;
+  Place at = Place::right;
+  double length = 0.6;                  // of the picture's side along which the bars lie
+  std::vector<std::string> components;  // by name; empty: all that are coloured by a field
+  std::vector<std::string> labels;      // one for each bar; empty: field and unit
+};
+
+// A length at the look-at point.
+struct ScaleBarSettings {
+  bool show = false;
+  Place at = Place::bottom_left;
+  std::optional<double> length;  // in the snapshot's unit; unset: a round one
+  std::string unit;              // of the label; empty: the snapshot's
+};
+
+// The scene seen by a second camera, drawn into a corner. What is not set is the first's.
+struct InsetSettings {
+  bool show = false;
+  Place at = Place::bottom_right;
+  std::array<double, 2> size = {0.3, 0.3};  // of the picture's width and height
+  double border = 0.002;                    // of the picture's shorter side
+  DisplayColor border_color = {1, 1, 1};
+  std::optional<Vec3> position, look_at, sky;
+  std::optional<double> field_of_view_degrees;
+  std::vector<std::string> components;  // by name; empty: all
+};
+
+// Another scene's picture, mixed into this one's.
+struct CrossFade {
+  std::string scene;  // a scene file; empty: none
+  double amount = 0;  // 0: only this scene, 1: only the other
+};
+
+struct FinishSettings {
+  double exposure = 0;          // light is multiplied by 2^exposure
+  double saturation = 1;        // 0: gray, 1: as drawn
+  double contrast = 1;          // display value v becomes pivot (v / pivot)^contrast
+  double contrast_pivot = 0.5;  // a display value
+
+  std::string font = "DejaVuSans";  // a name, or a font file
+  double text_size = 0.028;         // of the picture's shorter side
+  DisplayColor text_color = {1, 1, 1};
+  TextSettings title = {"", Place::top_left, std::nullopt};
+  TextSettings label = {"", Place::top_right, std::nullopt};
+  TextSettings caption = {"", Place::bottom_right, std::nullopt};
+  std::optional<int> frame;  // what {frame} stands for
+
+  ColorBarSettings color_bar;
+  ScaleBarSettings scale_bar;
+  InsetSettings inset;
+
+  CrossFade cross_fade;
+  double fade = 0;  // 0: the picture, 1: fade_color
+  DisplayColor fade_color = {0, 0, 0};
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/finish/inset.h"
+#include "io/finish/text_style.h"
+#include "splotchcl/picture.h"
+
+namespace splotchcl {
+
+// What can be told to be wrong with a scene's [finish] before particles are read: fonts,
+// placeholders, names of components, the scene to fade to. Throws UsageError.
+void check_finish(const Scene& scene, const SnapshotInfo& snapshot);
+
+// What is done to one picture between its drawing and its file, up to the texts
+// (splotchcl/finish.h). Everything is prepared, and refused if it cannot be, before the
+// picture is drawn. Nothing is done for a scene that asks for nothing.
+class PictureFinish {
+ public:
+  // Throws UsageError.
+  PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
+
+  // `image` is the frame's picture; `draw` draws the inset.
+  void apply(Image& image, const DrawFrame& draw) const;
+
+ private:
+  FinishSettings settings_;
+  double gamma_;
+  Rectangle crop_;
+  std::optional<Inset> inset_;
+  std::vector<Overlay> overlays_;
+};
+
+}  // namespace splotchcl

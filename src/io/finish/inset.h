@@ -1,0 +1,29 @@
+#pragma once
+
+#include "io/finish/layout.h"
+#include "io/finish/text_style.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/scene.h"
+
+namespace splotchcl {
+
+// The second view, before it is drawn.
+struct Inset {
+  Frame frame;
+  int x = 0, y = 0;  // of its corner, without the border
+  Box border;
+  Light border_light{};
+};
+
+// Throws UsageError for names that no component has.
+void check_inset(const Scene& scene);
+
+// The frame as the inset's camera sees it, and its place. Throws UsageError where its camera
+// or its size is not possible.
+Inset make_inset(const Scene& scene, const Frame& frame, Layout& layout);
+
+// `picture` is the inset's own, with the picture's exposure, saturation and contrast.
+void put(Canvas& canvas, const Inset& inset, const Image& picture);
+
+}  // namespace splotchcl

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "io/finish/layout.h"
+#include "io/finish/text_style.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A bar as long as its length at the look-at point appears, with the length above it.
+// Throws UsageError for projections that have no such scale, and for lengths that do not
+// fit.
+Overlay make_scale_bar(const ScaleBarSettings& settings, const Frame& frame,
+                       const SnapshotInfo& snapshot, const TextStyle& style, Layout& layout);
+
+}  // namespace splotchcl

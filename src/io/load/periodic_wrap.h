@@ -1,0 +1,18 @@
+#pragma once
+
+#include "splotchcl/particles.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// The side of the box that periodic.wrap uses. Throws UsageError where neither the scene nor
+// the snapshot says one.
+double periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot);
+
+// Moves each particle to its periodic image nearest to `center`, along each axis by itself:
+// d = x - center becomes d - box * round(d / box), in double precision. The center becomes
+// the particles' origin. Values that are not finite stay so.
+void wrap_around(const Vec3& center, double box, Particles& particles);
+
+}  // namespace splotchcl

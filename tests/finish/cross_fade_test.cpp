@@ -1,0 +1,125 @@
+#include "io/finish/cross_fade.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "finish/finish_pictures.h"
+#include "io/finish/finish_picture.h"
+#include "splotchcl/error.h"
+#include "splotchcl/generate.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/scene_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CrossFadeTest : public ::testing::Test {
+ protected:
+  CrossFadeTest() {
+    write("own.toml",
+          "snapshot = 'own'\n[image]\nsize = [40, 30]\n"
+          "[camera]\nposition = [0, 0, -9]\nlook_at = [0, 0, 0]\n[[component]]\n");
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+  }
+  Scene own(double amount, const std::string& other = "other.toml") const {
+    return read_scene_file(path("own.toml"),
+                           {"finish.cross_fade.scene=" + path(other),
+                            "finish.cross_fade.amount=" + std::to_string(amount)});
+  }
+  std::string refusal(const Scene& scene) const {
+    try {
+      check_finish(scene, {});
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+
+ private:
+  splotchcl::testing::TemporaryFolder folder_{"cross_fade"};
+};
+
+TEST_F(CrossFadeTest, DrawsTheOtherSceneInThisOnesSize) {
+  write("other.toml", "snapshot = 'b'\n[image]\nsize = [9, 9]\n[[component]]\n");
+  const auto other = cross_fade_scene(own(0.5));
+  ASSERT_TRUE(other.has_value());
+  EXPECT_EQ(other->image.width, 40);
+  EXPECT_EQ(other->image.height, 30);
+  EXPECT_EQ(other->snapshot, path("b"));
+}
+
+TEST_F(CrossFadeTest, TakesThisScenesCameraWhereTheOtherHasNone) {
+  write("other.toml", "snapshot = 'b'\n[[component]]\n");
+  EXPECT_EQ(cross_fade_scene(own(0.5))->camera->position.a[2], -9);
+  write("other.toml", "snapshot = 'b'\n[camera]\nposition = [0, 0, 7]\nlook_at = [0, 0, 0]\n");
+  EXPECT_EQ(cross_fade_scene(own(0.5))->camera->position.a[2], 7);
+}
+
+TEST_F(CrossFadeTest, NeedsNoOtherSceneWhereNothingOfItIsSeen) {
+  write("other.toml", "snapshot = 'b'\n[[component]]\n");
+  EXPECT_FALSE(cross_fade_scene(own(0)).has_value());
+}
+
+TEST_F(CrossFadeTest, ToASceneThatIsMissingOrFadesItselfIsRefused) {
+  EXPECT_THAT(refusal(own(0.5, "missing.toml")), HasSubstr("missing.toml"));
+  EXPECT_THAT(refusal(own(0, "missing.toml")), HasSubstr("missing.toml"));
+  write("other.toml", "snapshot = 'b'\n[finish]\ncross_fade.scene = 'own.toml'\n[[component]]\n");
+  EXPECT_THAT(refusal(own(0.5)), HasSubstr("fades to another scene itself"));
+}
+
+// Both scenes are drawn as an even light, their background's.
+class CrossFadeOfPictures : public CrossFadeTest {
+ protected:
+  CrossFadeOfPictures() {
+    GenerateSettings settings;
+    settings.particles = 1000;
+    write_gadget2(path("own"), generate_halo(settings));
+    write("other.toml", "snapshot = 'own'\n[image]\nbackground = [0, 2, 1]\n[[component]]\n");
+  }
+  Image draw(double amount, const std::string& more = "finish.exposure=0") {
+    const Scene scene = apply_settings(own(amount), {more});
+    std::vector<std::string> notes;
+    const std::vector<Picture> pictures = draw_pictures(
+        scene, *open_snapshot(scene.snapshot),
+        [this](const Frame& frame) {
+          ++drawn;
+          std::array<float, 3> light;
+          for (std::size_t c = 0; c < 3; ++c)
+            light[c] = static_cast<float>(frame.background[c]);
+          return plain_image(frame.width, frame.height, light);
+        },
+        notes);
+    EXPECT_EQ(pictures.size(), 1U);
+    return pictures.front().image;
+  }
+  int drawn = 0;
+};
+
+TEST_F(CrossFadeOfPictures, MixesTheirLight) {
+  const Image image = draw(0.25);
+  EXPECT_EQ(drawn, 2);
+  EXPECT_EQ(image.width, 40);
+  EXPECT_FLOAT_EQ(image.at(39, 29)[1], 0.5F);
+}
+
+TEST_F(CrossFadeOfPictures, DrawsOnlyTheSceneThatIsSeen) {
+  EXPECT_EQ(draw(0).at(0, 0)[1], 0.0F);
+  EXPECT_EQ(drawn, 1);
+  EXPECT_EQ(draw(1).at(0, 0)[1], 2.0F);
+  EXPECT_EQ(drawn, 2);
+}
+
+TEST_F(CrossFadeOfPictures, FadesToAColourAfterwards) {
+  EXPECT_FLOAT_EQ(draw(0.5, "finish.fade=0.5").at(3, 3)[1], 0.5F);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
