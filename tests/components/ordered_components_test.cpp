@@ -130,6 +130,32 @@ TEST_P(OrderedComponents, AgreeWithOneThatIsPlaced) {
   expect_within_tolerance(scene);
 }
 
+// A galaxy of a millionth of the box in the middle of all the rest.
+TEST_P(OrderedComponents, AgreeFromFarOutsideToInsideAPlantedGalaxy) {
+  constexpr double scale = 1e-6;
+  const Vec3 place = {{12.3456789, -7.654321, 3.1415926}};
+  Scene scene = cluster_scene();
+  scene.image.width = 96;
+  scene.image.height = 72;
+  for (const int original : {1, 3}) {
+    Component planted = scene.components[static_cast<std::size_t>(original)];
+    planted.name += ", planted";
+    planted.placement.origin = place;
+    planted.placement.axis = {{1, 2, 3}};
+    planted.placement.angle_degrees = 50;
+    planted.placement.scale = scale;
+    scene.components.push_back(planted);
+  }
+  for (const double distance : {200.0, 3.0, 1e-2, 2e-4, 3e-5}) {
+    scene.camera->position = Vec3(place + distance * Vec3{{0.3, -0.9, 0.2}});
+    // From afar all of the galaxy is one grain, which must not lie on the edge of a pixel,
+    // where the last bit of its place decides which pixel has the light.
+    scene.camera->look_at = Vec3(place + distance * Vec3{{0.031, 0.01, 0.047}});
+    SCOPED_TRACE(distance);
+    expect_within_tolerance(scene);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, OrderedComponents,
                          ::testing::Values(CompositeShape::rows, CompositeShape::groups),
                          [](const auto& info) {

@@ -30,8 +30,8 @@ std::string refused(const std::string& lines) {
 TEST(ParticleKeys, SelectByConditionsPlacesAndIds) {
   const Component component = parse(
       "select = { where = \"U > 1e5\", sphere.center = [1, 2, 3], sphere.radius = 4 }\n"
-      "exclude = { where = [\"RHO <= 3\", \"mass < 1 or mass > 2\"], ids = \"a.txt\" }\n"
-      "[component.exclude.box]\nmin = [0, 0, 0]\nmax = [1, 1, 0]\n");
+      "[component.exclude]\nwhere = [\"RHO <= 3\", \"mass < 1 or mass > 2\"]\nids = \"a.txt\"\n"
+      "box = { min = [0, 0, 0], max = [1, 1, 0] }\n");
   EXPECT_THAT(component.select.where, ElementsAre("U > 1e5"));
   EXPECT_EQ(component.select.sphere_center->a[2], 3);
   EXPECT_EQ(component.select.sphere_radius, 4);

@@ -179,13 +179,21 @@ TEST(Selection, NamesAFieldThatIsNotThereAndTheDerivedOnes) {
   EXPECT_THAT(message, HasSubstr("did you mean internal_energy?"));
 }
 
-TEST(Selection, IsRefusedBeforeAnythingIsRead) {
+TEST(Components, AreRefusedBeforeAnythingIsRead) {
   const NumberedSnapshot snapshot = gas_row();
-  Component wrong = gas();
-  wrong.name = "wrong";
-  wrong.exclude.where = {"rank > 1"};
-  EXPECT_THROW(load(scene_of({gas(), wrong}), snapshot), UsageError);
-  EXPECT_THAT(snapshot.fields_read(), IsEmpty());
+  std::vector<Component> wrong(7, gas());
+  wrong[0].exclude.where = {"rank > 1"};
+  wrong[1].color.field = "rank";
+  wrong[2].intensity.field = "rank";
+  wrong[3].size_field = "rank";
+  wrong[4].color_vector = "mass";
+  wrong[5].palette = "rank";
+  wrong[6].absorption_palette = "rank";
+  for (Component& component : wrong) {
+    component.name = "wrong";
+    EXPECT_THROW(load(scene_of({gas(), component}), snapshot), UsageError);
+    EXPECT_THAT(snapshot.fields_read(), IsEmpty());
+  }
 }
 
 TEST(Selection, RefusesConditionsOnIds) {

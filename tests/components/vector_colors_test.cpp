@@ -1,10 +1,13 @@
 // Particles with red, green and blue of their own, and palettes of their own for absorption.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "device/pictures.h"
+#include "device/stages.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::test {
@@ -119,6 +122,35 @@ INSTANTIATE_TEST_SUITE_P(Shapes, VectorColors,
                          [](const auto& info) {
                            return info.param == CompositeShape::rows ? "rows" : "groups";
                          });
+
+// On a GPU particles are projected one at a time, on a processor eight.
+TEST(VectorColorLanes, PassTheColoursOnEitherWay) {
+  const CloudSetup setup;
+  Frame frame = frame_of(setup.width, setup.height, {with_vectors(random_clouds(setup), 5)});
+  frame.components.push_back(random_clouds(setup));  // has none, and shows its palette's
+  frame.components[0].absorption = {Kind::gray, 0.2};
+  std::vector<std::vector<float>> splats;
+  for (const bool lanes : {false, true}) {
+    DeviceContext device(choose_device(""));
+    Stages stages(device, frame, lanes);
+    stages.project();
+    const std::size_t count = stages.keys().size();
+    constexpr std::size_t floats = sizeof(kernel::Splat) / sizeof(float) + 3;
+    splats.push_back(stages.read<float>(device.buffers.get("splats", 0), count * floats));
+    ASSERT_GT(count, 500u);
+    std::set<float> reds;
+    for (std::size_t i = 0; i < count; ++i)
+      reds.insert(splats.back()[i * floats + floats - 3]);
+    const Column& own = frame.components[0].particles.color_vector;
+    EXPECT_EQ(reds.count(1.0f), 1u);
+    for (const float red : reds) {
+      const bool is_known = red == 1.0f || std::find(own.data(), own.data() + own.size(), red) !=
+                                               own.data() + own.size();
+      EXPECT_TRUE(is_known) << red;
+    }
+  }
+  EXPECT_EQ(splats[0].size(), splats[1].size());
+}
 
 class AbsorptionPalettes : public PictureTest {};
 

@@ -222,18 +222,20 @@ class OpenComponents {
     }
     auto fields = fields_.begin();
     for (const Component& component : scene.components)
-      check(component, *fields++);
+      check(component, scene.sort, *fields++);
   }
 
   std::list<ComponentFields>& fields() { return fields_; }
 
  private:
-  static void check(const Component& component, const ComponentFields& fields) {
+  static void check(const Component& component, const SortOrder& sort,
+                    const ComponentFields& fields) {
     check_factor(component.size_factor, fields, "size.factor");
     if (component.size_fixed) check_factor(*component.size_fixed, fields, "size.fixed");
     check_factor(component.placement.scale, fields, "scale");
     check_placement(component, fields);
-    fields.check();
+    fields.check(sort);
+    choose_palette(component);
   }
 
   static void check_placement(const Component& component, const ComponentFields& fields) {

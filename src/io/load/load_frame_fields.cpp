@@ -70,9 +70,22 @@ void ComponentFields::refuse_types() const {
                   fmt::join(present, ", ")));
 }
 
-void ComponentFields::check() const {
-  for (const TypeFields& type : types_)
+void ComponentFields::check(const SortOrder& sort) const {
+  const auto check_scalars = [this](const std::string& field, const char* key) {
+    for (const TypeFields& type : types_) {
+      if (!field.empty()) type.check_scalars(field, key);
+    }
+  };
+  for (const TypeFields& type : types_) {
     check_selection(component_, type, snapshot_);
+    if (!component_.color_vector.empty()) {
+      type.check_vectors(component_.color_vector, "color.vector");
+    }
+  }
+  if (!component_.size_fixed) check_scalars(component_.size_field, "size.field");
+  check_scalars(component_.color.field, "color.field");
+  check_scalars(component_.intensity.field, "intensity.field");
+  if (sort.by == SortOrder::By::field) check_scalars(sort.field, "sort.field");
 }
 
 void ComponentFields::select() {

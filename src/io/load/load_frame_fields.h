@@ -24,8 +24,8 @@ class ComponentFields {
   ComponentFields(const ComponentFields&) = delete;
   ComponentFields& operator=(const ComponentFields&) = delete;
 
-  // Refuses a selection that cannot be made, before anything is read.
-  void check() const;
+  // Refuses fields and selections that the particles do not have, before anything is read.
+  void check(const SortOrder& sort) const;
   // Finds the selected particles; before all that follows.
   void select();
 

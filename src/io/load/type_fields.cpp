@@ -57,10 +57,19 @@ void TypeFields::check_scalars(const std::string& field, const std::string& key)
 }
 
 Column TypeFields::vectors(const std::string& field, const std::string& key) const {
+  return field_column(require_vectors(field, key));
+}
+
+void TypeFields::check_vectors(const std::string& field, const std::string& key) const {
+  require_vectors(field, key);
+}
+
+const FieldInfo& TypeFields::require_vectors(const std::string& field,
+                                             const std::string& key) const {
   const FieldInfo* const info = find_field(*type_, field);
   if (info == nullptr) refuse_field(field, key);
   if (info->values_per_particle != 3) refuse_width(*info, field, key, "3");
-  return field_column(*info);
+  return *info;
 }
 
 Column TypeFields::field_column(const FieldInfo& field) const {

@@ -32,8 +32,9 @@ class TypeFields {
   Column smoothing_lengths() const;
   std::vector<std::uint64_t> ids() const;
 
-  // Says and throws nothing but for a field that scalars() would refuse.
+  // Refuse what scalars() and vectors() would, and read nothing.
   void check_scalars(const std::string& field, const std::string& key) const;
+  void check_vectors(const std::string& field, const std::string& key) const;
 
  private:
   struct Made {
@@ -42,6 +43,7 @@ class TypeFields {
   };
   Column remembered(const std::string& what, const std::function<Column()>& make) const;
   Column field_column(const FieldInfo& field) const;
+  const FieldInfo& require_vectors(const std::string& field, const std::string& key) const;
   std::optional<std::function<Column()>> find_derived(const std::string& field,
                                                       const std::string& key) const;
   Column derived_temperatures(const std::string& key) const;
