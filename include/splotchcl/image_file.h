@@ -16,7 +16,8 @@ void check_image_path(const std::filesystem::path& path);
 void check_image_size(const std::filesystem::path& path, int width, int height);
 
 struct ImageFileOptions {
-  double gamma = 1;  // 8-bit formats store value^(1/gamma); float formats stay linear
+  double gamma = 1;        // 8-bit formats store value^(1/gamma); float formats stay linear
+  bool truncates = false;  // 8-bit formats store floor(256 v), at most 255, not round(255 v)
   std::map<std::string, std::string> metadata;  // kept by EXR, dropped by other formats
 };
 

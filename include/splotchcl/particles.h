@@ -56,8 +56,8 @@ struct Particles {
   Vec3 origin = {{0, 0, 0}};  // true position = origin + position, added in double
   Column position;            // 3 * count: x y z of each particle, relative to origin
   Column smoothing_length;    // h, the kernel's support radius, > 0
-  Column weight;              // mass or density, as WeightModel says; for constant a factor, absent: 1
-  Column color;               // the palette's scalar before scaling; absent: position 0
+  Column weight;  // mass or density, as WeightModel says; for constant a factor, absent: 1
+  Column color;   // the palette's scalar before scaling; absent: position 0
   // 3 * count: red, green, blue of each particle, >= 0, factors on the palette's emission
   // and on what it absorbs, unless the palette has absorption of its own. Absent: 1 1 1.
   Column color_vector;

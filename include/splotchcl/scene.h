@@ -102,6 +102,12 @@ struct Component {
   std::optional<double> reference_column;  // the w that counts as 1; unset: from the data
 };
 
+// How rows and samples of a picture lie, and how 8 bits are made of a value v.
+//   upright   the sky direction is up, samples at the pixels' centres, round(255 v)
+//   original  as the original program does: upside down, samples half a pixel to the left and,
+//             in the picture as it stands, above; floor(256 v)
+enum class PixelConvention { upright, original };
+
 struct ImageSettings {
   int width = 1024;
   int height = 1024;
@@ -109,6 +115,7 @@ struct ImageSettings {
   double gamma = 1;  // 8-bit files store value^(1/gamma)
   // A picture that stands behind everything, instead of the colour; empty: none.
   std::string background_image;
+  PixelConvention convention = PixelConvention::upright;
 };
 
 // What a scene file says. Nothing in it depends on the data yet.

@@ -21,8 +21,8 @@ void add_render(CLI::App& app, Run& run, Console& console) {
       [&console](const RenderOptions& o) { return run_render(o, console); });
   sub->add_option(
          "SCENE", options->scene,
-         wrapped("A scene file (.toml), or a snapshot: then camera, palette and ranges are "
-                 "chosen from the data"))
+         wrapped("A scene file (.toml), a parameter file of the original Splotch (.par), or a "
+                 "snapshot: then camera, palette and ranges are chosen from the data"))
       ->required();
   sub->add_option(
          "-o,--output", options->output,
@@ -62,6 +62,25 @@ void add_render(CLI::App& app, Run& run, Console& console) {
       "  splotchcl render snapshot_006 --set image.width=1920 --set image.height=1080\n"
       "  splotchcl render snapshot_006 --explain > scene.toml\n"
       "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128");
+}
+
+void add_convert(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<ConvertOptions>();
+  CLI::App* const sub = add_command<ConvertOptions>(
+      app, run, "convert", "Make a scene file of a parameter file of the original Splotch", options,
+      [&console](const ConvertOptions& o) { return run_convert(o, console); });
+  sub->add_option("FILE", options->par, wrapped("A parameter file (.par)"))->required();
+  sub->add_option("-o,--output", options->output, wrapped("The scene file (.toml)"))
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--set", options->settings,
+                  wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->footer(
+      "Keys without a counterpart are named. render and movie take a .par file as it is, too.\n"
+      "Example:\n"
+      "  splotchcl convert demo.par -o demo.toml");
 }
 
 void add_info(CLI::App& app, Run& run, Console& console) {
@@ -212,6 +231,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
+  add_convert(app, run, console);
   add_info(app, run, console);
   add_compare(app, run, console);
   add_devices(app, run);

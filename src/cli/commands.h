@@ -27,6 +27,13 @@ struct RenderOptions {
 };
 int run_render(const RenderOptions& options, Console& console);
 
+struct ConvertOptions {
+  std::filesystem::path par;
+  std::filesystem::path output;  // a scene file
+  std::vector<std::string> settings;
+};
+int run_convert(const ConvertOptions& options, Console& console);
+
 struct InfoOptions {
   std::filesystem::path snapshot;
   bool json = false;

@@ -184,6 +184,7 @@ ImageFileOptions file_options(const Scene& scene, const RenderOptions& options,
                               const RenderStats& stats) {
   ImageFileOptions file;
   file.gamma = scene.image.gamma;
+  file.truncates = scene.image.convention == PixelConvention::original;
   file.metadata = {{"splotchcl:version", SPLOTCHCL_VERSION},
                    {"splotchcl:scene", format_scene(scene)},
                    {"splotchcl:device", stats.device}};
@@ -201,6 +202,8 @@ int run_render(const RenderOptions& options, Console& console) {
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
 
   const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  for (const std::string& note : source.notes)
+    console.note(note);
   const ImageSettings& picture = source.scene.image;
   if (output) {
     const bool cropped = wanted.width > 0;

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <fstream>
 
-#include "splotchcl/error.h"
+#include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl::cli {
@@ -33,16 +33,17 @@ bool begins_like_text(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool is_par_file(const std::filesystem::path& path) {
+  return lower_ending(path) == ".par";
+}
+
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
                              const std::vector<std::string>& settings) {
-  const std::string ending = lower_ending(path);
-  if (ending == ".par") {
-    throw UsageError(path.string() +
-                     ": parameter files of the original Splotch are not supported yet; name the "
-                     "snapshot itself, or write a scene file (--explain prints one to start from)");
-  }
   SceneWithSnapshot result;
-  if (ending == ".toml" || begins_like_text(path)) {
+  if (is_par_file(path)) {
+    result.scene = read_par_file(path, settings, result.notes);
+    result.snapshot = SnapshotSource().at(result.scene);
+  } else if (lower_ending(path) == ".toml" || begins_like_text(path)) {
     result.scene = read_scene_file(path, settings);
     result.snapshot = SnapshotSource().at(result.scene);
   } else {

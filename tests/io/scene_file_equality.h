@@ -175,6 +175,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.image.background, b.image.background);
   EXPECT_EQ(a.image.gamma, b.image.gamma);
   EXPECT_EQ(a.image.background_image, b.image.background_image);
+  EXPECT_EQ(a.image.convention, b.image.convention);
   ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
   if (a.camera) expect_same(*a.camera, *b.camera);
   EXPECT_EQ(a.kernel.width, b.kernel.width);

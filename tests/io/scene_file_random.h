@@ -24,7 +24,8 @@ class RandomScenes {
       scene.time = time();
     }
     scene.tolerance = unit();
-    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma(), ""};
+    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma(), "",
+                   coin() ? PixelConvention::upright : PixelConvention::original};
     if (coin()) {
       scene.image.background = {0, 0, 0};
       scene.image.background_image = word();

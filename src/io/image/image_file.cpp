@@ -65,17 +65,18 @@ const Format& format_of(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": " + problem + "; the ending chooses one of " + endings());
 }
 
-std::uint8_t to_byte(float value, float exponent) {
+std::uint8_t to_byte(float value, float exponent, bool truncates) {
   const float clamped = std::clamp(value, 0.0F, 1.0F);
   const float displayed = exponent == 1 ? clamped : std::pow(clamped, exponent);
+  if (truncates) return static_cast<std::uint8_t>(std::min(256 * displayed, 255.0F));
   return static_cast<std::uint8_t>(255 * displayed + 0.5F);  // rounds, since it is positive
 }
 
 std::vector<std::uint8_t> to_bytes(const std::filesystem::path& path, const Image& image,
-                                   double gamma) {
+                                   const ImageFileOptions& options) {
   const std::size_t pixels = image.pixels.size() / 4;
   std::vector<std::uint8_t> bytes(3 * pixels);
-  const auto exponent = static_cast<float>(1 / gamma);
+  const auto exponent = static_cast<float>(1 / options.gamma);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const float value = image.pixels[4 * pixel + channel];
@@ -85,7 +86,7 @@ std::vector<std::uint8_t> to_bytes(const std::filesystem::path& path, const Imag
                         std::to_string(pixel % width) + "," + std::to_string(pixel / width) +
                         ", which 8 bits cannot hold; an .exr file can");
       }
-      bytes[3 * pixel + channel] = to_byte(value, exponent);
+      bytes[3 * pixel + channel] = to_byte(value, exponent, options.truncates);
     }
   }
   return bytes;
@@ -124,7 +125,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Image
                     ": " + first_line(output->geterror()));
   };
   const std::vector<std::uint8_t> bytes =
-      format.is_float ? std::vector<std::uint8_t>() : to_bytes(path, image, options.gamma);
+      format.is_float ? std::vector<std::uint8_t>() : to_bytes(path, image, options);
   std::vector<unsigned char> file;
   OIIO::Filesystem::IOVecOutput memory(file);
   require(output->set_ioproxy(&memory));

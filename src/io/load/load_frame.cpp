@@ -207,6 +207,14 @@ Camera choose_camera(const Scene& scene, const Snapshot& snapshot) {
   return suggest_camera(snapshot, types, scene.image.width, scene.image.height);
 }
 
+// The original's samples lie on whole coordinates, and its rows grow along the sky direction.
+void use_original_convention(CameraFrame& camera) {
+  using namespace boost::qvm;
+  camera.down = -camera.down;
+  camera.centre_x += 0.5;
+  camera.centre_y += 0.5;
+}
+
 // The components with their snapshots: whatever can be refused before anything is read.
 class OpenComponents {
  public:
@@ -271,6 +279,7 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   frame.height = scene.image.height;
   frame.crop = {0, 0, frame.width, frame.height};
   frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  if (scene.image.convention == PixelConvention::original) use_original_convention(frame.camera);
   frame.projection = camera.projection;
   frame.near_limit = camera.near_limit;
   frame.far_limit = camera.far_limit;

@@ -81,6 +81,13 @@ Keys image_keys() {
                       {"The height alone, instead of `size`.", "pixels"})),
       key("image.gamma", number(between(0.01, 100)), &ImageSettings::gamma,
           {"Files of 8 bits store value^(1/gamma). EXR, TIFF and HDR always keep linear light."}),
+      key("image.convention",
+          choice<PixelConvention>(
+              {{"upright", PixelConvention::upright}, {"original", PixelConvention::original}}),
+          &ImageSettings::convention,
+          {"`original`: as the original program has it, with the sky direction down, samples half "
+           "a pixel to the upper left of the pixels' centres, and 8 bits truncated; see "
+           "original-files.md."}),
   };
 }
 

@@ -71,7 +71,9 @@ double wrapped(double x, const std::optional<PeriodicRange>& period) {
 // The four weights of a cubic by values and tangents; of x0 it is what is left of 1.
 struct HermiteWeights {
   explicit HermiteWeights(double f)
-      : displacement(f * f * (3 - 2 * f)), tangent0(f * (1 - f) * (1 - f)), tangent1(f * f * (f - 1)) {}
+      : displacement(f * f * (3 - 2 * f)),
+        tangent0(f * (1 - f) * (1 - f)),
+        tangent1(f * f * (f - 1)) {}
   double displacement, tangent0, tangent1;
 };
 
@@ -88,8 +90,8 @@ bool lies_within(const Column& position, const Vec3& origin, const PeriodicRange
 
 Column interpolate_values(const Column& first, const Column& second, int values_per_particle,
                           const IdMatch& match, double fraction, bool logarithmic) {
-  const bool is_uniform = first.is_uniform() && second.is_uniform() &&
-                          first.uniform_value() == second.uniform_value();
+  const bool is_uniform =
+      first.is_uniform() && second.is_uniform() && first.uniform_value() == second.uniform_value();
   if (is_uniform) return first;
   const auto width = static_cast<std::size_t>(values_per_particle);
   std::vector<float> values(particles_after(match) * width);
@@ -144,8 +146,8 @@ Column interpolate_positions(const PathEnd& first, const PathEnd& second, const 
       } else if (is_straight) {
         moved = fraction * way;
       } else {
-        moved = weights.displacement * way + weights.tangent0 * m0[axis] +
-                weights.tangent1 * m1[axis];
+        moved =
+            weights.displacement * way + weights.tangent0 * m0[axis] + weights.tangent1 * m1[axis];
       }
       positions[3 * i + axis] =
           static_cast<float>(wrapped(x0[axis] + moved, period) - first.origin.a[axis]);

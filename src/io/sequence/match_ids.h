@@ -21,6 +21,7 @@ struct IdMatch {
 };
 
 // Sorts both. Up to 2^32 - 1 particles each, else throws DataError.
-IdMatch match_ids(const std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& second);
+IdMatch match_ids(const std::vector<std::uint64_t>& first,
+                  const std::vector<std::uint64_t>& second);
 
 }  // namespace splotchcl

@@ -60,7 +60,8 @@ bool share_particles(const Snapshot& first, const Snapshot& second) {
     if (second.info().find_type(type.type) == nullptr) continue;
     const auto ids = first.read_ids(type.type);
     const std::unordered_set<std::uint64_t> sample(
-        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(ids.size(), 4096)));
+        ids.begin(),
+        ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(ids.size(), 4096)));
     const auto others = second.read_ids(type.type);
     const bool has_one = std::any_of(others.begin(), others.end(),
                                      [&](std::uint64_t id) { return sample.count(id) > 0; });
@@ -175,8 +176,8 @@ void SnapshotSource::State::take_ahead(std::size_t needed_first, std::size_t nee
   members_[ahead_index_] = ahead.member;
   if (!ahead.pair) return;
   for (const std::size_t first : {ahead_index_, ahead_index_ - 1}) {
-    const bool begins = first < list_.size() && members_.count(first) > 0 &&
-                        members_[first] == ahead.pair->first;
+    const bool begins =
+        first < list_.size() && members_.count(first) > 0 && members_[first] == ahead.pair->first;
     if (begins) pairs_[first] = ahead.pair;
   }
 }
@@ -193,18 +194,17 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
 
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
-  ahead_ = std::async(
-      std::launch::async,
-      [listed = list_[next], neighbour = member(edge), is_forward, settings = settings_] {
-        Ahead ahead;
-        ahead.member = open_member(listed);
-        read_fields(*ahead.member, neighbour->fields_read());
-        if (settings.interpolation != Interpolation::none) {
-          ahead.pair = is_forward ? make_pair(neighbour, ahead.member, settings)
-                                  : make_pair(ahead.member, neighbour, settings);
-        }
-        return ahead;
-      });
+  ahead_ = std::async(std::launch::async, [listed = list_[next], neighbour = member(edge),
+                                           is_forward, settings = settings_] {
+    Ahead ahead;
+    ahead.member = open_member(listed);
+    read_fields(*ahead.member, neighbour->fields_read());
+    if (settings.interpolation != Interpolation::none) {
+      ahead.pair = is_forward ? make_pair(neighbour, ahead.member, settings)
+                              : make_pair(ahead.member, neighbour, settings);
+    }
+    return ahead;
+  });
 }
 
 void SnapshotSource::State::check(const SequenceSettings& settings) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace splotchcl::par {
+
+// The lines key=value of a parameter file. Every value that is asked for is remembered, so
+// that what nobody asked for can be named. Everything throws UsageError with file and line.
+class ParFile {
+ public:
+  ParFile(const std::string& text, std::string name_for_messages);
+
+  bool has(const std::string& key) const { return entries_.count(key) > 0; }
+  // Nothing when the key is not there or has no value.
+  std::optional<std::string> text(const std::string& key);
+  std::optional<double> number(const std::string& key);
+  std::optional<int> integer(const std::string& key, int lowest, int highest);
+  std::optional<bool> boolean(const std::string& key);
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
+
+  std::vector<std::string> unused() const;  // in the order of the file
+  const std::vector<std::string>& notes() const { return notes_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  struct Entry {
+    std::string value;
+    int line = 0;
+  };
+  void add(const std::string& line, int number);
+
+  std::string name_;
+  std::map<std::string, Entry> entries_;
+  std::set<std::string> used_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace splotchcl::par

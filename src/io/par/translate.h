@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/par/par_file.h"
+#include "io/par/scene_text.h"
+
+// From the keys of the original to those of a scene, a part each. Formulas:
+// docs/original-files.md.
+namespace splotchcl::par {
+
+struct Translation {
+  Translation(ParFile& from, std::filesystem::path files) : par(from), folder(std::move(files)) {}
+
+  // A file that the parameter file names, as it is found from here.
+  std::filesystem::path file(const std::string& name) const;
+  void note(const std::string& text) { notes.push_back(text); }
+
+  ParFile& par;
+  std::filesystem::path folder;  // of the parameter file
+  SceneText scene;
+  std::vector<std::string> notes;
+};
+
+void translate_snapshot(Translation& t);
+void translate_camera(Translation& t);
+void translate_picture(Translation& t);
+void translate_order(Translation& t);
+void translate_components(Translation& t);
+
+}  // namespace splotchcl::par
