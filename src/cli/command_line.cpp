@@ -83,6 +83,51 @@ void add_convert(CLI::App& app, Run& run, Console& console) {
       "  splotchcl convert demo.par -o demo.toml");
 }
 
+void add_movie(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<MovieOptions>();
+  CLI::App* const sub = add_command<MovieOptions>(
+      app, run, "movie", "Draw the frames of a film", options,
+      [&console](const MovieOptions& o) { return run_movie(o, console); });
+  sub->add_option("SCENE", options->scene,
+                  wrapped("A scene file (.toml) with a [path], or a snapshot and settings"))
+      ->required();
+  sub->add_option("-o,--output", options->output,
+                  wrapped("The film (.mp4 .mov .mkv .webm, made by ffmpeg), or numbered images: a "
+                          "name with %d or %04d and the ending of a picture"))
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--device", options->device,
+                  wrapped("A part of an OpenCL device's name, see splotchcl devices"))
+      ->type_name("NAME");
+  sub->add_option("--set", options->settings,
+                  wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->add_option("--tolerance", options->tolerance,
+                  wrapped("Largest error of a pixel, as for render"))
+      ->type_name("X");
+  sub->add_flag("--reference", options->reference,
+                wrapped("Draw with the slow reference renderer instead of a device"));
+  sub->add_option("--frames", options->frames,
+                  wrapped("Only these frames, from 0: FIRST:END:STEP, END left out; 100:200:2 is "
+                          "100, 102, ... 198"))
+      ->type_name("RANGE");
+  sub->add_option("--part", options->part,
+                  wrapped("Draw the I-th of N shares of the frames, for N processes; the one that "
+                          "ends last makes the film"))
+      ->type_name("I/N");
+  sub->add_flag("--join", options->join,
+                wrapped("Draw nothing: make the film of frames that are all there"));
+  sub->footer(
+      "A film that was interrupted is continued by the same command: its frames are kept in\n"
+      "FILE.frames until it is complete.\n"
+      "Examples:\n"
+      "  splotchcl movie flight.toml -o flight.mp4\n"
+      "  splotchcl movie snapshot_006 --set path.orbit.degrees=360 --set movie.frames=250 "
+      "-o turn.mp4\n"
+      "  splotchcl movie flight.toml -o frame_%04d.exr --frames 0:100 --part 3/8");
+}
+
 void add_info(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* const sub =
@@ -232,6 +277,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
   add_convert(app, run, console);
+  add_movie(app, run, console);
   add_info(app, run, console);
   add_compare(app, run, console);
   add_devices(app, run);

@@ -34,6 +34,19 @@ struct ConvertOptions {
 };
 int run_convert(const ConvertOptions& options, Console& console);
 
+struct MovieOptions {
+  std::filesystem::path scene;   // a scene file or a snapshot
+  std::filesystem::path output;  // a film, or numbered images
+  std::string device;
+  std::vector<std::string> settings;  // key=value
+  std::optional<double> tolerance;
+  bool reference = false;
+  std::string frames;  // FIRST:END:STEP
+  std::string part;    // I/N
+  bool join = false;
+};
+int run_movie(const MovieOptions& options, Console& console);
+
 struct InfoOptions {
   std::filesystem::path snapshot;
   bool json = false;

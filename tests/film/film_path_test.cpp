@@ -149,6 +149,11 @@ TEST(Keyframes, AreRefusedOutOfOrder) {
               HasSubstr("in increasing order of frame"));
 }
 
+TEST(Keyframes, AreRefusedWhereTheSizeOfThePictureWouldChange) {
+  EXPECT_THAT(message("[[path.keyframes]]\nframe = 0\nimage.size = [10, 10]\n"),
+              HasSubstr("image.size, expected keys that may change"));
+}
+
 TEST(FilmPath, NamesTheFrameThatCannotBeDrawn) {
   EXPECT_THAT(message("[[path.keyframes]]\nframe = 0\nlook_at = [0, 0, 0]\n"
                       "[[path.keyframes]]\nframe = 4\nlook_at = [20, 0, 0]\n"),

@@ -29,6 +29,7 @@ void decide(FieldMap& map, const ScalarMap& decided) {
   if (map.field.empty()) return;
   if (!map.minimum) map.minimum = unscaled(decided.minimum, map.scaling);
   if (!map.maximum) map.maximum = unscaled(decided.maximum, map.scaling);
+  map.percentiles.reset();
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "io/path/camera_motion.h"
 #include "io/path/keyframe_tracks.h"
-#include "io/scene_file/keys.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 
@@ -16,19 +16,14 @@ namespace {
 
 const std::string index_key = "time.index";
 
-bool has_sequence(const Scene& /*scene*/) {
-  return scene_file::find_key(index_key) != nullptr;
-}
-
 // Files of the original program name the snapshot in each row. Where all name the same one,
 // it is the scene's.
 void settle_snapshot_index(PathTable& table, const Scene& scene, std::vector<std::string>& notes) {
-  if (!table.sets(index_key) || has_sequence(scene)) return;
+  if (!table.sets(index_key) || scene.time.is_set()) return;
   if (!table.is_constant(index_key)) {
     throw UsageError(
         fmt::format("{}: the index of the snapshot changes from row to row, expected a scene with "
-                    "a sequence of "
-                    "snapshots; add a [time] table",
+                    "a sequence of snapshots; add a [time] table",
                     scene.path.file));
   }
   notes.push_back(fmt::format(

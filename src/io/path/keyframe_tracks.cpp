@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/path/path_table.h"
 #include "io/scene_file/setting.h"
 #include "io/scene_file/values.h"
 #include "scene/direction_track.h"
@@ -176,6 +177,13 @@ std::function<std::string(double)> look_track(const Knots& knots,
   };
 }
 
+void check_may_change(const std::string& key, const Scene& scene) {
+  const std::string where = "path.keyframes";
+  if (may_change_in_film(scene_file::locate(key, scene, where).path)) return;
+  throw UsageError(
+      fmt::format("{}: found {}, expected keys that may change within a film", where, key));
+}
+
 std::map<std::string, Knots> knots_by_key(const std::vector<Keyframe>& keyframes) {
   std::map<std::string, Knots> knots;
   for (const Keyframe& keyframe : keyframes) {
@@ -193,6 +201,7 @@ KeyframeTracks::KeyframeTracks(const Scene& scene) {
   const PathSettings& path = scene.path;
   std::map<std::string, Knots> knots = knots_by_key(path.keyframes);
   for (const auto& [key, of_key] : knots) {
+    check_may_change(key, scene);
     if (key == sky_key) {
       tracks_[key] = sky_track(of_key, path.is_smooth);
     } else if (const auto numbers = all_numbers(key, of_key)) {

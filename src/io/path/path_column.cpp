@@ -75,13 +75,6 @@ std::optional<std::size_t> axis_of(const std::string& word) {
   return std::nullopt;
 }
 
-// What may not change within a film, or has no meaning there.
-bool is_fixed(const std::string& key) {
-  const std::string table = key.substr(0, key.find('.'));
-  return table == "path" || table == "movie" || key == "image.size" || key == "image.width" ||
-         key == "image.height" || key == "component.name";
-}
-
 // The key's place, if it is one.
 std::optional<scene_file::Place> find_place(const std::string& key, const Scene& scene,
                                             const std::string& where) {
@@ -92,7 +85,7 @@ std::optional<scene_file::Place> find_place(const std::string& key, const Scene&
 std::vector<std::string> all_names() {
   std::vector<std::string> names;
   for (const scene_file::Key& key : scene_file::all_keys()) {
-    if (!is_fixed(key.path)) names.push_back(key.path);
+    if (may_change_in_film(key.path)) names.push_back(key.path);
   }
   for (const auto& [name, key] : original_names())
     names.push_back(name);
@@ -123,16 +116,17 @@ std::optional<Scaling> scaling_to_undo(const scene_file::Place& place, const Sce
 
 }  // namespace
 
+bool may_change_in_film(const std::string& path) {
+  const std::string table = path.substr(0, path.find('.'));
+  return table != "path" && table != "movie" && path != "image.size" && path != "image.width" &&
+         path != "image.height" && path != "component.name";
+}
+
 PathColumn find_path_column(const std::string& name, const Scene& scene, const std::string& where) {
   const std::string key = without_original_names(name);
   PathColumn column;
   column.name = name;
   column.key = key;
-  // In a scene without a sequence the column may yet be one that says nothing.
-  if (key == "time.index" && find_key(key) == nullptr) {
-    column.label = key;
-    return column;
-  }
   std::optional<scene_file::Place> place = find_place(key, scene, where);
   if (!place) {
     const std::size_t dot = key.rfind('.');
@@ -143,7 +137,7 @@ PathColumn find_path_column(const std::string& name, const Scene& scene, const s
     }
   }
   if (!place) refuse_column(name, where);
-  if (is_fixed(place->path)) {
+  if (!may_change_in_film(place->path)) {
     throw UsageError(fmt::format("{}: found {}, expected a key that may change within a film",
                                  where, scene_file::write_text(name)));
   }

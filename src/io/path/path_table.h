@@ -20,6 +20,9 @@ struct PathColumn {
   std::optional<Scaling> undo;
 };
 
+// Whether a key, by its path in the list of keys, may have another value in each frame.
+bool may_change_in_film(const std::string& path);
+
 // Finds a column by the name of a key ("camera.field_of_view"), of a value of a vector
 // ("camera.position.x" or ".0") or by the original program's name ("camera_x", "fov",
 // "brightness0"). Throws UsageError beginning with `where`.

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splotchcl {
+
+// The files of a film's frames: in a folder beside the film until it is complete, or the
+// numbered images that the user asked for. A manifest, which says all that the frames depend
+// on, lies beside them, so that a film that was interrupted is continued and frames of
+// different films never meet.
+class FrameFiles {
+ public:
+  // `output` is a film or, with something like %04d in its name, numbered images. `suffixes`
+  // are those of a frame's pictures. Throws UsageError when the name is neither.
+  FrameFiles(const std::filesystem::path& output, std::vector<std::string> suffixes);
+
+  bool is_film() const { return is_film_; }
+  // What is written in the end, by suffix.
+  std::filesystem::path film(const std::string& suffix) const;
+  std::filesystem::path picture(int frame, const std::string& suffix) const;
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // Throws DataError where nothing can be written.
+  void check() const;
+  // Begins a film, or goes on with one of the same manifest. Throws UsageError where there are
+  // frames of another.
+  void open(const std::string& manifest);
+  bool has(int frame) const;
+  // The frames are where they belong: removes manifest and folder.
+  void close();
+
+  // Only one process at a time holds it; false: another one does.
+  class Lock {
+   public:
+    explicit Lock(const FrameFiles& files);
+    ~Lock();
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+    explicit operator bool() const { return descriptor_ >= 0; }
+
+   private:
+    int descriptor_ = -1;
+  };
+
+ private:
+  std::filesystem::path output_, folder_, manifest_;
+  std::vector<std::string> suffixes_;
+  bool is_film_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,188 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cli/program.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A few hundred particles, some small frames, and the renderer that needs no device.
+class Movie : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(splotchcl_in(folder_, "generate halo -o halo.gadget --particles 300").exit_code, 0);
+    write("film.toml",
+          "snapshot = 'halo.gadget'\n"
+          "[image]\nsize = [32, 18]\n"
+          "[path.orbit]\ndegrees = 90\n"
+          "[movie]\nframes = 6\n"
+          "[[component]]\nname = 'gas'\n");
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  ProgramResult movie(const std::string& arguments) const {
+    return splotchcl_in(folder_, "movie film.toml --reference " + arguments);
+  }
+  bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  std::string content(const std::string& name) const { return read_text(folder_ / name); }
+
+  TemporaryFolder folder_;
+};
+
+bool has_ffmpeg() {
+  static const bool found = std::system("ffmpeg -version > /dev/null 2>&1") == 0;
+  return found;
+}
+#define SKIP_WITHOUT_FFMPEG() \
+  if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg"
+
+TEST_F(Movie, WritesNumberedImagesSilently) {
+  const ProgramResult result = movie("-o frame_%03d.png --frames 1:6:2");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  for (const char* name : {"frame_001.png", "frame_003.png", "frame_005.png"})
+    EXPECT_TRUE(has(name)) << name;
+  EXPECT_EQ(folder_.count_files(), 2U + 3U);  // and no manifest
+}
+
+TEST_F(Movie, DrawsEachFrameAsRenderDoes) {
+  write("still.toml",
+        "snapshot = 'halo.gadget'\n[image]\nsize = [32, 18]\n"
+        "[camera]\nposition = [60, 0, 10]\nlook_at = [0, 0, 0]\nsky = [0, 0, 1]\n"
+        "[[component]]\nname = 'gas'\nreference_column = 1e-3\n");
+  EXPECT_EQ(splotchcl_in(folder_, "render still.toml --reference -o still.png").exit_code, 0);
+  EXPECT_EQ(
+      splotchcl_in(folder_, "movie still.toml --reference -o frame_%d.png --set movie.frames=2")
+          .exit_code,
+      0);
+  EXPECT_EQ(content("frame_0.png"), content("still.png"));
+  EXPECT_EQ(content("frame_1.png"), content("still.png"));
+}
+
+TEST_F(Movie, IsTheSameWhenItWasDrawnInPartsAndJoined) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o whole.mp4").exit_code, 0);
+  EXPECT_FALSE(has("whole.mp4.frames"));
+  for (const std::string part : {"2/3", "1/3"}) {
+    ASSERT_EQ(movie("-o parts.mp4 --part " + part).exit_code, 0);
+    EXPECT_FALSE(has("parts.mp4"));
+  }
+  const ProgramResult early = movie("-o parts.mp4 --join");
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_THAT(early.err, HasSubstr("2 of 6 frames are missing"));
+  ASSERT_EQ(movie("-o parts.mp4 --part 3/3").exit_code, 0);
+  EXPECT_FALSE(has("parts.mp4.frames"));
+  EXPECT_EQ(content("parts.mp4"), content("whole.mp4"));
+}
+
+// Whenever it is stopped, and however: the frames that are there are whole, and the film made
+// with them is the same to the last bit.
+TEST_F(Movie, IsTheSameWhenItWasInterruptedAndContinued) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o whole.mp4").exit_code, 0);
+  for (const std::string signal : {"TERM", "KILL"}) {
+    const std::string name = signal + ".mp4";
+    const ProgramResult stopped = run_in(folder_, "\"$splotchcl\" movie film.toml --reference -o " +
+                                                      name + " & film=$!; until [ -e " + name +
+                                                      ".frames/frame_000001.png ] || "
+                                                      "[ -e " +
+                                                      name + " ]; do sleep 0.002; done; kill -" +
+                                                      signal + " $film; wait $film");
+    if (signal == "TERM" && stopped.exit_code != 0) {
+      EXPECT_EQ(stopped.exit_code, 1);
+      EXPECT_THAT(stopped.err, HasSubstr("the same command goes on"));
+    }
+    ASSERT_EQ(movie("-o " + name).exit_code, 0);
+    EXPECT_FALSE(has(name + ".frames"));
+    EXPECT_EQ(content(name), content("whole.mp4")) << signal;
+  }
+}
+
+TEST_F(Movie, KeepsFramesThatAreThere) {
+  ASSERT_EQ(movie("-o film.mp4 --part 1/6").exit_code, has_ffmpeg() ? 0 : 1);
+  SKIP_WITHOUT_FFMPEG();
+  const auto first = folder_ / "film.mp4.frames/frame_000000.png";
+  const auto time = std::filesystem::last_write_time(first);
+  ASSERT_EQ(movie("-o film.mp4 --part 1/3").exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(first), time);
+  EXPECT_TRUE(has("film.mp4.frames/frame_000001.png"));
+}
+
+TEST_F(Movie, RefusesToMixFramesOfTwoFilms) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o film.mp4 --part 1/2").exit_code, 0);
+  const ProgramResult other = movie("-o film.mp4 --set component.gas.brightness=2");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(is_one_line(other.err));
+  EXPECT_THAT(other.err, HasSubstr("film.mp4.frames/movie.txt: found frames of another film"));
+  EXPECT_THAT(other.err, HasSubstr("brightness = 1"));
+}
+
+TEST_F(Movie, MayChangeHowItIsEncodedWhenItIsContinued) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o film.mp4 --part 1/2").exit_code, 0);
+  EXPECT_EQ(movie("-o film.mp4 --set movie.rate_factor=30").exit_code, 0);
+}
+
+TEST_F(Movie, DrawsImagesAnewThatAreLeftFromAnother) {
+  ASSERT_EQ(movie("-o frame_%d.png --set component.gas.brightness=0").exit_code, 0);
+  const std::string black = content("frame_2.png");
+  ASSERT_EQ(movie("-o frame_%d.png").exit_code, 0);
+  EXPECT_NE(content("frame_2.png"), black);
+}
+
+TEST_F(Movie, IsNotMuchOtherThanItsFrames) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o film.mp4 --set image.background=[0.8,0.3,0.1] --set image.size=[64,32] "
+                  "--set component.gas.brightness=0")
+                .exit_code,
+            0);
+  ASSERT_EQ(run_in(folder_, "ffmpeg -loglevel error -i film.mp4 -frames:v 1 first.png").exit_code,
+            0);
+  // Half of the colour's resolution and 8 bits of luma and chroma are lost.
+  const Image image = read_image(folder_ / "first.png");
+  EXPECT_NEAR(image.at(32, 16)[0], 0.8, 0.02);
+  EXPECT_NEAR(image.at(32, 16)[1], 0.3, 0.02);
+  EXPECT_NEAR(image.at(32, 16)[2], 0.1, 0.02);
+}
+
+TEST_F(Movie, RefusesOutputsThatAreNeitherFilmNorNumbered) {
+  for (const std::string name : {"film.png", "film_%s.png", "film", "a_%d_%d.png"}) {
+    const ProgramResult result = movie("-o " + name);
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr("such as frame_%04d.png")) << name;
+  }
+}
+
+TEST_F(Movie, RefusesWhatAFilmCannotHold) {
+  const ProgramResult odd = movie("-o film.mp4 --set image.width=33");
+  EXPECT_EQ(odd.exit_code, 2);
+  EXPECT_THAT(odd.err, HasSubstr("even numbers"));
+  EXPECT_EQ(movie("-o film.webm --set movie.codec=h264").exit_code, 2);
+}
+
+TEST_F(Movie, TellsWhatToInstallWithoutFfmpeg) {
+  const ProgramResult result =
+      run_in(folder_, "PATH=/nowhere \"$splotchcl\" movie film.toml -o film.mp4");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(is_one_line(result.err));
+  EXPECT_THAT(result.err, HasSubstr("apt-get install ffmpeg"));
+}
+
+TEST_F(Movie, ChecksItsPathBeforeItDraws) {
+  write("path.txt", "fov\n30\n180\n");
+  const ProgramResult result = splotchcl_in(
+      folder_, "movie film.toml -o f_%d.png --set path.file=path.txt --set movie.frames=2");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("path.txt:3: column 1 (fov)"));
+  EXPECT_EQ(folder_.count_files(), 3U);
+}
+
+}  // namespace
+}  // namespace splotchcl::testing
