@@ -25,7 +25,9 @@ std::string describe(const std::filesystem::path& file) {
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  scene_ = open_scene(path, settings).scene;
+  SceneWithSnapshot opened = open_scene(path, settings);
+  scene_ = std::move(opened.scene);
+  notes_ = std::move(opened.notes);
   if (!scene_.camera && !path_has_camera(scene_)) decide_camera();
   path_.emplace(scene_, notes_);
   path_->check(scene_);
