@@ -63,14 +63,16 @@ __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
 
 // Starts of the lists, and the segments that long ones are cut into. The sum of all
 // lengths is counted in 64 bits: the host refuses to go on where it exceeds the buffers.
-__kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths,
-                             __global uint* starts, uint segment_capacity,
+__kernel void bin_scan_tiles(const BinParameters p, __global const Grid* grids,
+                             __global const uint* lengths, __global uint* starts, uint segment_capacity,
                              __global Segment* segments, __global BinTotals* totals) {
   if (get_global_id(0) != 0) return;
   ulong running = 0;
-  uint segment_count = 0, partial_count = 0;
+  uint segment_count = 0, partial_count = 0, used_grids = 0, grid = 0;
   for (uint t = 0; t < p.tile_count; ++t) {
     const uint length = lengths[t];
+    while (grid + 1 < p.grid_count && t >= grids[grid + 1].first_tile) ++grid;
+    if (length > 0) used_grids |= 1u << grid;
     starts[t] = (uint)running;
     const uint pieces = length / p.segment_length + (length % p.segment_length != 0);
     for (uint k = 0; k < pieces && segment_count < segment_capacity; ++k) {
@@ -87,6 +89,7 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
   totals->entries_high = (uint)(running >> 32);
   totals->segment_count = segment_count;
   totals->partial_count = partial_count;
+  totals->used_grids = used_grids;
 }
 
 inline void sample_knots(__global const float* knots, uint first, uint count, float position,

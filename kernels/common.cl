@@ -11,6 +11,7 @@ typedef struct Grid Grid;
 typedef struct BinParameters BinParameters;
 typedef struct Segment Segment;
 typedef struct BinTotals BinTotals;
+typedef struct BlurParameters BlurParameters;
 typedef struct CompositeParameters CompositeParameters;
 typedef struct ResolveParameters ResolveParameters;
 

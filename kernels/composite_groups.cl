@@ -17,7 +17,7 @@ inline float axis_shape(float d, float sigma, float inverse, float mean_sigma) {
 }
 
 // X / w of one pixel; zero outside what the rows would draw.
-inline float pixel_shape(float dx, float dy, const TileSplat splat, const CompositeParameters p) {
+inline float pixel_shape(float dx, float dy, const TileSplat splat, float mean_sigma) {
   if (fabs(dx) > splat.radius || fabs(dy) > splat.radius) return 0.0f;
   const float sigma = splat.sigma;
   const float inverse = 1.44269504f / (sigma * sigma);
@@ -29,8 +29,8 @@ inline float pixel_shape(float dx, float dy, const TileSplat splat, const Compos
 #endif
   if (!inside) return 0.0f;
 #endif
-  return axis_shape(dx, sigma, inverse, p.mean_sigma) *
-         axis_shape(dy, sigma, inverse, p.mean_sigma);
+  return axis_shape(dx, sigma, inverse, mean_sigma) *
+         axis_shape(dy, sigma, inverse, mean_sigma);
 }
 
 inline void add_splat(float* pixel, const TileSplat splat, float shape, float phi_series_limit) {
@@ -73,7 +73,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     for (uint k = 0; k < count; ++k) {
       const TileSplat splat = batch[k];
       const float dx = (float)x + 0.5f - splat.x, dy = (float)y + 0.5f - splat.y;
-      const float shape = pixel_shape(dx, dy, splat, p);
+      const float shape = pixel_shape(dx, dy, splat, grid.mean_sigma);
       if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -143,7 +143,8 @@ inline float8 seven_means(float first, float sigma) {
   return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
 }
 
-inline void add_splat(float* tile, __global const TileSplat* splat, const CompositeParameters p) {
+inline void add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
+                      const CompositeParameters p) {
   const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, splat->radius, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return;
@@ -151,10 +152,25 @@ inline void add_splat(float* tile, __global const TileSplat* splat, const Compos
   float deepest = 0.0f;
 #ifdef LIGHT_ORDERED
   deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
-            (sigma < p.mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
+            (sigma < mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
+    // A grain: the edges of its pixels along both axes fit one call.
+    window.rows = 3;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    const float dx = (float)window.x - splat->x, dy = (float)window.y - splat->y;
+    const float8 edges =
+        error_function(((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) /
+                       sigma);
+    const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
+    float along[4];
+    vstore4(means.hi, 0, along);
+    update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest, p);
+    return;
+  }
   const float inverse = 1.44269504f / (sigma * sigma);
   if (columns_count <= 7 && rows_count <= 7) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
@@ -165,7 +181,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, const Compos
     float along[8];
     const float dx = (float)window.x + 0.5f - splat->x, dy = (float)window.y + 0.5f - splat->y;
     float8 across;
-    if (sigma < p.mean_sigma) {
+    if (sigma < mean_sigma) {
       across = seven_means(dx, sigma);
       vstore8(seven_means(dy, sigma), 0, along);
     } else {
@@ -177,8 +193,8 @@ inline void add_splat(float* tile, __global const TileSplat* splat, const Compos
   }
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma, inverse,
-            p.mean_sigma);
-  fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, p.mean_sigma);
+            mean_sigma);
+  fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, mean_sigma);
   window.y = rows.x;
   window.rows = rows_count;
   const float* along = along_y;
@@ -236,7 +252,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #ifdef LIGHT_ORDERED
     if ((k - segment.begin) % 256u == 0u && is_opaque(tile, p.opaque)) break;
 #endif
-    add_splat(tile, entries + k, p);
+    add_splat(tile, entries + k, grid.mean_sigma, p);
   }
   if (segment.partial == NO_PARTIAL) {
     store_tile(tile, planes, grid, corner);

@@ -62,6 +62,10 @@ struct ProjectParameters {
   float coarse_peak;     // brighter splats stay on the picture's own grid
   int grid_count;
   float guard;  // of the coarse grids
+  // With bands, grids 2 l - 1 and 2 l are those of level l > 0, blurred afterwards by these
+  // sigma^2 in pixels of their own. Without, grid g is level g.
+  int bands;
+  float blur[2];
 
   struct FieldScaling color;
   struct FieldScaling intensity;
@@ -100,11 +104,12 @@ struct ComponentColors {
   float absorption_factor;
 };
 
-// One grid of the picture: grid 0 has the picture's own pixels, grid g pixels 2^g times
-// as wide, with a guard band around the picture. Planes are padded to whole tiles.
+// One grid of the picture: grid 0 has the picture's own pixels, those of level l pixels 2^l
+// times as wide, with a guard band around the picture. Planes are padded to whole tiles.
 struct Grid {
   int width, height;  // with the guard band
   int guard;
+  float mean_sigma;  // narrower splats take the pixel mean by erf; 0: none does
   int tiles_x, tiles_y;
   unsigned int first_tile;
   unsigned int stride, plane_size;                 // floats
@@ -164,11 +169,20 @@ struct Segment {
 struct BinTotals {
   unsigned int entries_low, entries_high;
   unsigned int segment_count, partial_count;
+  unsigned int used_grids;  // bit g: grid g has entries
+};
+
+// One axis of the blur of a grid: weights[half_width + k] for the pixel k beside.
+#define MOST_BLUR_WEIGHTS 64
+struct BlurParameters {
+  unsigned int source, target;  // grids of one level
+  int half_width;
+  int add;  // to what the target holds, else instead of it
+  float weights[MOST_BLUR_WEIGHTS];
 };
 
 struct CompositeParameters {
   unsigned int grid_count;
-  float mean_sigma;
   float phi_short;   // optical depth up to which two terms of phi's series serve
   float phi_series;  // and four
   float opaque;      // stop where every pixel's opacity is at least this; > 1: never

@@ -101,6 +101,14 @@ inline VALUE truncation_extent(VALUE peak, const ProjectParameters p) {
   return max((VALUE)(p.least_extent), sqrt(0.693147181f * excess));
 }
 
+// The largest n with 2^n <= value, for positive values.
+inline INTEGER power_of_two(VALUE value) { return (AS_INTEGER(value) >> 23) - 127; }
+
+inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameters p) {
+  const INTEGER grid = clamp(octave, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
+  return select(grid, (INTEGER)(0), peak > p.coarse_peak);
+}
+
 // The splats of LANES particles.
 typedef struct SplatLanes {
   INTEGER visible, bad;
@@ -213,11 +221,25 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
 
   // Wide splats go to the coarsest grid that still shows their shape, bright ones finer.
   const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
-  const INTEGER level = (AS_INTEGER(widened / amplified) >> 23) - 127;
-  s.grid = clamp(level, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
-  s.grid = select(s.grid, (INTEGER)(0), peak > p.coarse_peak);
-  const VALUE shrink = AS_VALUE((127 - s.grid) << 23);
+  const VALUE ratio = widened / amplified;
+  INTEGER level;
+  if (p.bands) {
+    s.grid = grid_of_octave(power_of_two(ratio * ratio) - 1, peak, p);
+    level = (s.grid + 1) >> 1;
+  } else {
+    s.grid = grid_of_octave(power_of_two(ratio), peak, p);
+    level = s.grid;
+  }
+  const VALUE shrink = AS_VALUE((127 - level) << 23);
   s.sigma = widened * shrink;
+  if (p.bands) {
+    // The grid's blur widens what is drawn to the splat's width, and spreads its light.
+    const VALUE blur = choose((VALUE)(p.blur[1]), (VALUE)(p.blur[0]), (s.grid & 1) != 0);
+    const VALUE drawn = sqrt(s.sigma * s.sigma - blur);
+    const VALUE spread = s.sigma / drawn;
+    weight *= choose((VALUE)(1.0f), spread * spread, s.grid > 0);
+    s.sigma = choose(s.sigma, drawn, s.grid > 0);
+  }
   // A pixel mean sees a splat that reaches the pixel's edge. A cut disc has the radius of
   // the model's sigma, not of the widened one, and means always keep the pixel at its centre.
   s.radius = p.kernel_cut > 0.0f

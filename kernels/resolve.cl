@@ -14,9 +14,9 @@ inline int coarse_place(int index, Grid fine, Grid coarse) {
 
 // Work-item (eight coarse pixels, y of the coarser grid, plane): sixteen pixels of a row,
 // interpolated along x.
-__kernel void refine_columns(uint coarse_index, __global const Grid* grids,
+__kernel void refine_columns(uint coarse_index, uint fine_index, __global const Grid* grids,
                              __global const float* planes, __global float* temporary) {
-  const Grid coarse = grids[coarse_index], fine = grids[coarse_index - 1];
+  const Grid coarse = grids[coarse_index], fine = grids[fine_index];
   const int x = (int)get_global_id(0) * 2 * 8;
   const int y = (int)get_global_id(1), c = (int)get_global_id(2);
   if (x >= fine.width) return;
@@ -32,10 +32,12 @@ __kernel void refine_columns(uint coarse_index, __global const Grid* grids,
   vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
 }
 
-// Work-item (eight pixels, y of the finer grid, plane): interpolated along y and added.
-__kernel void refine_rows(uint coarse_index, __global const Grid* grids, __global float* planes,
+// Work-item (eight pixels, y of the finer grid, plane): interpolated along y and added to
+// what the finer grid holds, if it does hold something.
+__kernel void refine_rows(uint coarse_index, uint fine_index, int add,
+                          __global const Grid* grids, __global float* planes,
                           __global const float* temporary) {
-  const Grid coarse = grids[coarse_index], fine = grids[coarse_index - 1];
+  const Grid coarse = grids[coarse_index], fine = grids[fine_index];
   const int x = (int)get_global_id(0) * 8;
   const int y = (int)get_global_id(1), c = (int)get_global_id(2);
   if (x >= fine.width) return;
@@ -44,7 +46,7 @@ __kernel void refine_rows(uint coarse_index, __global const Grid* grids, __globa
       temporary + ((size_t)c * coarse.height + coarse_place(y, fine, coarse)) * fine.stride + x;
   __global float* target =
       planes + first_float(fine) + (size_t)c * fine.plane_size + (size_t)y * fine.stride + x;
-  float8 sum = vload8(0, target);
+  float8 sum = add ? vload8(0, target) : (float8)(0.0f);
   for (int k = 0; k < 10; ++k) {
     sum += refine_weights[k] * vload8(0, column + (k - 4) * side * (int)fine.stride);
   }

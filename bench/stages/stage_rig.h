@@ -40,7 +40,7 @@ class StageRig {
   void bin();
   void clear() { compositor_.clear(); }
   void composite() { compositor_.composite(lists_); }
-  Image resolve() { return resolver_.resolve(compositor_.planes()); }
+  Image resolve() { return resolver_.resolve(compositor_.planes(), compositor_.used_grids()); }
   void finish() { device_.queue.finish(); }
 
   const Frame& frame() const { return frame_; }

@@ -126,6 +126,7 @@ bool Binner::bin(const kernel::BinParameters& parameters, const compute::buffer&
       .run_grid(parameters.tile_count, 1, 1);
   Launch(device_, "bin", program_.create_kernel("bin_scan_tiles"))
       .value(parameters)
+      .arg(grids_)
       .arg(lengths)
       .arg(starts)
       .value(segment_capacity_)
@@ -137,6 +138,7 @@ bool Binner::bin(const kernel::BinParameters& parameters, const compute::buffer&
   lists.entry_count = totals.entries_low | (std::uint64_t{totals.entries_high} << 32);
   lists.segment_count = totals.segment_count;
   lists.partial_count = totals.partial_count;
+  lists.used_grids = totals.used_grids;
   if (lists.entry_count > entry_capacity_) return false;
   if (lists.entry_count == 0) return true;
 

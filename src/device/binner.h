@@ -15,6 +15,7 @@ struct TileLists {
   std::uint64_t entry_count = 0;
   std::uint32_t segment_count = 0;
   std::uint32_t partial_count = 0;
+  std::uint32_t used_grids = 0;  // bit g: grid g has entries
 };
 
 // Splats to lists per tile: the stage `bin`.

@@ -5,11 +5,11 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
                        const Plan& plan, const compute::buffer& grids, bool rows)
     : device_(device), layout_(layout), grids_(grids), rows_(rows) {
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
-  parameters_.mean_sigma = layout.mean_sigma;
   parameters_.phi_short = layout.phi_short;
   parameters_.phi_series = layout.phi_series;
   parameters_.opaque = layout.opaque;
-  planes_ = device.buffers.get("planes", 4 * layout.plane_floats);
+  // Refining and blurring read up to eight pixels past a row's last.
+  planes_ = device.buffers.get("planes", 4 * (layout.plane_floats + 16));
   const std::string defines = kernel_defines(frame, plan, layout);
   if (layout.exact_numbers) {
     program_ =
@@ -25,14 +25,28 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
 }
 
 void Compositor::clear() {
+  used_grids_ = 0;
+  clear_grid(0);
+}
+
+void Compositor::clear_grid(std::size_t g) {
+  const kernel::Grid& grid = layout_.grids[g];
+  const std::size_t first =
+      grid.first_float_low | (static_cast<std::size_t>(grid.first_float_high) << 32);
   const cl_float zero = 0;
-  device_.timer.add("composite", device_.queue.enqueue_fill_buffer(
-                                     planes_, &zero, sizeof(zero), 0,
-                                     4 * static_cast<std::size_t>(layout_.plane_floats)));
+  device_.timer.add("composite",
+                    device_.queue.enqueue_fill_buffer(
+                        planes_, &zero, sizeof(zero), 4 * first,
+                        4 * static_cast<std::size_t>(layout_.planes) * grid.plane_size));
+  used_grids_ |= 1u << g;
 }
 
 void Compositor::composite(const TileLists& lists) {
   if (lists.segment_count == 0) return;
+  for (std::size_t g = 0; g < layout_.grids.size(); ++g) {
+    const std::uint32_t bit = 1u << g;
+    if ((lists.used_grids & bit) && !(used_grids_ & bit)) clear_grid(g);
+  }
   const std::uint64_t tile_floats =
       std::uint64_t{layout_.planes} * layout_.tile_width * layout_.tile_height;
   const compute::buffer partials =

@@ -13,18 +13,23 @@ class Compositor {
   Compositor(DeviceContext& device, const FrameLayout& layout, const Frame& frame, const Plan& plan,
              const compute::buffer& grids, bool rows);
 
-  // Sets all planes to the layer (0, 0).
+  // Sets the picture's own planes to the layer (0, 0).
   void clear();
   void composite(const TileLists& lists);
   const compute::buffer& planes() const { return planes_; }
+  // Bit g: grid g has light. The planes of others are undefined.
+  std::uint32_t used_grids() const { return used_grids_; }
 
  private:
+  void clear_grid(std::size_t grid);
+
   DeviceContext& device_;
   const FrameLayout& layout_;
   kernel::CompositeParameters parameters_{};
   compute::buffer grids_, planes_;
   compute::program program_, join_program_;
   bool rows_;
+  std::uint32_t used_grids_ = 0;
 };
 
 }  // namespace splotchcl

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "device/blur_filter.h"
 namespace splotchcl {
 namespace {
 
@@ -17,17 +18,18 @@ constexpr int guard_pixels = 10;
 
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
-constexpr int most_grids = 12;
+constexpr int most_levels = 12;
 
 int ceil_divide(int value, int by) {
   return (value + by - 1) / by;
 }
 
-void append_grid(FrameLayout& layout, int width, int height, int guard) {
+void append_grid(FrameLayout& layout, int width, int height, int guard, float mean_sigma) {
   kernel::Grid grid{};
   grid.width = width + 2 * guard;
   grid.height = height + 2 * guard;
   grid.guard = guard;
+  grid.mean_sigma = mean_sigma;
   grid.tiles_x = ceil_divide(grid.width, static_cast<int>(layout.tile_width));
   grid.tiles_y = ceil_divide(grid.height, static_cast<int>(layout.tile_height));
   grid.first_tile = layout.tile_count;
@@ -42,6 +44,29 @@ void append_grid(FrameLayout& layout, int width, int height, int guard) {
 
 bool may_use_coarse_grids(const Plan& plan) {
   return plan.coarse_share > 0;
+}
+
+// Guard pixels whose values a blur needs beyond those that refining reads.
+int blurred_guard(const FrameLayout& layout) {
+  const auto reach = [&layout](double sigma2) {
+    return static_cast<int>(blur_weights(sigma2, layout.blur_error).size() / 2);
+  };
+  const int reached = reach(layout.blur[1] - layout.blur[0]) + reach(layout.blur[0]);
+  return guard_pixels + reached + reached % 2;
+}
+
+// The grids of a sum: from the picture's own pixels to ever coarser ones.
+void append_coarse_grids(FrameLayout& layout, const Rectangle& crop) {
+  const int guard = layout.bands ? blurred_guard(layout) : guard_pixels;
+  for (int level = 1; level < most_levels; ++level) {
+    const int width = ceil_divide(crop.width, 1 << level);
+    const int height = ceil_divide(crop.height, 1 << level);
+    if (std::max(width, height) < smallest_coarse_side) break;
+    layout.level_grids.push_back(static_cast<std::uint32_t>(layout.grids.size()));
+    // Compositing there knows centre values only: coarse_sigma sees to it.
+    append_grid(layout, width, height, guard, 0);
+    if (layout.bands) append_grid(layout, width, height, guard, 0);
+  }
 }
 
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
@@ -143,6 +168,25 @@ float opaque_limit(const Frame& frame, double background, double share) {
   return brightest > 0 ? static_cast<float>(1 - share / brightest) : 0.0f;
 }
 
+// How a relative error of the splats on coarse grids is spent: a fifth on the blur, which
+// needs the least of it, the rest on the interpolation.
+void plan_coarse_grids(const Frame& frame, double error, FrameLayout& layout) {
+  constexpr double blur_part = 0.2;
+  layout.refinement = choose_refinement((1 - blur_part) * error);
+  layout.coarse_peak = static_cast<float>(brightest_coarse_peak(frame, error));
+  double smallest_sigma =
+      std::max(layout.refinement.smallest_sigma, static_cast<double>(layout.mean_sigma));
+  // A blur would carry light over the edge of a cloud that is cut.
+  layout.bands = !frame.kernel.cut;
+  if (layout.bands) {
+    layout.blur_error = blur_part * error;
+    smallest_sigma = std::max(smallest_sigma, smallest_blurred_sigma(layout.blur_error));
+    layout.blur[0] = largest_blur(smallest_sigma, layout.blur_error);
+    layout.blur[1] = largest_blur(std::sqrt(2.0) * smallest_sigma, layout.blur_error);
+  }
+  layout.coarse_sigma = static_cast<float>(smallest_sigma);
+}
+
 }  // namespace
 
 std::size_t splat_bytes(const FrameLayout& layout) {
@@ -163,16 +207,6 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   if (plan.exact) layout.planes *= 2;
   layout.vector_colors =
       std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
-  append_grid(layout, frame.crop.width, frame.crop.height, 0);
-  if (may_use_coarse_grids(plan)) {
-    for (int g = 1; g < most_grids; ++g) {
-      const int width = ceil_divide(frame.crop.width, 1 << g);
-      const int height = ceil_divide(frame.crop.height, 1 << g);
-      if (std::max(width, height) < smallest_coarse_side) break;
-      append_grid(layout, width, height, guard_pixels);
-    }
-  }
-
   const double background = brightest_background(frame);
   const double picture_error = response(frame, background);
   const double arithmetic = plan.arithmetic_share;
@@ -191,14 +225,12 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     layout.mean_sigma = static_cast<float>(std::clamp(sigma, 1.5, 64.0));
     layout.widening = 1.0f / 6.0f;
   }
+  append_grid(layout, frame.crop.width, frame.crop.height, 0, layout.mean_sigma);
+  layout.level_grids = {0};
   layout.coarse_sigma = std::numeric_limits<float>::max();
-  if (layout.grids.size() > 1) {
-    layout.refinement = choose_refinement(plan.coarse_share / picture_error);
-    layout.coarse_peak =
-        static_cast<float>(brightest_coarse_peak(frame, plan.coarse_share / picture_error));
-    // Compositing knows pixel means by their width alone.
-    layout.coarse_sigma =
-        std::max(static_cast<float>(layout.refinement.smallest_sigma), layout.mean_sigma);
+  if (may_use_coarse_grids(plan)) {
+    plan_coarse_grids(frame, plan.coarse_share / picture_error, layout);
+    append_coarse_grids(layout, frame.crop);
   }
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));

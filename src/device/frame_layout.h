@@ -21,6 +21,14 @@ struct FrameLayout {
   std::uint32_t planes = 0;        // 3 sums, or 3 sources and 3 opacities
   std::uint64_t plane_floats = 0;  // all planes of all grids
 
+  // The grid that collects level l, whose pixels are 2^l of the picture's wide.
+  std::vector<std::uint32_t> level_grids;
+  // Two grids for each level l > 0, which are blurred before they are collected: grid
+  // 2 l - 1 by blur[0], grid 2 l by blur[1] (sigma^2 in pixels of their own; blur_filter.h).
+  bool bands = false;
+  double blur[2] = {0, 0};
+  double blur_error = 0;  // of a splat's peak
+
   float mean_sigma = 0;  // narrower splats take the pixel mean by erf
   float widening = 0;    // of sigma^2, for wider ones
   RefinementFilter refinement;

@@ -179,6 +179,9 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.coarse_peak = layout_.coarse_peak;
   p.grid_count = static_cast<int>(layout_.grids.size());
   p.guard = static_cast<float>(layout_.grids.back().guard);
+  p.bands = layout_.bands;
+  p.blur[0] = static_cast<float>(layout_.blur[0]);
+  p.blur[1] = static_cast<float>(layout_.blur[1]);
   p.color = color_scaling(component);
   p.intensity = intensity_scaling(component);
   p.component = component_index;

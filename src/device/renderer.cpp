@@ -95,7 +95,7 @@ Image Renderer::State::render(const Frame& frame) {
   } else {
     draw_sums(frame, projector, binner, compositor);
   }
-  Image image = resolver.resolve(compositor.planes());
+  Image image = resolver.resolve(compositor.planes(), compositor.used_grids());
   device.queue.finish();
   particles.end_frame();
 

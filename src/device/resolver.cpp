@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "device/blur_filter.h"
+
 namespace splotchcl {
 namespace {
 
@@ -26,36 +28,86 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
   if (frame.background_image) defines += "#define BACKGROUND_IMAGE\n";
   program_ = device.programs.get(defines,
                                  {"common.cl", "lanes.cl", "shape.cl", "precise.cl", "resolve.cl"});
+  if (layout.bands) {
+    blur_program_ =
+        device.programs.get(kernel_defines(frame, plan, layout), {"common.cl", "blur.cl"});
+  }
 }
 
-// From the coarsest grid to the picture's own, each added to the next finer one.
-void Resolver::refine(const compute::buffer& planes) {
-  const std::size_t grid_count = layout_.grids.size();
-  if (grid_count < 2) return;
-  std::uint64_t largest = 0;
-  for (std::size_t g = 1; g < grid_count; ++g) {
-    const auto height = static_cast<std::uint64_t>(layout_.grids[g].height);
-    largest = std::max(largest, layout_.planes * height * layout_.grids[g - 1].stride);
+// What every grid holds, brought to the picture's own: blurred level by level, then refined
+// from the coarsest on. Grids without light are left out.
+void Resolver::collect(const compute::buffer& planes, std::uint32_t used_grids) {
+  const auto is_used = [&used_grids](std::uint32_t grid) { return (used_grids >> grid & 1) != 0; };
+  const auto levels = static_cast<std::uint32_t>(layout_.level_grids.size());
+  for (std::uint32_t level = 1; layout_.bands && level < levels; ++level) {
+    const std::uint32_t narrow = layout_.level_grids[level], wide = narrow + 1;
+    if (is_used(wide)) {
+      blur(planes, wide, narrow, layout_.blur[1] - layout_.blur[0], is_used(narrow));
+      used_grids |= 1u << narrow;
+    }
+    if (is_used(narrow)) blur(planes, narrow, narrow, layout_.blur[0], false);
   }
-  const compute::buffer temporary = device_.buffers.get("refined columns", 4 * largest);
-  for (std::size_t g = grid_count - 1; g > 0; --g) {
-    const auto coarse_index = static_cast<std::uint32_t>(g);
-    const auto fine_width = static_cast<std::size_t>(layout_.grids[g - 1].width);
-    const auto fine_height = static_cast<std::size_t>(layout_.grids[g - 1].height);
-    const auto coarse_height = static_cast<std::size_t>(layout_.grids[g].height);
-    Launch(device_, "resolve", program_.create_kernel("refine_columns"))
-        .value(coarse_index)
-        .arg(grids_)
-        .arg(planes)
-        .arg(temporary)
-        .run_grid(strips(fine_width, 16), coarse_height, layout_.planes);
-    Launch(device_, "resolve", program_.create_kernel("refine_rows"))
-        .value(coarse_index)
-        .arg(grids_)
-        .arg(planes)
-        .arg(temporary)
-        .run_grid(strips(fine_width, 8), fine_height, layout_.planes);
+  for (std::uint32_t level = levels - 1; level > 0; --level) {
+    const std::uint32_t coarse = layout_.level_grids[level], fine = layout_.level_grids[level - 1];
+    if (!is_used(coarse)) continue;
+    refine(planes, coarse, fine, is_used(fine));
+    used_grids |= 1u << fine;
   }
+}
+
+void Resolver::blur(const compute::buffer& planes, std::uint32_t source, std::uint32_t target,
+                    double sigma2, bool add) {
+  const std::vector<float> weights = blur_weights(sigma2, layout_.blur_error);
+  kernel::BlurParameters parameters{};
+  parameters.source = source;
+  parameters.target = target;
+  parameters.half_width = static_cast<int>(weights.size() / 2);
+  parameters.add = add;
+  std::copy(weights.begin(), weights.end(), parameters.weights);
+
+  const kernel::Grid& from = layout_.grids[source];
+  const kernel::Grid& to = layout_.grids[target];
+  const compute::buffer temporary = device_.buffers.get(
+      "blurred columns",
+      4ull * layout_.planes * static_cast<std::uint64_t>(from.height) * (from.stride + 8));
+  Launch(device_, "resolve", blur_program_.create_kernel("blur_columns"))
+      .value(parameters)
+      .arg(grids_)
+      .arg(planes)
+      .arg(temporary)
+      .run_grid(strips(static_cast<std::size_t>(from.width), 8),
+                static_cast<std::size_t>(from.height), layout_.planes);
+  Launch(device_, "resolve", blur_program_.create_kernel("blur_rows"))
+      .value(parameters)
+      .arg(grids_)
+      .arg(planes)
+      .arg(temporary)
+      .run_grid(strips(static_cast<std::size_t>(to.width), 8), static_cast<std::size_t>(to.height),
+                layout_.planes);
+}
+
+void Resolver::refine(const compute::buffer& planes, std::uint32_t coarse, std::uint32_t fine,
+                      bool add) {
+  const auto fine_width = static_cast<std::size_t>(layout_.grids[fine].width);
+  const auto fine_height = static_cast<std::size_t>(layout_.grids[fine].height);
+  const auto coarse_height = static_cast<std::size_t>(layout_.grids[coarse].height);
+  const compute::buffer temporary = device_.buffers.get(
+      "refined columns", 4ull * layout_.planes * coarse_height * layout_.grids[fine].stride);
+  Launch(device_, "resolve", program_.create_kernel("refine_columns"))
+      .value(coarse)
+      .value(fine)
+      .arg(grids_)
+      .arg(planes)
+      .arg(temporary)
+      .run_grid(strips(fine_width, 16), coarse_height, layout_.planes);
+  Launch(device_, "resolve", program_.create_kernel("refine_rows"))
+      .value(coarse)
+      .value(fine)
+      .value(cl_int{add})
+      .arg(grids_)
+      .arg(planes)
+      .arg(temporary)
+      .run_grid(strips(fine_width, 8), fine_height, layout_.planes);
 }
 
 // The crop's part of the background's picture, a plane per channel.
@@ -76,8 +128,8 @@ compute::buffer Resolver::upload_background() {
   return device_.buffers.upload("background", planes);
 }
 
-Image Resolver::resolve(const compute::buffer& planes) {
-  refine(planes);
+Image Resolver::resolve(const compute::buffer& planes, std::uint32_t used_grids) {
+  collect(planes, used_grids);
   Image image(parameters_.width, parameters_.height);
   const std::uint64_t bytes = image.pixels.size() * sizeof(float);
   const compute::buffer pixels = device_.buffers.get("image", bytes);

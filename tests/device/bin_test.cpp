@@ -122,11 +122,14 @@ struct Drawn {
   bool by_mean;
 };
 
-Drawn on_grid(const reference::Splat& splat, const kernel::Grid& grid, double pixel,
-              const FrameLayout& layout) {
+// On grids that are blurred afterwards splats are drawn narrower.
+Drawn on_grid(const reference::Splat& splat, std::uint32_t g, const FrameLayout& layout) {
+  const kernel::Grid& grid = layout.grids[g];
+  const double pixel = std::ldexp(1.0, static_cast<int>(layout.bands ? (g + 1) / 2 : g));
+  const double blur = layout.bands && g > 0 ? layout.blur[g % 2 == 1 ? 0 : 1] : 0;
   Drawn drawn{};
   drawn.by_mean = splat.sigma < static_cast<double>(layout.mean_sigma);
-  drawn.sigma = splat.sigma / pixel;
+  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur);
   drawn.x = splat.x / pixel + grid.guard;
   drawn.y = splat.y / pixel + grid.guard;
   for (int c = 0; c < 3; ++c) {
@@ -176,7 +179,7 @@ TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
     const auto found = level.find(splat.particle);
     const std::uint32_t g = found == level.end() ? 0 : found->second;
     const kernel::Grid& grid = layout.grids[g];
-    const Drawn drawn = on_grid(splat, grid, std::ldexp(1.0, static_cast<int>(g)), layout);
+    const Drawn drawn = on_grid(splat, g, layout);
     for (int y = 0; y < grid.height; ++y) {
       for (int x = 0; x < grid.width; ++x) {
         if (contribution(drawn, x, y) <= smallest) continue;
@@ -227,12 +230,14 @@ TEST_F(BinTotals, AreCountedBeyond32Bits) {
   constexpr std::uint32_t segment_capacity = 100;
   kernel::BinParameters parameters{};
   parameters.tile_count = tiles;
+  parameters.grid_count = 1;
   parameters.segment_length = 8192;
   const compute::buffer totals = buffers.get("totals", sizeof(kernel::BinTotals));
   const compute::program program = device().programs.get(
       kernel_defines(frame, stages.plan(), stages.layout()), {"common.cl", "bin.cl"});
   Launch(device(), "bin", program.create_kernel("bin_scan_tiles"))
       .value(parameters)
+      .arg(buffers.upload("grids", stages.layout().grids))
       .arg(buffers.upload("long lengths", lengths))
       .arg(buffers.get("tile starts", 4ull * tiles))
       .value(segment_capacity)

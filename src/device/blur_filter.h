@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace splotchcl {
+
+// Splats of a coarse grid are drawn narrower than they are, and the whole grid is blurred
+// once by a Gaussian that makes up for it: exp(-d^2 / (r^2 + b^2)) is exp(-d^2 / r^2)
+// convolved with exp(-d^2 / b^2). What a splat costs is so its narrow part's area.
+
+// The sigma^2 by which a grid of splats of sigma >= `smallest_sigma` (pixels of the grid)
+// may be blurred, as large as the error allows: sampling what is drawn, and sampling the
+// weights of the blur, adds at most `error` of a splat's peak (docs/accuracy.md).
+double largest_blur(double smallest_sigma, double error);
+
+// The smallest sigma for which a blur gains anything within the error.
+double smallest_blurred_sigma(double error);
+
+// Weights of one axis for the pixels -n .. n, adding up to 1. What lies beyond n is less
+// than `error` of the light.
+std::vector<float> blur_weights(double sigma2, double error);
+
+}  // namespace splotchcl
