@@ -193,6 +193,14 @@ std::size_t splat_bytes(const FrameLayout& layout) {
   return sizeof(kernel::Splat) + (layout.vector_colors ? 3 * sizeof(float) : 0);
 }
 
+int level_of_grid(const FrameLayout& layout, std::uint32_t grid) {
+  return static_cast<int>(layout.bands ? (grid + 1) / 2 : grid);
+}
+
+double blur_of_grid(const FrameLayout& layout, std::uint32_t grid) {
+  return layout.bands && grid > 0 ? layout.blur[grid % 2 == 1 ? 0 : 1] : 0;
+}
+
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
   layout.exact_numbers = plan.exact;

@@ -45,6 +45,11 @@ struct FrameLayout {
   bool builtin_erf = false;    // for tolerances that the polynomial cannot hold
 };
 
+// The level of a grid, whose pixels are 2^level of the picture's wide, and the sigma^2 by
+// which it is blurred, in pixels of its own.
+int level_of_grid(const FrameLayout& layout, std::uint32_t grid);
+double blur_of_grid(const FrameLayout& layout, std::uint32_t grid);
+
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows);
 
 // The size of a splat: those of particles with colours of their own carry them.

@@ -125,11 +125,10 @@ struct Drawn {
 // On grids that are blurred afterwards splats are drawn narrower.
 Drawn on_grid(const reference::Splat& splat, std::uint32_t g, const FrameLayout& layout) {
   const kernel::Grid& grid = layout.grids[g];
-  const double pixel = std::ldexp(1.0, static_cast<int>(layout.bands ? (g + 1) / 2 : g));
-  const double blur = layout.bands && g > 0 ? layout.blur[g % 2 == 1 ? 0 : 1] : 0;
+  const double pixel = std::ldexp(1.0, level_of_grid(layout, g));
   Drawn drawn{};
   drawn.by_mean = splat.sigma < static_cast<double>(layout.mean_sigma);
-  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur);
+  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur_of_grid(layout, g));
   drawn.x = splat.x / pixel + grid.guard;
   drawn.y = splat.y / pixel + grid.guard;
   for (int c = 0; c < 3; ++c) {
