@@ -17,6 +17,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Component colored_by(const std::string& field) {
   Component component = gas();
@@ -128,6 +129,15 @@ TEST(DerivedFields, AreMadeOnceForAllFrames) {
   const NumberedSnapshot snapshot = gas_row();
   const Particles first = load(colored_by("velocity_y"), snapshot).particles;
   EXPECT_EQ(load(colored_by("velocity_y"), snapshot).particles.color.data(), first.color.data());
+}
+
+TEST(DerivedFields, AreListedForATypeUnlessTheFileHasThem) {
+  NumberedSnapshot snapshot = gas_row();
+  EXPECT_THAT(derivable_fields(snapshot.info().types[0]),
+              ElementsAre("density", "temperature", "speed", "radius", "position_x", "position_y",
+                          "position_z", "velocity_x", "velocity_y", "velocity_z"));
+  snapshot.add(0, "temperature", std::vector<float>(6, 1));
+  EXPECT_THAT(derivable_fields(snapshot.info().types[0]), Not(Contains("temperature")));
 }
 
 TEST(DerivedFields, AreForgottenWhenFramesNoLongerUseThem) {

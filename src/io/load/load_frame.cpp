@@ -294,7 +294,8 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   auto fields = components.fields().begin();
   for (const Component& component : scene.components) {
     DrawnComponent drawn = load_component(component, scene, *fields++);
-    if (scene.periodic.wrap && component.snapshot.empty()) {
+    // What is placed elsewhere is no part of the periodic box.
+    if (scene.periodic.wrap && component.snapshot.empty() && !component.placement.moves()) {
       wrap_around(camera.look_at, box, drawn.particles);
     }
     decide_reference_column(component, frame, drawn, notes);
