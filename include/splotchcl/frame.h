@@ -29,6 +29,9 @@ struct DrawnComponent {
   ScalarMap intensity;
   WeightModel weight = WeightModel::mass;
   double reference_column = 1;  // w is divided by it
+  // How many particles of the snapshot each stands for where only a part of them is read; the
+  // reference column is smaller by as much already.
+  double particles_per_drawn = 1;
   Palette palette;
   double brightness = 1;
   Absorption absorption;

@@ -24,9 +24,9 @@ struct GalaxySettings {
   double size_kpc = 30;                 // of the picture's longer side
 
   // What is the galaxy's light and what is not.
-  double threshold = 2;        // over the sky, in deviations of its noise: half of such light counts
-  double border_fade = 0.06;   // of the shorter side, over which light fades at the border
-  bool removes_stars = true;   // points of light that the Milky Way's stars make
+  double threshold = 2;       // over the sky, in deviations of its noise: half of such light counts
+  double border_fade = 0.06;  // of the shorter side, over which light fades at the border
+  bool removes_stars = true;  // points of light that the Milky Way's stars make
   double star_contrast = 2.5;  // of such a point, against the median around it
 
   // Gas: a cloud for each bright pixel.

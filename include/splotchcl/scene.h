@@ -12,6 +12,7 @@
 #include "splotchcl/particles.h"
 #include "splotchcl/path.h"
 #include "splotchcl/periodic.h"
+#include "splotchcl/read_settings.h"
 #include "splotchcl/selection.h"
 #include "splotchcl/sequence.h"
 
@@ -120,7 +121,8 @@ struct ImageSettings {
 
 // What a scene file says. Nothing in it depends on the data yet.
 struct Scene {
-  std::string snapshot;   // empty with a sequence
+  std::string snapshot;  // empty with a sequence
+  ReadSettings read;
   SequenceSettings time;  // a sequence of snapshots instead of one
   ImageSettings image;
   std::optional<Camera> camera;  // unset: chosen from the data

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ struct SnapshotInfo {
   std::optional<Cosmology> cosmology;  // none: velocities are dx/dt, with t the time above
   // Why velocities cannot be taken for changes of the positions in time; empty: they can.
   std::string velocity_doubt;
+  // How many particles of the file each stands for, where only a part of them is read.
+  double particles_per_drawn = 1;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
   const ParticleTypeInfo* find_type(int type) const;
@@ -98,6 +101,9 @@ struct SnapshotOptions {
 // multi-file set. Throws DataError.
 std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path,
                                         const SnapshotOptions& options = {});
+// The snapshot, or the part of it, that a scene's [read] asks for.
+std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
+                                            const ReadSettings& read);
 
 // A camera, components, fields and palettes that suit the data, every value spelled
 // out so that it can be saved as a scene file.
@@ -106,7 +112,10 @@ Scene suggest_scene(const Snapshot& snapshot);
 // Reads what the scene uses, and no more, and decides every number that the scene
 // leaves to the data. Missing smoothing lengths are found (density and mass, else
 // nearest neighbours). `notes` takes what the user should know, a line each.
-Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes);
+// `progress` is called with what is being done and the fraction done, where it takes long.
+using LoadProgress = std::function<void(const std::string& what, double fraction)>;
+Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
+                 const LoadProgress& progress = {});
 
 // The scene with what it leaves to the data (camera, ranges of fields, weights, reference
 // columns) as load_frame decided it for this frame of the scene. The frames of a film are

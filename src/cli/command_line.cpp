@@ -44,6 +44,16 @@ void add_render(CLI::App& app, Run& run, Console& console) {
          wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
                  "the device can. Default: the scene's, 0.001"))
       ->type_name("X");
+  sub->add_option("--every", options->every,
+                  wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
+                          "look at much data"))
+      ->type_name("N");
+  sub->add_option("--max-particles", options->max_particles,
+                  wrapped("Draw at most N particles, chosen at random, brighter likewise"))
+      ->type_name("N");
+  sub->add_flag("--cache-smoothing-lengths", options->cache_smoothing_lengths,
+                wrapped("Keep smoothing lengths that had to be found in a file beside the "
+                        "snapshot, and use those that are there"));
   sub->add_option("--crop", options->crop, wrapped("Draw only this part of the picture, in pixels"))
       ->type_name("X,Y,W,H");
   sub->add_flag(
@@ -136,13 +146,23 @@ void add_info(CLI::App& app, Run& run, Console& console) {
   sub->add_option("FILE", options->snapshot,
                   wrapped("A snapshot; of several files, any one of them"))
       ->required();
+  sub->add_flag("--header", options->header,
+                wrapped("Only what is known without reading particles: no ranges, means and "
+                        "scene. At once, for files of any size"));
+  sub->add_option("--columns", options->columns,
+                  wrapped("Names for the columns of a text table or a plain NumPy array, in their "
+                          "order; - for one that is not needed"))
+      ->type_name("NAME,...")
+      ->delimiter(',');
   sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
   sub->footer(
       "Lists the fields of each particle type with their range, mean and number of bad values\n"
       "(not a number, or infinite), in the file's own units, and the scene file that render\n"
       "would use.\n"
-      "Example:\n"
-      "  splotchcl info snapshot_006");
+      "Examples:\n"
+      "  splotchcl info snapshot_006\n"
+      "  splotchcl info huge_snapshot.0.hdf5 --header\n"
+      "  splotchcl info table.txt --columns x,y,z,mass,-");
 }
 
 void add_compare(CLI::App& app, Run& run, Console& console) {

@@ -20,6 +20,8 @@ struct RenderOptions {
   std::string device;
   std::vector<std::string> settings;  // key=value
   std::optional<double> tolerance;
+  std::optional<int> every, max_particles;
+  bool cache_smoothing_lengths = false;
   std::string crop;  // X,Y,W,H
   bool reference = false;
   bool explain = false;
@@ -49,6 +51,8 @@ int run_movie(const MovieOptions& options, Console& console);
 
 struct InfoOptions {
   std::filesystem::path snapshot;
+  std::vector<std::string> columns;  // of a table
+  bool header = false;               // only what is known without reading particles
   bool json = false;
 };
 int run_info(const InfoOptions& options, Console& console);

@@ -69,11 +69,27 @@ std::string row_text(const FieldRow& row, const FieldInfo& field) {
                      label(field), s.minimum, s.maximum, s.mean, s.bad, field.unit);
 }
 
-std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Console& console) {
+// What the header tells of a type.
+std::string type_header_text(const ParticleTypeInfo& type) {
   std::string text = fmt::format("\ntype {}, {}: {} particles\n", type.type,
                                  particle_type_name(type.type), type.count);
   if (type.table_mass)
     text += fmt::format("  mass of each, from the header: {}\n", *type.table_mass);
+  return text;
+}
+
+std::string field_list_text(const ParticleTypeInfo& type) {
+  std::string text =
+      fmt::format("  {:26} {:20} {:>6} {}\n", "field", "in the file", "values", "unit");
+  for (const FieldInfo& field : type.fields) {
+    text += fmt::format("  {:26} {:20} {:>6} {}\n", field.name, label(field),
+                        field.values_per_particle, field.unit);
+  }
+  return text;
+}
+
+std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Console& console) {
+  std::string text = type_header_text(type);
   text += fmt::format("  {:20} {:12} {:>13} {:>13} {:>13} {:>8} {}\n", "field", "in the file",
                       "minimum", "maximum", "mean", "bad", "unit");
   for (const FieldInfo& field : type.fields) {
@@ -85,10 +101,19 @@ std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Co
   return text;
 }
 
-Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type, bool header_only) {
   Json json = {{"type", type.type}, {"name", particle_type_name(type.type)}, {"count", type.count}};
   if (type.table_mass) json["table_mass"] = *type.table_mass;
   json["fields"] = Json::array();
+  if (header_only) {
+    for (const FieldInfo& field : type.fields) {
+      json["fields"].push_back({{"name", field.name},
+                                {"file_name", field.file_name},
+                                {"unit", field.unit},
+                                {"values_per_particle", field.values_per_particle}});
+    }
+    return json;
+  }
   for (const FieldInfo& field : type.fields) {
     for (const FieldRow& row : read_rows(snapshot, type.type, field)) {
       const FieldStatistics& s = row.statistics;
@@ -115,7 +140,7 @@ std::string suggested_scene(const Snapshot& snapshot, Console& console) {
   }
 }
 
-Json to_json(const Snapshot& snapshot, Console& console) {
+Json to_json(const Snapshot& snapshot, bool header_only, Console& console) {
   const SnapshotInfo& info = snapshot.info();
   Json json = {{"format", info.format}, {"files", Json::array()}, {"time", info.time}};
   for (const auto& file : info.files)
@@ -126,20 +151,21 @@ Json to_json(const Snapshot& snapshot, Console& console) {
   json["notes"] = info.notes;
   json["types"] = Json::array();
   for (const ParticleTypeInfo& type : info.types) {
-    json["types"].push_back(type_json(snapshot, type));
+    json["types"].push_back(type_json(snapshot, type, header_only));
   }
-  json["scene"] = suggested_scene(snapshot, console);
+  if (!header_only) json["scene"] = suggested_scene(snapshot, console);
   return json;
 }
 
-void print_text(const Snapshot& snapshot, Console& console) {
+void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
   const SnapshotInfo& info = snapshot.info();
   std::string text = header_text(info);
   for (const std::string& note : info.notes)
     text += fmt::format("note      {}\n", note);
   for (const ParticleTypeInfo& type : info.types)
-    text += type_text(snapshot, type, console);
-  const std::string scene = suggested_scene(snapshot, console);
+    text += header_only ? type_header_text(type) + field_list_text(type)
+                        : type_text(snapshot, type, console);
+  const std::string scene = header_only ? "" : suggested_scene(snapshot, console);
   if (!scene.empty()) text += "\n# The scene file that render uses for it:\n" + scene;
   std::cout << text;
 }
@@ -147,11 +173,11 @@ void print_text(const Snapshot& snapshot, Console& console) {
 }  // namespace
 
 int run_info(const InfoOptions& options, Console& console) {
-  const auto snapshot = open_snapshot(options.snapshot);
+  const auto snapshot = open_snapshot(options.snapshot, {options.columns});
   if (options.json) {
-    std::cout << to_json(*snapshot, console).dump(2) << "\n";
+    std::cout << to_json(*snapshot, options.header, console).dump(2) << "\n";
   } else {
-    print_text(*snapshot, console);
+    print_text(*snapshot, options.header, console);
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "cli/command_line.h"
 #include "cli/console.h"
+#include "io/common/shrink_guard.h"
 #include "splotchcl/error.h"
 
 namespace {
@@ -34,6 +35,7 @@ int run(int argc, char** argv, splotchcl::cli::Console& console) {
 int main(int argc, char** argv) {
   // A write beyond the limit on file sizes becomes an error that is reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);
+  splotchcl::guard_mapped_files();
   splotchcl::cli::Console console;
   return run(argc, argv, console);
 }

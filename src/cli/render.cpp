@@ -71,13 +71,20 @@ std::optional<std::filesystem::path> choose_output(const RenderOptions& options)
 std::vector<std::string> settings_of(const RenderOptions& options) {
   std::vector<std::string> settings = options.settings;
   if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
+  if (options.every) settings.push_back(fmt::format("read.every={}", *options.every));
+  if (options.max_particles) {
+    settings.push_back(fmt::format("read.max_particles={}", *options.max_particles));
+  }
+  if (options.cache_smoothing_lengths) settings.push_back("read.cache_smoothing_lengths=true");
   return settings;
 }
 
 Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, Console& console) {
   console.status("reading " + source.snapshot->info().files.front().filename().string());
   std::vector<std::string> notes = source.snapshot->info().notes;
-  Frame frame = load_frame(source.scene, *source.snapshot, notes);
+  Frame frame = load_frame(
+      source.scene, *source.snapshot, notes,
+      [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
   for (const std::string& note : notes)
     console.note(note);
   frame.crop = choose_crop(options.crop, frame.width, frame.height);

@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <iterator>
 
+#include "io/snapshot/snapshot_format.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 
@@ -18,7 +20,16 @@ std::string lower_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-// Snapshots are binary: their first bytes hold some that no text does.
+// How the settings say that a snapshot is read: it must be open before there is a scene to which
+// all of them apply.
+ReadSettings read_settings_in(const std::vector<std::string>& settings) {
+  std::vector<std::string> own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
+               [](const std::string& setting) { return setting.rfind("read.", 0) == 0; });
+  return apply_settings(Scene(), own).read;
+}
+
+// Most snapshots are binary: their first bytes hold some that no text does.
 bool begins_like_text(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
@@ -43,11 +54,12 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     result.snapshot = SnapshotSource().at(result.scene);
-  } else if (lower_ending(path) == ".toml" || begins_like_text(path)) {
+  } else if (lower_ending(path) == ".toml" ||
+             (begins_like_text(path) && find_format(path) == nullptr)) {
     result.scene = read_scene_file(path, settings);
     result.snapshot = SnapshotSource().at(result.scene);
   } else {
-    result.snapshot = open_snapshot(path);
+    result.snapshot = open_snapshot_for(path, read_settings_in(settings));
     result.scene = apply_settings(suggest_scene(*result.snapshot), settings);
   }
   return result;

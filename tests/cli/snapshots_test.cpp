@@ -82,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
         "gadget2_ics/gassphere_littleendian.dat", "gadget2_ics/galaxy_littleendian.dat",
         "gadget2_ics/lcdm_gas_littleendian.dat", "galaxy_collision/snapshot_000.hdf5",
         "galaxy_collision/snapshot_005.hdf5", "galaxy_collision/snapshot_010.hdf5",
-        "gadget_minimal/snap_002.0", "swift/swift_lcdm_0000.hdf5"));
+        "gadget_minimal/snap_002.0", "phantom/dustmixture_00000.h5", "swift/swift_lcdm_0000.hdf5",
+        "tipsy/adiabtophat_glass_28721.bin", "tipsy/shocktube.std", "tipsy/tiny.000640"));
 
 // Of the pixels' brightest channels.
 float percentile(const Image& image, double part) {

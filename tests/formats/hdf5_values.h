@@ -23,8 +23,8 @@ inline void write_values(const Hdf5Output& file, const std::string& path,
   const Hdf5Handle<H5Sclose> space(H5Screate_simple(width > 1 ? 2 : 1, shape, nullptr));
   const Hdf5Handle<H5Pclose> links(H5Pcreate(H5P_LINK_CREATE));
   H5Pset_create_intermediate_group(links.id(), 1);
-  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), path.c_str(), type, space.id(),
-                                                links.id(), H5P_DEFAULT, H5P_DEFAULT));
+  const Hdf5Handle<H5Dclose> dataset(
+      H5Dcreate2(file.id(), path.c_str(), type, space.id(), links.id(), H5P_DEFAULT, H5P_DEFAULT));
   H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
 }
 

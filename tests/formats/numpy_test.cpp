@@ -1,9 +1,8 @@
-#include "formats/numpy_writer.h"
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 
+#include "formats/numpy_writer.h"
 #include "io/snapshot_checks.h"
 #include "temporary_folder.h"
 
@@ -14,7 +13,6 @@ using namespace splotchcl::testing;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
 
 // Positions as they were written, offsets from the origin added up again.
 std::vector<double> positions(const Snapshot& snapshot) {
@@ -28,8 +26,8 @@ std::vector<double> positions(const Snapshot& snapshot) {
 
 TEST(NumpyArray, RowsOfThreeArePositions) {
   const TemporaryFolder folder;
-  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f4", "(2, 3)"),
-                                            bytes_of<float>({1, 2, 3, 4, 5, 6})));
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6})));
   const auto snapshot = open_snapshot(folder / "a.npy");
   EXPECT_EQ(snapshot->info().format, "NumPy array");
   EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
@@ -83,8 +81,8 @@ TEST(NumpyArray, RecordsWithNamesAreRead) {
 
 TEST(NumpyArray, TruncatedAtAnyByteIsRefused) {
   const TemporaryFolder folder;
-  const std::string whole = numpy_bytes(numpy_header("<f4", "(2, 3)"),
-                                        bytes_of<float>({1, 2, 3, 4, 5, 6}));
+  const std::string whole =
+      numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}));
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write_bytes(folder / "a.npy", whole.substr(0, size));
     ASSERT_NE(refusal(folder / "a.npy"), "") << "cut to " << size << " bytes";
@@ -130,7 +128,8 @@ TEST_P(NumpyArchive, ArraysBecomeFields) {
   const TemporaryFolder folder;
   write_zip(
       folder / "a.npz",
-      {{"pos.npy", numpy_bytes(numpy_header("<f8", "(2, 3)"), bytes_of<double>({1, 2, 3, 4, 5, 6}))},
+      {{"pos.npy",
+        numpy_bytes(numpy_header("<f8", "(2, 3)"), bytes_of<double>({1, 2, 3, 4, 5, 6}))},
        {"mass.npy", numpy_bytes(numpy_header("<f4", "(2,)"), bytes_of<float>({7, 8}))},
        {"ids.npy", numpy_bytes(numpy_header("<i8", "(2,)"), bytes_of<std::int64_t>({5, 6}))},
        {"halo_mass.npy", numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({7, 8, 9}))},

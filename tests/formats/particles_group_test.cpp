@@ -70,6 +70,22 @@ TEST(ParticlesGroup, AxesOfDifferentLengthAreRefused) {
   EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("y has 3 rows, but there are 2 positions"));
 }
 
+TEST(ParticlesGroup, RowsThatWereNeverWrittenAreRefusedBeforeMemoryIsTaken) {
+  const TemporaryFolder folder;
+  {
+    const Hdf5Output file = create_hdf5(folder / "dump.h5");
+    make_group(file, "particles");
+    const hsize_t shape[2] = {hsize_t{1} << 50, 3}, chunk[2] = {1024, 3};
+    const Hdf5Handle<H5Sclose> space(H5Screate_simple(2, shape, nullptr));
+    const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
+    H5Pset_chunk(properties.id(), 2, chunk);
+    const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "particles/xyz", H5T_IEEE_F64LE,
+                                                  space.id(), H5P_DEFAULT, properties.id(),
+                                                  H5P_DEFAULT));
+  }
+  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("they are not all in the file"));
+}
+
 TEST(ParticlesGroup, WithoutPositionsIsRefused) {
   const TemporaryFolder folder;
   {

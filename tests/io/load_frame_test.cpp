@@ -274,16 +274,16 @@ MemorySnapshot grid_without_sizes() {
 TEST(LoadFrameSize, IsFoundFromNeighboursWhereTheFileHasNone) {
   const MemorySnapshot snapshot = grid_without_sizes();
   const DrawnComponent drawn = load(gas(), snapshot);
-  // The 33rd neighbour on a unit grid: beyond the 32 within sqrt(4) lies sqrt(5).
+  // The 64th neighbour on a unit grid: beyond the 56 within sqrt(5) lies sqrt(6).
   // Point (5, 5, 5) is particle 555.
-  EXPECT_NEAR(drawn.particles.smoothing_length[555], std::sqrt(5.0f), 1e-6);
-  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("33")));
+  EXPECT_NEAR(drawn.particles.smoothing_length[555], std::sqrt(6.0f), 1e-6);
+  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("64")));
 }
 
 TEST(LoadFrameSize, LooksAcrossTheFacesOfAPeriodicBox) {
   MemorySnapshot snapshot = grid_without_sizes();
   snapshot.set_box_size(10);
-  EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[0], std::sqrt(5.0f), 1e-6);
+  EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[0], std::sqrt(6.0f), 1e-6);
 }
 
 TEST(LoadFrameSize, DoesNotTrustABoxThatParticlesLieOutsideOf) {
@@ -296,8 +296,8 @@ TEST(LoadFrameSize, FollowsFromDensityAndMassWhereBothAreKnown) {
   MemorySnapshot snapshot = grid_without_sizes();
   snapshot.add(0, "density", std::vector<float>(1000, 4));
   const DrawnComponent drawn = load(gas(), snapshot);
-  // The sphere that holds 33 particles: 4 pi / 3 h^3 rho = 33 m.
-  const double expected = std::cbrt(33 * 2 / (4 * 4 * 3.14159265358979 / 3));
+  // The sphere that holds 64 particles: 4 pi / 3 h^3 rho = 64 m.
+  const double expected = std::cbrt(64 * 2 / (4 * 4 * 3.14159265358979 / 3));
   EXPECT_NEAR(drawn.particles.smoothing_length[7], expected, 1e-6);
 }
 
@@ -306,7 +306,7 @@ TEST(LoadFrameSize, IsFoundFromNeighboursWhereADensityIsMissing) {
   std::vector<float> density(1000, 4);
   density[3] = 0;  // as in initial conditions that were never evolved
   snapshot.add(0, "density", density);
-  EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[555], std::sqrt(5.0f), 1e-6);
+  EXPECT_NEAR(load(gas(), snapshot).particles.smoothing_length[555], std::sqrt(6.0f), 1e-6);
   EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("some of its densities")));
 }
 
@@ -328,8 +328,8 @@ TEST(LoadFrameDensity, IsEstimatedFromSizesWhereTheFileHasNone) {
   Component component = gas();
   component.color.field = "density";
   const DrawnComponent drawn = load(component, gas_row());
-  // 33 of its own mass in a sphere of radius 1.
-  EXPECT_NEAR(drawn.particles.color[1], 33 * 2 / (4 * 3.14159265358979 / 3), 1e-5);
+  // 64 of its own mass in a sphere of radius 1.
+  EXPECT_NEAR(drawn.particles.color[1], 64 * 2 / (4 * 3.14159265358979 / 3), 1e-5);
 }
 
 TEST(LoadFrameReference, MakesThePictureTheSameInAnyUnit) {

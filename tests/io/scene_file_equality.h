@@ -64,6 +64,15 @@ inline void expect_same(const Component& a, const Component& b) {
   EXPECT_EQ(a.reference_column, b.reference_column);
 }
 
+inline void expect_same(const ReadSettings& a, const ReadSettings& b) {
+  EXPECT_EQ(a.columns, b.columns);
+  EXPECT_EQ(a.every, b.every);
+  EXPECT_EQ(a.max_particles, b.max_particles);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.neighbours, b.neighbours);
+  EXPECT_EQ(a.cache_smoothing_lengths, b.cache_smoothing_lengths);
+}
+
 inline void expect_same(const Camera& a, const Camera& b) {
   EXPECT_TRUE(same(a.position, b.position));
   EXPECT_TRUE(same(a.look_at, b.look_at));
@@ -169,6 +178,7 @@ inline void expect_same(const FinishSettings& a, const FinishSettings& b) {
 
 inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.snapshot, b.snapshot);
+  expect_same(a.read, b.read);
   EXPECT_EQ(a.tolerance, b.tolerance);
   EXPECT_EQ(a.image.width, b.image.width);
   EXPECT_EQ(a.image.height, b.image.height);

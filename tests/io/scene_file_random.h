@@ -24,7 +24,12 @@ class RandomScenes {
       scene.time = time();
     }
     scene.tolerance = unit();
-    scene.image = {integer(1, 16384), integer(1, 16384), {light(), light(), light()}, gamma(), "",
+    if (coin()) scene.read = read_settings(scene.time.is_set());
+    scene.image = {integer(1, 16384),
+                   integer(1, 16384),
+                   {light(), light(), light()},
+                   gamma(),
+                   "",
                    coin() ? PixelConvention::upright : PixelConvention::original};
     if (coin()) {
       scene.image.background = {0, 0, 0};
@@ -52,6 +57,20 @@ class RandomScenes {
   }
 
  private:
+  ReadSettings read_settings(bool is_sequence) {
+    ReadSettings read;
+    for (int i = is_sequence ? 0 : integer(0, 3); i > 0; --i)
+      read.columns.push_back(word());
+    if (!is_sequence && coin()) {
+      read.every = integer(1, 1000);
+    } else if (!is_sequence) {
+      read.max_particles = integer(1, 1 << 30);
+    }
+    read.seed = integer(0, 1 << 30);
+    read.neighbours = integer(1, 4096);
+    read.cache_smoothing_lengths = coin();
+    return read;
+  }
   bool coin() { return integer(0, 1) == 1; }
   int integer(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random_); }
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }

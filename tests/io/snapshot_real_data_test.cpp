@@ -160,7 +160,7 @@ TEST_F(RealSnapshots, LengthsFromDensityAreNearThoseOfTheFile) {
   const auto snapshot = open("lcdm/fmt2_snapshot_006");
   const Column own = snapshot->read(0, "smoothing_length");
   const Column found = smoothing_lengths_from_density(snapshot->read(0, "mass"),
-                                                      snapshot->read(0, "density"), own.size());
+                                                      snapshot->read(0, "density"), own.size(), 33);
   std::vector<double> ratios;
   for (std::size_t i = 0; i < own.size(); ++i) {
     ratios.push_back(static_cast<double>(found[i]) / static_cast<double>(own[i]));

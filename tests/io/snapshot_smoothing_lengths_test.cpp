@@ -166,14 +166,14 @@ TEST(SmoothingLengths, NeedPositionsOfAllParticles) {
   EXPECT_THROW(find_smoothing_lengths(Column(), 1), DataError);
 }
 
-TEST(SmoothingLengths, FromDensityHoldThirtyThreeParticles) {
+TEST(SmoothingLengths, FromDensityHoldSixtyFourParticles) {
   const Column lengths =
       smoothing_lengths_from_density(Column::uniform(2), Column::owning({0.5F, 4}), 2);
   for (std::size_t i = 0; i < 2; ++i) {
     const double h = static_cast<double>(lengths[i]);
     const double density = i == 0 ? 0.5 : 4;
     // Three roundings to single precision of h, in the cube.
-    EXPECT_NEAR(4 * M_PI / 3 * h * h * h * density / 2, 33, 33 * 3 * 0x1p-24);
+    EXPECT_NEAR(4 * M_PI / 3 * h * h * h * density / 2, 64, 64 * 3 * 0x1p-24);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/common/shrink_guard.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -17,7 +18,8 @@ namespace {
 class FileDescriptor {
  public:
   explicit FileDescriptor(const std::filesystem::path& path)
-      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+      // Without O_NONBLOCK a pipe would be waited for.
+      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~FileDescriptor() {
     if (value_ >= 0) ::close(value_);
   }
@@ -46,7 +48,9 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
     throw DataError(fmt::format("{}: not a regular file; give the path of a file", path.string()));
   }
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  const std::byte* data = nullptr;
+  std::shared_ptr<MappedFile> mapped(new MappedFile(path, size));
+  mapped->device_ = status.st_dev;
+  mapped->node_ = status.st_ino;
   if (size > 0) {  // a mapping of length 0 is an error
     void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.value(), 0);
     if (memory == MAP_FAILED) {
@@ -54,21 +58,36 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
           "{}: {} bytes cannot be mapped: {}; check the limit on address space (ulimit -v)",
           path.string(), size, std::strerror(errno)));
     }
-    data = static_cast<const std::byte*>(memory);
+    mapped->data_ = static_cast<const std::byte*>(memory);
+    register_mapping(mapped->data_, size, mapped->path_.c_str());
   }
-  return std::shared_ptr<const MappedFile>(new MappedFile(path, data, size));
+  return mapped;
+}
+
+void MappedFile::check_size() const {
+  struct stat status = {};
+  const bool is_same = unpacked_.empty() && ::stat(path_.c_str(), &status) == 0 &&
+                       status.st_dev == device_ && status.st_ino == node_;
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (!is_same || size >= size_) return;
+  throw DataError(
+      fmt::format("{}: became shorter while it was read: found {} bytes, expected {}; wait until "
+                  "it is completely written and try again",
+                  path_.string(), size, size_));
 }
 
 std::shared_ptr<const MappedFile> MappedFile::of_bytes(const std::filesystem::path& path,
                                                        std::vector<std::byte> bytes) {
-  std::shared_ptr<MappedFile> file(new MappedFile(path, nullptr, bytes.size()));
+  std::shared_ptr<MappedFile> file(new MappedFile(path, bytes.size()));
   file->unpacked_ = std::move(bytes);
   file->data_ = file->unpacked_.data();
   return file;
 }
 
 MappedFile::~MappedFile() {
-  if (data_ != nullptr && unpacked_.empty()) ::munmap(const_cast<std::byte*>(data_), size_);
+  if (data_ == nullptr || !unpacked_.empty()) return;
+  forget_mapping(data_);
+  ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
 }  // namespace splotchcl

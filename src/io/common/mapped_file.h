@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,13 +29,19 @@ class MappedFile {
   const std::byte* data() const { return data_; }
   std::uint64_t size() const { return size_; }
 
+  // Throws DataError when the file has become shorter than it was: the bytes at its end are
+  // no longer there.
+  void check_size() const;
+
  private:
-  MappedFile(std::filesystem::path path, const std::byte* data, std::uint64_t size)
-      : path_(std::move(path)), data_(data), size_(size) {}
+  MappedFile(std::filesystem::path path, std::uint64_t size)
+      : path_(std::move(path)), size_(size) {}
 
   std::filesystem::path path_;
-  const std::byte* data_ = nullptr;
   std::uint64_t size_ = 0;
+  const std::byte* data_ = nullptr;
+  ::dev_t device_ = 0;  // with the node, what tells the file from one that took its name
+  ::ino_t node_ = 0;
   std::vector<std::byte> unpacked_;  // instead of a mapping
 };
 

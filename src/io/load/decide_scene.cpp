@@ -43,7 +43,9 @@ Scene decide_scene(const Scene& scene, const Frame& frame) {
     decide(component.color, drawn.color);
     decide(component.intensity, drawn.intensity);
     if (!component.weight) component.weight = drawn.weight;
-    if (!component.reference_column) component.reference_column = drawn.reference_column;
+    if (!component.reference_column) {
+      component.reference_column = drawn.reference_column * drawn.particles_per_drawn;
+    }
   }
   return decided;
 }

@@ -8,6 +8,7 @@
 
 #include "io/finish/finish_picture.h"
 #include "io/image/background_image.h"
+#include "io/load/check_particles.h"
 #include "io/load/load_frame_fields.h"
 #include "io/load/load_memory.h"
 #include "io/load/periodic_wrap.h"
@@ -173,7 +174,8 @@ DrawnComponent load_component(const Component& component, const Scene& scene,
 void decide_reference_column(const Component& component, const Frame& frame, DrawnComponent& drawn,
                              std::vector<std::string>& notes) {
   if (component.reference_column) {
-    drawn.reference_column = *component.reference_column;
+    // The reference is that of all particles; those that are drawn stand for the others.
+    drawn.reference_column = *component.reference_column / drawn.particles_per_drawn;
     return;
   }
   const std::optional<double> reference = find_reference_column(drawn, frame);
@@ -218,7 +220,8 @@ void use_original_convention(CameraFrame& camera) {
 // The components with their snapshots: whatever can be refused before anything is read.
 class OpenComponents {
  public:
-  OpenComponents(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes) {
+  OpenComponents(const Scene& scene, const Snapshot& snapshot, const MissingSizes& sizes,
+                 std::vector<std::string>& notes) {
     for (const Component& component : scene.components) {
       const Snapshot* source = &snapshot;
       if (!component.snapshot.empty()) {
@@ -226,7 +229,7 @@ class OpenComponents {
         source = companions_.back().get();
       }
       if (begun_.insert(source).second) source->memory().begin_load();
-      fields_.emplace_back(component, *source, notes);
+      fields_.emplace_back(component, *source, sizes, notes);
     }
     auto fields = fields_.begin();
     for (const Component& component : scene.components)
@@ -266,13 +269,14 @@ class OpenComponents {
 
 }  // namespace
 
-Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes) {
+Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
+                 const LoadProgress& progress) {
   if (scene.components.empty()) {
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
   check_finish(scene, snapshot.info());
   const double box = scene.periodic.wrap ? periodic_box(scene.periodic, snapshot.info()) : 0;
-  OpenComponents components(scene, snapshot, notes);
+  OpenComponents components(scene, snapshot, missing_sizes(scene, progress), notes);
   const Camera camera = choose_camera(scene, snapshot);
   Frame frame;
   frame.width = scene.image.width;
@@ -293,11 +297,14 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   frame.tolerance = scene.tolerance;
   auto fields = components.fields().begin();
   for (const Component& component : scene.components) {
+    const SnapshotInfo& info = fields->snapshot_info();
     DrawnComponent drawn = load_component(component, scene, *fields++);
     // What is placed elsewhere is no part of the periodic box.
     if (scene.periodic.wrap && component.snapshot.empty() && !component.placement.moves()) {
       wrap_around(camera.look_at, box, drawn.particles);
     }
+    check_particles(drawn, info.files.front().string());
+    drawn.particles_per_drawn = info.particles_per_drawn;
     decide_reference_column(component, frame, drawn, notes);
     frame.components.push_back(std::move(drawn));
   }

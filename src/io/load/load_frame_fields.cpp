@@ -45,13 +45,14 @@ Column joined(const std::vector<Part>& parts, std::size_t width) {
 }  // namespace
 
 ComponentFields::ComponentFields(const Component& component, const Snapshot& snapshot,
-                                 std::vector<std::string>& notes)
+                                 const MissingSizes& sizes, std::vector<std::string>& notes)
     : component_(component), snapshot_(snapshot), notes_(notes) {
   for (const int type : component.types) {
     const ParticleTypeInfo* const info = snapshot.info().find_type(type);
     if (info != nullptr) {
-      types_.emplace_back(snapshot, *info, label(), component.center,
-                          [this](const std::string& text) { note(text); });
+      types_.emplace_back(
+          snapshot, *info, label(), component.center,
+          [this](const std::string& text) { note(text); }, sizes);
     } else if (component.types.size() > 1) {
       note(fmt::format("the snapshot has no particles of type {}", type));
     }

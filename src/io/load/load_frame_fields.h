@@ -19,7 +19,7 @@ class ComponentFields {
  public:
   // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
   // the component's types. Reads nothing yet.
-  ComponentFields(const Component& component, const Snapshot& snapshot,
+  ComponentFields(const Component& component, const Snapshot& snapshot, const MissingSizes& sizes,
                   std::vector<std::string>& notes);
   ComponentFields(const ComponentFields&) = delete;
   ComponentFields& operator=(const ComponentFields&) = delete;
@@ -29,6 +29,7 @@ class ComponentFields {
   // Finds the selected particles; before all that follows.
   void select();
 
+  const SnapshotInfo& snapshot_info() const { return snapshot_.info(); }
   std::size_t count() const;  // particles of all types together
   // As they are placed in the scene: origin() + positions().
   Vec3 origin() const;

@@ -232,24 +232,28 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
   return Column::owning(std::move(lengths));
 }
 
-Column smoothing_lengths_from_density(const Column& mass, const Column& density,
-                                      std::size_t count) {
+Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbours) {
+  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbours);
+}
+
+Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
+                                      int neighbours) {
   std::vector<float> lengths(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double volume =
-        particles_in_sphere * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+        neighbours * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
     lengths[i] = static_cast<float>(std::cbrt(volume / unit_sphere));
   }
   return Column::owning(std::move(lengths));
 }
 
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count) {
+                                        std::size_t count, int neighbours) {
   std::vector<float> densities(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double h = static_cast<double>(smoothing_length[i]);
-    densities[i] = static_cast<float>(particles_in_sphere * static_cast<double>(mass[i]) /
-                                      (unit_sphere * h * h * h));
+    densities[i] =
+        static_cast<float>(neighbours * static_cast<double>(mass[i]) / (unit_sphere * h * h * h));
   }
   return Column::owning(std::move(densities));
 }

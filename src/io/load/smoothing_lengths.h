@@ -11,8 +11,9 @@ namespace splotchcl {
 // Called now and then from the calling thread with the fraction done, 0 to 1.
 using Progress = std::function<void(double)>;
 
-// How many particles a smoothing length reaches in Gadget's gas.
-constexpr int particles_in_sphere = 33;
+// How many particles the sphere of a smoothing length holds, unless the scene says otherwise:
+// what most codes aim at with the cubic spline.
+constexpr int particles_in_sphere = 64;
 
 // Each particle's distance to its `neighbours`-th nearest other particle (or to the
 // farthest, where there are fewer): a smoothing length for matter that has none.
@@ -30,13 +31,18 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
                               std::optional<double> periodic_box = std::nullopt,
                               int neighbours = particles_in_sphere, const Progress& progress = {});
 
-// The length whose sphere holds the mass of particles_in_sphere particles at the particle's
-// density: h = (3 * 33 m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
+// The length whose sphere holds the mass of `neighbours` particles at the particle's density:
+// h = (3 * neighbours m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
 // are.
-Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count);
+Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
+                                      int neighbours = particles_in_sphere);
 
-// The inverse: rho = 33 m / (4 pi h^3 / 3).
+// The same for cells of a mesh: m / rho is a cell's volume.
+Column smoothing_lengths_from_volume(const Column& volume, std::size_t count,
+                                     int neighbours = particles_in_sphere);
+
+// The inverse: rho = neighbours m / (4 pi h^3 / 3).
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count);
+                                        std::size_t count, int neighbours = particles_in_sphere);
 
 }  // namespace splotchcl

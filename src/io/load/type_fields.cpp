@@ -25,12 +25,14 @@ bool all_are_sizes(const Column& column) {
 }  // namespace
 
 TypeFields::TypeFields(const Snapshot& snapshot, const ParticleTypeInfo& type, std::string label,
-                       const Vec3& center, std::function<void(const std::string&)> note)
+                       const Vec3& center, std::function<void(const std::string&)> note,
+                       MissingSizes sizes)
     : snapshot_(&snapshot),
       type_(&type),
       label_(std::move(label)),
       center_(center),
-      note_(std::move(note)) {}
+      note_(std::move(note)),
+      sizes_(std::move(sizes)) {}
 
 Column TypeFields::positions() const {
   return snapshot_->read(type_->type, "position");
@@ -144,7 +146,7 @@ Column TypeFields::densities() const {
     const Column h = smoothing_lengths();
     say(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                     type_->type));
-    return densities_from_smoothing_lengths(mass, h, count());
+    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbours);
   });
 }
 
@@ -152,28 +154,40 @@ Column TypeFields::smoothing_lengths() const {
   if (find_field(*type_, "smoothing_length") != nullptr) {
     return snapshot_->read(type_->type, "smoothing_length");
   }
-  return remembered("smoothing_length", [this] { return find_lengths(); });
+  return remembered(fmt::format("smoothing_length {}", sizes_.neighbours),
+                    [this] { return find_lengths(); });
+}
+
+// From densities and masses or the volumes of cells, where they give all particles a size.
+std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) const {
+  const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
+  if (!has_density && find_field(*type_, "volume") == nullptr) return std::nullopt;
+  const Column lengths =
+      has_density
+          ? smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"),
+                                           count(), sizes_.neighbours)
+          : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
+                                          sizes_.neighbours);
+  if (all_are_sizes(lengths)) {
+    say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
+                    type_->type, has_density ? "density and mass" : "the volumes of its cells"));
+    return lengths;
+  }
+  reason = has_density ? ", and some of its densities or masses are not above 0"
+                       : ", and some of its volumes are not above 0";
+  return std::nullopt;
 }
 
 Column TypeFields::find_lengths() const {
   const char* reason = "";
-  if (has_masses(*type_) && find_field(*type_, "density") != nullptr) {
-    const Column lengths =
-        smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"), count());
-    if (all_are_sizes(lengths)) {
-      say(fmt::format(
-          "type {} has no smoothing lengths in the file; they follow from density and mass",
-          type_->type));
-      return lengths;
-    }
-    reason = ", and some of its densities or masses are not above 0";
-  }
+  if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
                   "reaches to neighbour {}",
-                  type_->type, reason, particles_in_sphere));
+                  type_->type, reason, sizes_.neighbours));
   const Column position = positions();
-  return find_smoothing_lengths(position, count(), periodic_box(position));
+  return find_sizes_by_neighbours(snapshot_->info(), type_->type, position, periodic_box(position),
+                                  sizes_, [this](const std::string& text) { say(text); });
 }
 
 // The box of the header, unless particles lie outside of one period of it.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/load/missing_sizes.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
@@ -16,7 +17,8 @@ class TypeFields {
   // `label` begins messages; `note` takes what the user should know. `center` is where
   // `radius` is measured from.
   TypeFields(const Snapshot& snapshot, const ParticleTypeInfo& type, std::string label,
-             const Vec3& center, std::function<void(const std::string&)> note);
+             const Vec3& center, std::function<void(const std::string&)> note,
+             MissingSizes sizes = {});
 
   const ParticleTypeInfo& info() const { return *type_; }
   std::size_t count() const { return static_cast<std::size_t>(type_->count); }
@@ -49,6 +51,7 @@ class TypeFields {
   Column derived_temperatures(const std::string& key) const;
   Column densities() const;
   Column find_lengths() const;
+  std::optional<Column> lengths_from_volumes(const char*& reason) const;
   std::optional<double> periodic_box(const Column& position) const;
   void say(const std::string& text) const;
   [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;
@@ -61,6 +64,7 @@ class TypeFields {
   std::string label_;
   Vec3 center_;
   std::function<void(const std::string&)> note_;
+  MissingSizes sizes_;
   mutable std::vector<std::string> said_;
 };
 

@@ -63,6 +63,14 @@ void check_time(const Scene& scene, const Origins& origins) {
     }
     return;
   }
+  // A part of each snapshot would not be the same particles, and tables have no ids to match.
+  const char* single = nullptr;
+  if (!scene.read.columns.empty()) single = "read.columns";
+  if (scene.read.every != 1) single = "read.every";
+  if (scene.read.max_particles) single = "read.max_particles";
+  if (single != nullptr) {
+    refuse(origins.at(single), single, "it beside time.snapshots", "a single snapshot with it");
+  }
   if (!scene.snapshot.empty()) {
     refuse(origins.at("time.snapshots"), "time.snapshots", "it beside snapshot",
            "only one of the two");

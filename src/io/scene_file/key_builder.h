@@ -22,6 +22,7 @@ Keys particle_keys();  // of components, too
 Keys time_keys();
 Keys finish_keys();
 Keys periodic_keys();
+Keys read_keys();
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -85,6 +86,8 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.periodic;
   } else if constexpr (std::is_same_v<Part, FinishSettings>) {
     return scene.finish;
+  } else if constexpr (std::is_same_v<Part, ReadSettings>) {
+    return scene.read;
   } else {
     static_assert(std::is_same_v<Part, Component>);
     return scene.components[component];

@@ -167,9 +167,9 @@ bool is_prefix(const std::string& table, const std::string& path) {
 const std::vector<Key>& all_keys() {
   static const Keys keys = [] {
     Keys all;
-    for (const Keys& part : {top_level_keys(), image_keys(), background_keys(), camera_keys(),
-                             kernel_keys(), sort_keys(), time_keys(), path_keys(), movie_keys(),
-                             periodic_keys(), finish_keys(), component_keys()}) {
+    for (const Keys& part : {top_level_keys(), read_keys(), image_keys(), background_keys(),
+                             camera_keys(), kernel_keys(), sort_keys(), time_keys(), path_keys(),
+                             movie_keys(), periodic_keys(), finish_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

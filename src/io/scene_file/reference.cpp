@@ -36,8 +36,8 @@ std::string row(const Key& key, const std::string& name) {
 
 std::string key_reference() {
   std::string text;
-  for (const std::string table : {"", "image", "camera", "kernel", "sort", "time", "path", "movie",
-                                  "periodic", "finish", "component"}) {
+  for (const std::string table : {"", "read", "image", "camera", "kernel", "sort", "time", "path",
+                                  "movie", "periodic", "finish", "component"}) {
     text +=
         fmt::format("### {}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                     heading(table));

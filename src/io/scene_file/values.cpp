@@ -226,27 +226,6 @@ ValueType<std::vector<int>> particle_types() {
           read_particle_types, write_particle_types};
 }
 
-ValueType<std::vector<std::string>> texts() {
-  const auto read = [](const toml::node& node) -> std::optional<std::vector<std::string>> {
-    const toml::array* const array = node.as_array();
-    if (array == nullptr || array->empty()) return std::nullopt;
-    std::vector<std::string> values;
-    for (const toml::node& element : *array) {
-      const auto value = element.value_exact<std::string>();
-      if (!value || value->empty()) return std::nullopt;
-      values.push_back(*value);
-    }
-    return values;
-  };
-  const auto write = [](const std::vector<std::string>& values) {
-    std::vector<std::string> quoted;
-    for (const std::string& value : values)
-      quoted.push_back(write_text(value));
-    return fmt::format("[{}]", fmt::join(quoted, ", "));
-  };
-  return {"an array of texts", read, write};
-}
-
 ValueType<Absorption> absorption() {
   return {"\"emission\" or \"none\" or a number >= 0", read_absorption, write_absorption};
 }

@@ -41,7 +41,6 @@ ValueType<std::array<double, 3>> three_numbers(const Range& range, const std::st
 ValueType<Vec3> vector();
 ValueType<std::pair<int, int>> size_in_pixels(int at_most);
 ValueType<std::vector<int>> particle_types();
-ValueType<std::vector<std::string>> texts();  // at least one, none empty
 ValueType<Absorption> absorption();
 
 // One of a few words.

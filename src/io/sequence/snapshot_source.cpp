@@ -103,7 +103,7 @@ struct SnapshotSource::State {
 std::shared_ptr<const Snapshot> SnapshotSource::State::at(const Scene& scene) {
   if (scene.time.is_set()) return at_moment(scene.time);
   if (!single_ || path_ != scene.snapshot) {
-    single_ = open_snapshot(scene.snapshot);
+    single_ = open_snapshot_for(scene.snapshot, scene.read);
     path_ = scene.snapshot;
   }
   return single_;

@@ -238,10 +238,10 @@ void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
   };
   const std::uint64_t positions = bytes_of("POS", 0), ids = bytes_of("ID", 2);
   // In single precision unless the identifiers fit only doubles.
-  for (const std::uint64_t bytes : {12, 24}) {
+  for (const std::uint64_t bytes : {std::uint64_t{12}, std::uint64_t{24}}) {
     const std::uint64_t particles = positions / bytes;
-    const bool fits_ids = ids == 0 || ids == 4 * particles || ids == 6 * particles ||
-                          ids == 8 * particles;
+    const bool fits_ids =
+        ids == 0 || ids == 4 * particles || ids == 6 * particles || ids == 8 * particles;
     if (particles == 0 || positions % bytes != 0 || !fits_ids) continue;
     // All are gas where the blocks of gas have a value for each.
     const bool is_gas = file.format == 2 && bytes_of("U", 0) == particles * bytes / 3;

@@ -104,7 +104,7 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
   }
   if (!names.empty() && arrays_.size() > 1) {
     throw DataError(path.string() +
-                    ": an archive of several arrays, which have names; leave columns out");
+                    ": an archive of several arrays, which have names; leave read.columns out");
   }
   choose_rows();
   for (std::size_t array = 0; array < arrays_.size(); ++array)
@@ -157,7 +157,8 @@ void NumpyTable::read_numbers(SnapshotInfo& info) {
     const std::string& name = arrays_[array].name;
     if (equal_ignoring_case(name, "time")) info.time = value;
     if (equal_ignoring_case(name, "redshift")) info.redshift = value;
-    const bool is_box = equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
+    const bool is_box =
+        equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
     if (is_box && value > 0) info.box_size = value;
   }
 }
@@ -167,8 +168,8 @@ void NumpyTable::choose_rows() {
   bool is_known = false;
   for (const NumpyArray& array : arrays_) {
     if (array.header.shape.empty()) continue;
-    const bool is_position = canonical_field_name(array.name) == "position" ||
-                             equal_ignoring_case(array.name, "x");
+    const bool is_position =
+        canonical_field_name(array.name) == "position" || equal_ignoring_case(array.name, "x");
     if (is_known && !is_position) continue;
     rows_ = array.header.rows();
     is_known = true;
@@ -194,7 +195,7 @@ void NumpyTable::add_array(std::size_t array, const std::vector<std::string>& na
     left_out_.push_back(arrays_[array].name);
   } else if (header.is_structured) {
     if (!names.empty()) {
-      throw DataError(path_.string() + ": its columns have names; leave columns out");
+      throw DataError(path_.string() + ": its columns have names; leave read.columns out");
     }
     add_members(array);
   } else if (!header.members.front().is_usable) {
@@ -243,9 +244,10 @@ void NumpyTable::add_named(std::size_t array, const std::vector<std::string>& na
   const NumpyHeader& header = arrays_[array].header;
   const std::uint64_t width = header.shape.size() > 1 ? header.shape[1] : 1;
   if (names.size() != width) {
-    throw DataError(fmt::format("{}: an array of {} columns, but columns names {}; name each of "
-                                "them (\"-\" for those that are not needed)",
-                                path_.string(), width, names.size()));
+    throw DataError(
+        fmt::format("{}: an array of {} columns, but read.columns names {}; name each of "
+                    "them (\"-\" for those that are not needed)",
+                    path_.string(), width, names.size()));
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] != "-") add(names[i], plain_column(array, header, i, 1));
@@ -253,7 +255,10 @@ void NumpyTable::add_named(std::size_t array, const std::vector<std::string>& na
 }
 
 std::shared_ptr<const MappedFile> NumpyTable::content(std::size_t array) const {
-  if (!archive_) return file_;
+  if (!archive_) {
+    file_->check_size();
+    return file_;
+  }
   const ZipArchive::Entry& entry = archive_->entries()[entries_[array]];
   auto bytes = archive_->read(entry, entry.bytes);
   return MappedFile::of_bytes(path_, std::move(bytes));
@@ -285,8 +290,7 @@ std::optional<std::vector<std::uint64_t>> NumpyTable::integers(std::size_t colum
 
 bool is_zip(const MappedFile& file) {
   constexpr std::array<char, 4> magic = {'P', 'K', 3, 4};
-  return file.size() >= magic.size() &&
-         std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+  return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
 }
 
 class NumpyFormat : public SnapshotFormat {

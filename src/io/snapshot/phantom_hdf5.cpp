@@ -267,6 +267,9 @@ void PhantomSnapshot::read_types() {
 
 // Gadget's type of each particle, and Phantom's. Gas for all where the file does not say.
 std::vector<int> PhantomSnapshot::read_type_numbers(std::vector<float>& itypes) {
+  // Before memory is taken for as many as there should be.
+  for (const Hdf5Dataset& source : find_particle_field("xyz")->sources)
+    file_.check_complete(source);
   std::vector<int> numbers;
   const bool has_types = file_.has("/particles/itype");
   const Column types = has_types ? read_numbers("itype") : Column::uniform(1);
@@ -327,10 +330,9 @@ void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
 Column PhantomSnapshot::read_dataset(int type, const std::string& label, const Vec3& origin,
                                      double factor) const {
   const ParticleField& field = *find_particle_field(label);
-  const Column all =
-      field.sources.size() == 1
-          ? read_column({{file_.path(), field.sources.front()}}, origin, factor)
-          : read_axes(field, origin);
+  const Column all = field.sources.size() == 1
+                         ? read_column({{file_.path(), field.sources.front()}}, origin, factor)
+                         : read_axes(field, origin);
   const std::vector<std::size_t>& particles = types_.at(type).particles;
   if (particles.size() == count_) return all;
   const std::size_t width = field.values_per_particle();

@@ -14,14 +14,6 @@ namespace splotchcl {
 namespace fs = std::filesystem;
 namespace {
 
-const SnapshotFormat* find_format(const fs::path& path) {
-  const auto file = MappedFile::open(path);
-  for (const SnapshotFormat* const format : snapshot_formats()) {
-    if (format->recognises(file)) return format;
-  }
-  return nullptr;
-}
-
 struct FamiliarFile {
   std::string_view start;
   const char* what;
@@ -50,7 +42,7 @@ std::string describe_other(const fs::path& path) {
     if (content.substr(0, other.start.size()) == other.start) return other.what;
   }
   constexpr std::size_t tar_mark = 257;
-  if (content.size() > tar_mark + 5 && content.substr(tar_mark, 5) == "ustar") {
+  if (content.size() >= tar_mark + 5 && content.substr(tar_mark, 5) == "ustar") {
     return "a tar archive; unpack it first";
   }
   const std::string_view start = content.substr(0, 4096);
@@ -86,9 +78,10 @@ std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions&
   if (format != nullptr) {
     auto snapshot = format->open(path, options);
     if (!options.columns.empty() && !format->has_columns()) {
-      throw UsageError(fmt::format("{}: columns is for tables, but this is {}, whose fields have "
-                                   "names; leave columns out",
-                                   path.string(), snapshot->info().format));
+      throw UsageError(
+          fmt::format("{}: read.columns is for tables, but this is {}, whose fields have "
+                      "names; leave read.columns out",
+                      path.string(), snapshot->info().format));
     }
     check_positions(snapshot->info());
     return snapshot;
@@ -98,8 +91,7 @@ std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions&
   }
   const std::string other = describe_other(path);
   if (!other.empty()) {
-    throw DataError(
-        fmt::format("{}: not a snapshot: it is {}", path.string(), other));
+    throw DataError(fmt::format("{}: not a snapshot: it is {}", path.string(), other));
   }
   throw DataError(
       fmt::format("{}: not a known snapshot format (it starts with the bytes {}); expected Gadget "
@@ -170,6 +162,14 @@ std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
 std::vector<const SnapshotFormat*> snapshot_formats() {
   return {&gadget_binary_format(), &hdf5_formats(), &numpy_format(), &tipsy_format(),
           &text_table_format()};
+}
+
+const SnapshotFormat* find_format(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  for (const SnapshotFormat* const format : snapshot_formats()) {
+    if (format->recognises(file)) return format;
+  }
+  return nullptr;
 }
 
 std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOptions& options) try {

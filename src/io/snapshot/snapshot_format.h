@@ -36,4 +36,8 @@ const SnapshotFormat& text_table_format();
 // In the order in which they are asked.
 std::vector<const SnapshotFormat*> snapshot_formats();
 
+// The format of a file; null where it has none of them. Throws DataError when the file cannot
+// be opened.
+const SnapshotFormat* find_format(const std::filesystem::path& path);
+
 }  // namespace splotchcl

@@ -126,6 +126,7 @@ Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origi
                [](const StoredValues& part) { return part.particles > 0; });
   std::size_t size = 0;
   for (const StoredValues& part : parts) {
+    part.file->check_size();
     size += part.particles * static_cast<std::size_t>(part.values_per_particle);
   }
   if (parts.size() == 1 && can_point_into_file(parts[0]) && origin == zero) {
@@ -147,6 +148,7 @@ std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<Stored
   for (const StoredValues& part : parts) {
     const bool is_integer = part.kind != ValueKind::float32 && part.kind != ValueKind::float64;
     if (!is_integer || part.values_per_particle != 1) return std::nullopt;
+    part.file->check_size();
     const std::byte* particle = part.file->data() + part.offset;
     with_value_type(part.kind, [&](auto* type) {
       using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;

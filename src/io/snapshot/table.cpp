@@ -89,7 +89,8 @@ TableSnapshot::TableSnapshot(std::unique_ptr<const Table> table, SnapshotInfo in
     names_.push_back(split_unit(column.name));
   find_fields();
   check_positions();
-  info_.velocity_doubt = "a table does not tell its units, nor whether its time is the scale factor";
+  info_.velocity_doubt =
+      "a table does not tell its units, nor whether its time is the scale factor";
 }
 
 std::optional<std::size_t> TableSnapshot::find_column(const std::string& name) const {
@@ -160,7 +161,7 @@ void TableSnapshot::check_positions() const {
     names.push_back(column.name);
   throw DataError(fmt::format(
       "{}: no positions: its columns are {}; expected x, y and z: name the columns in their order, "
-      "as in columns = [\"x\", \"y\", \"z\", \"mass\"]",
+      "as in read.columns = [\"x\", \"y\", \"z\", \"mass\"]",
       info_.files.front().string(), fmt::join(names, ", ")));
 }
 

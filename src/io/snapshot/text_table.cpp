@@ -134,7 +134,7 @@ std::optional<double> parse_number(std::string_view cell) {
 
 struct Layout {
   char separator = ' ';
-  std::vector<std::string> names;      // from the header; empty where there is none
+  std::vector<std::string> names;       // from the header; empty where there is none
   std::vector<std::string_view> cells;  // of the first row
   std::uint64_t first_row = 0;          // its place in the file
   std::uint64_t lines_before = 0;
@@ -229,12 +229,12 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, const std::vector<s
   if (wanted.empty()) {
     throw DataError(fmt::format(
         "{}: a table of {} columns without a header that names them; name them in their order, as "
-        "in columns = [\"x\", \"y\", \"z\", \"mass\"]",
+        "in read.columns = [\"x\", \"y\", \"z\", \"mass\"]",
         path, width));
   }
   if (wanted.size() != width) {
     throw DataError(fmt::format(
-        "{}: line {} has {} columns, but columns names {}; name each of them (\"-\" for those "
+        "{}: line {} has {} columns, but read.columns names {}; name each of them (\"-\" for those "
         "that are not needed)",
         path, layout_.lines_before + 1, width, wanted.size()));
   }
@@ -290,6 +290,7 @@ void TextTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& us
   std::sort(cells.begin(), cells.end(),
             [](const WantedCell& a, const WantedCell& b) { return a.cell < b.cell; });
   std::vector<double> values(wanted.size());
+  file_->check_size();
   Lines lines(*file_, layout_.first_row, layout_.lines_before);
   while (lines.next()) {
     if (is_comment(lines.line())) continue;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splotchcl {
+
+// How a snapshot is read for a scene: the keys of [read].
+struct ReadSettings {
+  // Names for the columns of a text table or a plain NumPy array, in their order; "-" for one
+  // that is not needed. Empty: the file's own.
+  std::vector<std::string> columns;
+
+  // Parts of the particles, for a quick look: every N-th, or at most so many, chosen at random
+  // by the seed. What is left is made brighter by as much as was left out.
+  int every = 1;
+  std::optional<int> max_particles;
+  int seed = 1;
+
+  // How many particles a smoothing length reaches that the file does not have.
+  int neighbours = 64;
+  // Whether smoothing lengths that were found are kept in a file beside the snapshot.
+  bool cache_smoothing_lengths = false;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// Throws DataError when a component has particles and all of them are bad, so that nothing of
+// it could be drawn.
+void check_particles(const DrawnComponent& component, const std::string& snapshot);
+
+}  // namespace splotchcl

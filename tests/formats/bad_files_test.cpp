@@ -1,0 +1,156 @@
+// Whatever is given as a snapshot and is none, or is damaged, is refused with one line that
+// says so. Damage within a format has its tests beside the format.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <limits>
+
+#include "formats/hdf5_values.h"
+#include "io/snapshot_checks.h"
+#include "io/snapshot_hdf5_writer.h"
+#include "splotchcl/scene_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class BadFiles : public ::testing::Test {
+ protected:
+  // One line that names the file.
+  std::string refusal_of(const std::string& bytes) const {
+    write_bytes(path_, bytes);
+    const std::string text = refusal(path_);
+    EXPECT_THAT(text, HasSubstr(path_.string() + ": "));
+    EXPECT_THAT(text, Not(HasSubstr("\n")));
+    return text;
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "snap";
+};
+
+TEST_F(BadFiles, AnEmptyFileIsRefused) {
+  EXPECT_THAT(refusal_of(""), HasSubstr("the file is empty"));
+}
+
+TEST_F(BadFiles, ImagesAndArchivesAreNamed) {
+  using std::string;
+  EXPECT_THAT(refusal_of("\x89PNG\r\n\x1a\n and so on"), HasSubstr("a PNG image"));
+  EXPECT_THAT(refusal_of("\xff\xd8\xff\xe0 and so on"), HasSubstr("a JPEG image"));
+  EXPECT_THAT(refusal_of(string("\x1f\x8b\x08\0", 4) + " and so on"),
+              HasSubstr("a gzip archive; unpack it first"));
+  EXPECT_THAT(refusal_of(string("\xfd\x37zXZ\0", 6) + " and so on"), HasSubstr("an xz archive"));
+  EXPECT_THAT(refusal_of(string(257, '\0') + "ustar\0 and so on"), HasSubstr("a tar archive"));
+}
+
+TEST_F(BadFiles, TextIsRefused) {
+  EXPECT_THAT(refusal_of("It was a dark and stormy night.\n"), HasSubstr("text, but no table"));
+}
+
+TEST_F(BadFiles, OtherBytesAreShown) {
+  EXPECT_THAT(refusal_of(std::string("\x01\x02\x03\0\x05", 5)), HasSubstr("01 02 03 00 05"));
+}
+
+TEST_F(BadFiles, AnEmptyFolderIsRefused) {
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("no snapshot in this folder"));
+}
+
+TEST_F(BadFiles, APipeIsRefusedWithoutWaiting) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_THAT(refusal(path_), HasSubstr("not a regular file"));
+}
+
+TEST_F(BadFiles, AFileThatMayNotBeReadIsRefused) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  write_bytes(path_, "anything");
+  std::filesystem::permissions(path_, std::filesystem::perms::none);
+  EXPECT_THAT(refusal(path_), HasSubstr("Permission denied; check the path and its permissions"));
+}
+
+TEST_F(BadFiles, AMissingMemberOfASetIsNamed) {
+  const std::vector<TestSnapshot> members = split(small_snapshot(), 3);
+  for (const int member : {0, 2}) {
+    write_gadget(folder_ / ("set." + std::to_string(member)),
+                 members[static_cast<std::size_t>(member)], 2);
+    write_hdf5(folder_ / ("set." + std::to_string(member) + ".hdf5"),
+               members[static_cast<std::size_t>(member)]);
+  }
+  EXPECT_THAT(refusal(folder_ / "set.2"), HasSubstr("set.1: missing"));
+  EXPECT_THAT(refusal(folder_ / "set.0.hdf5"), HasSubstr("set.1.hdf5: missing"));
+}
+
+TEST_F(BadFiles, Hdf5TruncatedAnywhereIsRefusedOrReadsWhatWasWritten) {
+  write_hdf5(path_, small_snapshot());
+  const std::string whole = read_text(path_);
+  for (std::size_t size = 0; size < whole.size(); size += 61) {
+    write_bytes(path_, whole.substr(0, size));
+    EXPECT_THROW(
+        {
+          const auto snapshot = open_snapshot(path_);
+          for (const ParticleTypeInfo& type : snapshot->info().types) {
+            for (const FieldInfo& field : type.fields)
+              snapshot->read(type.type, field.name);
+          }
+        },
+        DataError)
+        << size;
+  }
+}
+
+// What load_frame says of the particles that are left.
+class BadParticles : public ::testing::Test {
+ protected:
+  static TestSnapshot gas() {
+    TestSnapshot written;
+    written.counts = {8, 0, 0, 0, 0, 0};
+    for (const auto& [label, width] :
+         {std::pair<const char*, int>{"POS", 3}, {"MASS", 1}, {"RHO", 1}, {"HSML", 1}}) {
+      add_block(written, label, 1U, width);
+    }
+    return written;
+  }
+  std::string load(const TestSnapshot& written) const {
+    write_gadget(folder_ / "snap", written, 2);
+    const Scene scene = parse_scene(
+        "snapshot = 'snap'\n[camera]\nposition = [0,0,-9]\nlook_at = [0,0,0]\n[[component]]\n"
+        "name = 'gas'\n",
+        "scene");
+    std::vector<std::string> notes;
+    try {
+      load_frame(scene, *open_snapshot(folder_ / "snap"), notes);
+    } catch (const DataError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(BadParticles, SomeAreLeftToTheCount) {
+  TestSnapshot written = gas();
+  written.block("POS").values[0][4] = std::numeric_limits<double>::quiet_NaN();
+  written.block("HSML").values[0][3] = -1;
+  EXPECT_EQ(load(written), "");
+}
+
+TEST_F(BadParticles, AllOfThemAreRefused) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    TestSnapshot written = gas();
+    for (std::size_t i = 0; i < written.block("POS").values[0].size(); i += 3)
+      written.block("POS").values[0][i] = bad;
+    EXPECT_THAT(load(written), HasSubstr("none of its 8 particles can be drawn"));
+  }
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    TestSnapshot written = gas();
+    for (double& h : written.block("HSML").values[0])
+      h = bad;
+    EXPECT_THAT(load(written), HasSubstr("none of its 8 particles can be drawn"));
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl

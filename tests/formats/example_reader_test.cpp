@@ -1,0 +1,41 @@
+// The reader of docs/add-a-reader.md.
+#include "io/snapshot/snapshot_format.h"
+#include "io/snapshot_checks.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+
+const SnapshotFormat& points_format();
+
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string points_file() {
+  const std::uint32_t count = 2;
+  const float values[8] = {1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
+  return "POINTS01" + std::string(reinterpret_cast<const char*>(&count), sizeof count) +
+         std::string(reinterpret_cast<const char*>(values), sizeof values);
+}
+
+TEST(ExampleReader, ReadsWhatItRecognises) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "points", points_file());
+  ASSERT_TRUE(points_format().recognises(MappedFile::open(folder / "points")));
+  const auto snapshot = points_format().open(folder / "points", {});
+  EXPECT_THAT(values_of(snapshot->read(4, "position")), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(0.5F, 0.25F));
+}
+
+TEST(ExampleReader, RefusesWhatIsTruncated) {
+  const TemporaryFolder folder;
+  for (std::size_t size = 0; size < points_file().size(); ++size) {
+    write_bytes(folder / "points", points_file().substr(0, size));
+    EXPECT_THROW(points_format().open(folder / "points", {}), DataError) << size;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,183 @@
+// Damage inside HDF5's own structures is for libhdf5 to find, and libhdf5 1.10 has known crashes
+// of its own. So the bytes are the plan of a file that HDF5 itself writes: which groups,
+// datasets and attributes it has, of which names, types and shapes.
+#include <array>
+#include <vector>
+
+#include "formats/hdf5_values.h"
+#include "fuzz/fuzz.h"
+
+namespace {
+
+using namespace splotchcl;
+using namespace splotchcl::testing;
+
+class Plan {
+ public:
+  Plan(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  bool is_at_end() const { return place_ >= size_; }
+  std::size_t below(std::size_t limit) { return byte() % limit; }
+  template <class T, std::size_t N>
+  const T& one_of(const std::array<T, N>& choices) {
+    return choices[below(N)];
+  }
+
+ private:
+  std::uint8_t byte() { return is_at_end() ? std::uint8_t{0} : data_[place_++]; }
+  const std::uint8_t* data_;
+  std::size_t size_, place_ = 0;
+};
+
+const std::array<const char*, 10> groups = {"Header",    "header",     "particles", "PartType0",
+                                            "PartType1", "PartType3",  "PartType9", "Units",
+                                            "Config",    "HydroScheme"};
+const std::array<const char*, 32> names = {"Coordinates",
+                                           "Masses",
+                                           "ParticleIDs",
+                                           "SmoothingLength",
+                                           "Density",
+                                           "Volume",
+                                           "CenterOfMass",
+                                           "TracerID",
+                                           "xyz",
+                                           "x",
+                                           "y",
+                                           "z",
+                                           "h",
+                                           "m",
+                                           "rho",
+                                           "itype",
+                                           "iphase",
+                                           "massoftype",
+                                           "hfact",
+                                           "time",
+                                           "udist",
+                                           "utime",
+                                           "umass",
+                                           "vx",
+                                           "vy",
+                                           "vz",
+                                           "Velocities",
+                                           "InternalEnergy",
+                                           "sinks",
+                                           "Color",
+                                           "SmoothingLengths",
+                                           "Densities"};
+const std::array<const char*, 20> attributes = {"NumPart_ThisFile",
+                                                "NumPart_Total",
+                                                "NumPart_Total_HighWord",
+                                                "MassTable",
+                                                "Time",
+                                                "Redshift",
+                                                "BoxSize",
+                                                "NumFilesPerSnapshot",
+                                                "Omega0",
+                                                "HubbleParam",
+                                                "OmegaLambda",
+                                                "GIZMO_version",
+                                                "Kernel gamma",
+                                                "Scale-factor",
+                                                "UnitLength_in_cm",
+                                                "UnitMass_in_g",
+                                                "Code",
+                                                "a_scaling",
+                                                "h_scaling",
+                                                "length_scaling"};
+const std::array<double, 16> numbers = {0,    1,     2,   3,    4,      5,    7,   -1,
+                                        1e15, 1e300, 0.5, 1e-9, 1e-300, 1.25, 1.8, 4294967296.0};
+
+hid_t type_of(std::size_t choice) {
+  const std::array<hid_t, 10> types = {
+      H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_IEEE_F32BE, H5T_STD_U32LE, H5T_STD_U64BE,
+      H5T_STD_I8LE,   H5T_STD_I64LE,  H5T_STD_U16BE,  H5T_STD_B32LE, H5T_NATIVE_LDOUBLE};
+  return types[choice % types.size()];
+}
+
+void add_dataset(const Hdf5Output& file, const std::string& path, Plan& plan) {
+  std::vector<hsize_t> shape(plan.below(4));
+  for (hsize_t& side : shape)
+    side = plan.below(6);
+  if (shape.size() == 2 && plan.below(4) != 0) shape[1] = 3;
+  const Hdf5Handle<H5Sclose> space(
+      shape.empty() ? H5Screate(H5S_SCALAR)
+                    : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
+  const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
+  const std::size_t storage = plan.below(5);
+  if (storage < 2 && !shape.empty()) {
+    std::vector<hsize_t> chunk(shape.size());
+    for (hsize_t& side : chunk)
+      side = 1 + plan.below(4);
+    H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
+    if (storage == 1) H5Pset_deflate(properties.id(), 1);
+  }
+  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), path.c_str(), type_of(plan.below(10)),
+                                                space.id(), H5P_DEFAULT, properties.id(),
+                                                H5P_DEFAULT));
+  if (!dataset.is_valid() || storage == 4) return;  // never written
+  std::size_t size = 1;
+  for (const hsize_t side : shape)
+    size *= side;
+  std::vector<double> values(size);
+  for (double& value : values)
+    value = plan.one_of(numbers);
+  H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+}
+
+void add_attribute(const Hdf5Output& file, const std::string& owner_path, Plan& plan) {
+  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), owner_path.c_str(), H5P_DEFAULT));
+  if (!owner.is_valid()) return;
+  const std::string name = plan.one_of(attributes);
+  if (H5Aexists(owner.id(), name.c_str()) > 0) return;
+  if (name == "Code" && plan.below(2) == 0) {
+    const Hdf5Handle<H5Tclose> text(H5Tcopy(H5T_C_S1));
+    H5Tset_size(text.id(), 6);
+    const Hdf5Handle<H5Sclose> scalar(H5Screate(H5S_SCALAR));
+    const Hdf5Handle<H5Aclose> attribute(
+        H5Acreate2(owner.id(), name.c_str(), text.id(), scalar.id(), H5P_DEFAULT, H5P_DEFAULT));
+    H5Awrite(attribute.id(), text.id(), "SWIFT");
+    return;
+  }
+  const hsize_t length = 1 + plan.below(8);
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &length, nullptr));
+  const Hdf5Handle<H5Aclose> attribute(H5Acreate2(owner.id(), name.c_str(), type_of(plan.below(10)),
+                                                  space.id(), H5P_DEFAULT, H5P_DEFAULT));
+  std::vector<double> values(length);
+  for (double& value : values)
+    value = plan.one_of(numbers);
+  if (attribute.is_valid()) H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Hdf5Silence silence;
+  {
+    const Hdf5Output file = create_hdf5(fuzz::scratch_file());
+    Plan plan(data, size);
+    std::string group = "Header";
+    make_group(file, group);
+    while (!plan.is_at_end()) {
+      switch (plan.below(4)) {
+        case 0:
+          group = plan.one_of(groups);
+          if (H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) <= 0) make_group(file, group);
+          break;
+        case 1:
+          add_attribute(file, group, plan);
+          break;
+        case 2: {
+          const std::string path = group + "/" + plan.one_of(names);
+          if (H5Lexists(file.id(), path.c_str(), H5P_DEFAULT) <= 0) add_dataset(file, path, plan);
+          break;
+        }
+        default:
+          // Phantom's files have no group Header.
+          if (plan.below(8) == 0) H5Ldelete(file.id(), "Header", H5P_DEFAULT);
+          if (H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) <= 0) make_group(file, group);
+          break;
+      }
+    }
+  }
+  fuzz::read_as(hdf5_formats());
+  return 0;
+}

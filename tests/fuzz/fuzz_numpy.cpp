@@ -1,0 +1,9 @@
+#include "fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace splotchcl;
+  fuzz::write_scratch(data, size);
+  fuzz::read_as(numpy_format());
+  fuzz::read_as(numpy_format(), {{"id", "z", "-", "x", "y"}});
+  return 0;
+}

@@ -1,0 +1,10 @@
+#include "fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace splotchcl;
+  fuzz::write_scratch(data, size);
+  fuzz::read_as(text_table_format());
+  fuzz::read_as(text_table_format(), {{"x", "y", "z"}});
+  fuzz::read_as(text_table_format(), {{"id", "z", "-", "x", "y"}});
+  return 0;
+}
