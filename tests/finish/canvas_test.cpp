@@ -28,6 +28,20 @@ TEST(Canvas, LeavesWhatIsNotCovered) {
   EXPECT_FLOAT_EQ(image.at(1, 0)[0], 1.0F);
 }
 
+// A bright spot would outshine letters through any shade.
+TEST(Canvas, ShadesLightAboveWhiteAsWhite) {
+  Image image = plain_image(2, 1, {9, 0.5F, 1});
+  Canvas canvas(image, {0, 0, 2, 1});
+  TextMask mask;
+  mask.width = 1;
+  mask.height = 1;
+  mask.coverage = {1};
+  canvas.shade(mask, 0, 0, {0, 0, 0}, 0.75F);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.25F);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[1], 0.125F);
+  EXPECT_EQ(image.at(1, 0)[0], 9.0F);
+}
+
 TEST(Canvas, OfAPartTakesThePartsPixels) {
   Image part(2, 2);
   Canvas canvas(part, {3, 5, 2, 2});

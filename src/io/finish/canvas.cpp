@@ -13,10 +13,15 @@ double overlap(int i, double from, double to) {
 
 }  // namespace
 
-void Canvas::cover(int x, int y, const Light& light, float coverage) {
+float* Canvas::pixel_at(int x, int y) {
   const int column = x - part_.x, row = y - part_.y;
-  if (column < 0 || row < 0 || column >= image_.width || row >= image_.height) return;
-  float* pixel = image_.at(column, row);
+  const bool is_inside = column >= 0 && row >= 0 && column < image_.width && row < image_.height;
+  return is_inside ? image_.at(column, row) : nullptr;
+}
+
+void Canvas::cover(int x, int y, const Light& light, float coverage) {
+  float* const pixel = pixel_at(x, y);
+  if (pixel == nullptr) return;
   for (std::size_t c = 0; c < 3; ++c)
     pixel[c] += coverage * (light[c] - pixel[c]);
   pixel[3] += coverage * (1 - pixel[3]);
@@ -40,6 +45,20 @@ void Canvas::stamp(const TextMask& mask, int x, int y, const Light& light) {
   for (int row = 0; row < mask.height; ++row) {
     for (int column = 0; column < mask.width; ++column, ++i) {
       if (mask.coverage[i] > 0) cover(x + column, y + row, light, mask.coverage[i]);
+    }
+  }
+}
+
+void Canvas::shade(const TextMask& mask, int x, int y, const Light& light, float opacity) {
+  std::size_t i = 0;
+  for (int row = 0; row < mask.height; ++row) {
+    for (int column = 0; column < mask.width; ++column, ++i) {
+      const float coverage = mask.coverage[i];
+      float* const pixel = coverage > 0 ? pixel_at(x + column, y + row) : nullptr;
+      if (pixel == nullptr) continue;
+      for (int c = 0; c < 3; ++c)
+        pixel[c] += coverage * (std::min(pixel[c], 1.0F) - pixel[c]);
+      cover(x + column, y + row, light, opacity * coverage);
     }
   }
 }

@@ -28,10 +28,15 @@ class Canvas {
   void fill(const Box& box, const Light& light, float opacity = 1);
   // The mask's own corner at (x, y).
   void stamp(const TextMask& mask, int x, int y, const Light& light);
+  // Darkens (or brightens) to make room for letters: light above the display's white is
+  // first brought down to it, or much of it would shine through.
+  void shade(const TextMask& mask, int x, int y, const Light& light, float opacity);
   // Opaque.
   void paste(const Image& picture, int x, int y);
 
  private:
+  float* pixel_at(int x, int y);  // null outside of the part
+
   Image& image_;
   Rectangle part_;
 };

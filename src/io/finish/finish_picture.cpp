@@ -37,7 +37,7 @@ TextAlignment alignment_at(Place place) {
 
 std::string words_of(const NamedText& named, const FinishSettings& finish,
                      const SnapshotInfo& snapshot) {
-  return replace_placeholders(named.text.text, snapshot, finish.frame,
+  return replace_placeholders(named.text.text, snapshot, finish.frame.value_or(0),
                               std::string(named.key) + ".text");
 }
 

@@ -16,28 +16,26 @@ std::string file_name(const SnapshotInfo& snapshot) {
   return snapshot.files.empty() ? "" : snapshot.files.front().filename().string();
 }
 
-// What stands for what is not known, to try the format itself.
-constexpr double any_number = 1;
+// What stands for a redshift that is not known, to try the format itself.
+constexpr double any_redshift = 1;
 
-Values values_of(const SnapshotInfo& snapshot, const std::optional<int>& frame, bool with_unknown) {
+Values values_of(const SnapshotInfo& snapshot, int frame, bool with_unknown) {
   Values values;
   values.push_back(fmt::arg("time", snapshot.time));
+  values.push_back(fmt::arg("frame", frame));
   values.push_back(fmt::arg("snapshot", file_name(snapshot)));
   if (snapshot.redshift || with_unknown) {
-    const double redshift = snapshot.redshift.value_or(any_number);
+    const double redshift = snapshot.redshift.value_or(any_redshift);
     values.push_back(fmt::arg("redshift", redshift));
     values.push_back(fmt::arg("scale_factor", 1 / (1 + redshift)));
-  }
-  if (frame || with_unknown) {
-    values.push_back(fmt::arg("frame", frame.value_or(static_cast<int>(any_number))));
   }
   return values;
 }
 
 }  // namespace
 
-std::string replace_placeholders(const std::string& text, const SnapshotInfo& snapshot,
-                                 const std::optional<int>& frame, const std::string& key) {
+std::string replace_placeholders(const std::string& text, const SnapshotInfo& snapshot, int frame,
+                                 const std::string& key) {
   try {
     (void)fmt::vformat(text, values_of(snapshot, frame, true));
   } catch (const fmt::format_error& error) {
@@ -50,12 +48,9 @@ std::string replace_placeholders(const std::string& text, const SnapshotInfo& sn
   try {
     return fmt::vformat(text, values_of(snapshot, frame, false));
   } catch (const fmt::format_error&) {
-    throw UsageError(fmt::format(
-        "key {}: found \"{}\", but {}; use another placeholder", key, text,
-        snapshot.redshift ? "there is no number of the frame outside of films (finish.frame sets "
-                            "it)"
-                          : "the snapshot " + file_name(snapshot) + " has no redshift" +
-                                (frame ? "" : ", or there is no number of the frame")));
+    throw UsageError(
+        fmt::format("key {}: found \"{}\", but the snapshot {} has no redshift; use {{time}}", key,
+                    text, file_name(snapshot)));
   }
 }
 

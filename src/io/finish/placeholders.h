@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "splotchcl/snapshot.h"
@@ -11,12 +10,12 @@ namespace splotchcl {
 //   {time}          time of the snapshot, as its header has it
 //   {redshift}      redshift
 //   {scale_factor}  1 / (1 + redshift)
-//   {frame}         number of a film's frame
+//   {frame}         number of a film's frame, 0 for a single picture
 //   {snapshot}      name of the snapshot's file
 // A format may follow the name: {redshift:.2f}, {frame:04}. {{ and }} are braces.
 // `key` names the scene's key in messages. Throws UsageError for placeholders that are
 // unknown or have no value.
-std::string replace_placeholders(const std::string& text, const SnapshotInfo& snapshot,
-                                 const std::optional<int>& frame, const std::string& key);
+std::string replace_placeholders(const std::string& text, const SnapshotInfo& snapshot, int frame,
+                                 const std::string& key);
 
 }  // namespace splotchcl

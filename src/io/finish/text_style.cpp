@@ -11,7 +11,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr float shade_opacity = 0.6F;
+constexpr float shade_opacity = 0.65F;
 
 // The letters, grown and blurred by a part of their size.
 TextMask shade_of(const TextMask& letters, double size) {
@@ -26,7 +26,7 @@ TextMask shade_of(const TextMask& letters, double size) {
                      values.data());
   // Thin letters cover little of the filter's reach.
   for (std::size_t i = 0; i < values.size(); ++i)
-    shade.coverage[i] = shade_opacity * std::clamp(2.5F * values[i], 0.0F, 1.0F);
+    shade.coverage[i] = std::clamp(2.5F * values[i], 0.0F, 1.0F);
   return shade;
 }
 
@@ -56,7 +56,7 @@ ShadedText TextStyle::draw(const std::string& text, double size, TextAlignment a
 void TextStyle::put(Canvas& canvas, const ShadedText& text, double x, double y) const {
   const int left = static_cast<int>(std::lround(x)) + text.letters.left;
   const int top = static_cast<int>(std::lround(y)) + text.letters.top;
-  canvas.stamp(text.shade, left, top, shade_);
+  canvas.shade(text.shade, left, top, shade_, shade_opacity);
   canvas.stamp(text.letters, left, top, color_);
 }
 

@@ -109,7 +109,9 @@ const std::vector<std::string>& FilmPath::settings(int frame) const {
 
 Scene FilmPath::scene_at(const Scene& scene, int frame) const {
   try {
-    return apply_settings(scene, settings(frame));
+    Scene numbered = scene;
+    numbered.finish.frame = frame;
+    return apply_settings(numbered, settings(frame));
   } catch (const UsageError& error) {
     const std::optional<KeyMessage> message = split_message(error.what());
     if (!message) throw UsageError(where(frame, "") + ": " + error.what());

@@ -95,7 +95,7 @@ Keys all_text_keys() {
                  {"Colour of text, ticks and the scale bar, as displayed."}),
       finish_key("frame", integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()),
                  [](auto& f) -> auto& { return f.frame; },
-                 {"The number that `{frame}` stands for. Films set it.", "", "none"}),
+                 {"The number that `{frame}` stands for. Films set it.", "", "0"}),
   };
   append(keys,
          text_keys(
