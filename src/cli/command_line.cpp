@@ -303,6 +303,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_devices(app, run);
   add_generate(app, run, console);
   add_galaxy(app, run, console);
+  add_evolve(app, run, console);
   app.footer(
       "splotchcl COMMAND --help tells more.\n"
       "Exit codes: 0 done; 1 the data or the device failed; 2 the call or the scene is wrong.");

@@ -86,4 +86,19 @@ struct GalaxyOptions {
 };
 int run_galaxy(const GalaxyOptions& options, Console& console);
 
+struct EvolveOptions {
+  std::filesystem::path galaxy;
+  std::optional<std::filesystem::path> scene, output, snapshots;  // numbered: %04d
+  double duration_myr = 200;
+  int frames = 100;
+  bool first_order = false;
+  std::optional<double> step_myr;     // unset: from frame to frame
+  std::optional<double> speed, core;  // km/s and kpc; unset: the galaxy's own velocities
+  std::optional<std::filesystem::path> rotation_curve;
+  std::string part;  // K/N
+  std::string device;
+  std::vector<std::string> settings;  // key=value
+};
+int run_evolve(const EvolveOptions& options, Console& console);
+
 }  // namespace splotchcl::cli

@@ -101,4 +101,58 @@ void add_galaxy(CLI::App& app, Run& run, Console& console) {
       "  splotchcl galaxy m51.jpg -o m51.hdf5 --radius 700 --size 25 --inclination 20");
 }
 
+void add_evolve(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<EvolveOptions>();
+  CLI::App* const sub = add_command<EvolveOptions>(
+      app, run, "evolve", "Turn a galaxy and draw it as it turns", options,
+      [&console](const EvolveOptions& o) { return run_evolve(o, console); });
+  sub->add_option("GALAXY", options->galaxy, wrapped("A snapshot that splotchcl galaxy made"))
+      ->required();
+  sub->add_option("SCENE", options->scene,
+                  wrapped("A scene file that draws it, as its snapshot or as that of a component. "
+                          "Not needed for --snapshots alone"));
+  sub->add_option("-o,--output", options->output,
+                  wrapped("Numbered pictures, such as turn_%04d.png"))
+      ->type_name("FILES");
+  sub->add_option("--snapshots", options->snapshots,
+                  wrapped("Write the galaxy of each frame, too, such as turn_%04d.hdf5"))
+      ->type_name("FILES");
+  sub->add_option("--duration", options->duration_myr,
+                  wrapped("From the first frame to the last, in million years; a few hundred at "
+                          "most, since the arms wind up"))
+      ->type_name("MYR")
+      ->capture_default_str();
+  sub->add_option("--frames", options->frames, wrapped("How many frames"))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_flag("--first-order", options->first_order,
+                wrapped("Steps along the tangent, as in the paper, instead of exact circles"));
+  sub->add_option("--step", options->step_myr,
+                  wrapped("Length of such a step. Default: from one frame to the next"))
+      ->type_name("MYR");
+  sub->add_option("--speed", options->speed,
+                  wrapped("Speed of a flat rotation curve. Default: the galaxy's own velocities"))
+      ->type_name("KM/S");
+  sub->add_option("--core", options->core,
+                  wrapped("Radius inside of which that curve is that of a solid body. Default: 1"))
+      ->type_name("KPC");
+  sub->add_option("--rotation-curve", options->rotation_curve,
+                  wrapped("A file of two columns, kpc and km/s, instead"))
+      ->type_name("FILE");
+  sub->add_option("--part", options->part,
+                  wrapped("Make only the K-th of N shares of the frames, so that N processes share "
+                          "the work"))
+      ->type_name("K/N");
+  sub->add_option("--device", options->device, wrapped("A part of an OpenCL device's name"))
+      ->type_name("NAME");
+  sub->add_option("--set", options->settings,
+                  wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->footer(
+      "Examples:\n"
+      "  splotchcl evolve m51.hdf5 m51.toml -o turn_%04d.png --duration 150 --frames 250\n"
+      "  splotchcl evolve m51.hdf5 --snapshots m51_%03d.hdf5 --duration 100 --frames 11");
+}
+
 }  // namespace splotchcl::cli

@@ -5,7 +5,8 @@
 
 namespace splotchcl::cli {
 
-// Describes `splotchcl galaxy`.
+// Describe `splotchcl galaxy` and `splotchcl evolve`.
 void add_galaxy(CLI::App& app, Run& run, Console& console);
+void add_evolve(CLI::App& app, Run& run, Console& console);
 
 }  // namespace splotchcl::cli

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace splotchcl {
 
@@ -30,6 +31,10 @@ class LoadMemory {
 
   // The snapshot of a single component, opened once.
   std::shared_ptr<const Snapshot> companion(const std::string& path);
+  // Takes the place of the file.
+  void set_companion(const std::string& path, std::shared_ptr<const Snapshot> snapshot) {
+    (*companions_)[path] = std::move(snapshot);
+  }
   void share_companions_of(const LoadMemory& other) { companions_ = other.companions_; }
 
   void begin_load();

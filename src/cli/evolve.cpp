@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "cli/commands.h"
+#include "cli/numbered_files.h"
+#include "cli/scene_argument.h"
+#include "io/common/unfinished_file.h"
+#include "io/load/cached_snapshot.h"
+#include "io/load/load_memory.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/turning_galaxy.h"
+
+namespace splotchcl::cli {
+namespace {
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) && !error;
+}
+
+double time_of(int frame, const EvolveOptions& options) {
+  return options.frames == 1 ? options.duration_myr
+                             : options.duration_myr * frame / (options.frames - 1);
+}
+
+TurningSettings turning_settings(const EvolveOptions& options) {
+  TurningSettings settings;
+  if (options.first_order) settings.integrator = OrbitIntegrator::first_order;
+  const double interval = options.duration_myr / std::max(1, options.frames - 1);
+  settings.step_myr = options.step_myr.value_or(interval > 0 ? interval : 1);
+  if (options.rotation_curve) {
+    settings.curve = read_rotation_curve(*options.rotation_curve);
+  } else if (options.speed || options.core) {
+    settings.curve = RotationCurve::flat(options.speed.value_or(200), options.core.value_or(1));
+  }
+  return settings;
+}
+
+void check(const EvolveOptions& options) {
+  if (!options.output && !options.snapshots) {
+    throw UsageError(
+        "evolve: there is nothing to make; name pictures with --output, or --snapshots");
+  }
+  if (options.output && !options.scene) {
+    throw UsageError("evolve: --output without a SCENE; name a scene file that draws the galaxy");
+  }
+  if (options.frames < 1 || options.frames > 1000000) {
+    throw UsageError(fmt::format("--frames: found {}, expected 1 to 1000000", options.frames));
+  }
+  if (options.step_myr && !options.first_order) {
+    throw UsageError("--step: only --first-order takes steps; exact circles need none");
+  }
+  if (options.rotation_curve && (options.speed || options.core)) {
+    throw UsageError("--rotation-curve: excludes --speed and --core, which are a curve, too");
+  }
+  if (!(options.duration_myr >= 0) || options.duration_myr > 1e6) {
+    throw UsageError(
+        fmt::format("--duration: found {}, expected 0 to 1e6 Myr", options.duration_myr));
+  }
+}
+
+// A scene in which the galaxy's snapshot is another one in every frame.
+class TurningScene {
+ public:
+  TurningScene(const EvolveOptions& options, const TurningGalaxy& galaxy) : galaxy_(galaxy) {
+    SceneWithSnapshot opened = open_scene(*options.scene, options.settings);
+    scene_ = std::move(opened.scene);
+    for (const Component& component : scene_.components) {
+      if (is_same_file(component.snapshot, options.galaxy)) paths_.insert(component.snapshot);
+    }
+    is_main_ = is_same_file(opened.snapshot->info().files.front(), options.galaxy);
+    if (!is_main_ && paths_.empty()) {
+      throw UsageError(fmt::format(
+          "{}: draws {}, expected a scene whose snapshot, or that of a component, is {}",
+          options.scene->string(), opened.snapshot->info().files.front().string(),
+          options.galaxy.string()));
+    }
+    if (!is_main_) surroundings_ = std::make_shared<CachedSnapshot>(opened.snapshot);
+  }
+
+  const Scene& scene() const { return scene_; }
+  // What the first frame decides holds for all.
+  void decide(std::vector<std::string>& notes) {
+    scene_ = decide_scene(scene_, load_frame(scene_, *snapshot_at(galaxy_.at(0)), notes));
+  }
+  std::vector<Picture> draw(const std::shared_ptr<const Snapshot>& turned, Renderer& renderer,
+                            std::vector<std::string>& notes) {
+    return draw_pictures(
+        scene_, *snapshot_at(turned), [&](const Frame& frame) { return renderer.render(frame); },
+        notes);
+  }
+
+ private:
+  std::shared_ptr<const Snapshot> snapshot_at(const std::shared_ptr<const Snapshot>& turned) {
+    const std::shared_ptr<const Snapshot> main = is_main_ ? turned : surroundings_;
+    for (const std::string& path : paths_)
+      main->memory().set_companion(path, turned);
+    return main;
+  }
+
+  const TurningGalaxy& galaxy_;
+  Scene scene_;
+  bool is_main_ = false;
+  std::set<std::string> paths_;  // of the galaxy, as components name it
+  std::shared_ptr<const Snapshot> surroundings_;
+};
+
+class Evolution {
+ public:
+  Evolution(const EvolveOptions& options, Console& console) : options_(options), console_(console) {
+    if (options.output) pictures_.emplace(*options.output, "--output");
+    if (options.snapshots) snapshots_.emplace(*options.snapshots, "--snapshots");
+    if (pictures_) check_image_path(pictures_->at(0));
+    if (snapshots_) check_output_path(snapshots_->at(0));
+  }
+
+  void run() {
+    const Share share = share_of(options_.part, options_.frames);
+    console_.status("reading " + options_.galaxy.filename().string());
+    const auto start = std::make_shared<CachedSnapshot>(open_snapshot(options_.galaxy));
+    const TurningGalaxy galaxy(start, turning_settings(options_));
+    if (const auto warning = turning_warning(options_.duration_myr)) console_.note(*warning);
+    if (pictures_) begin_drawing(galaxy);
+    for (int frame = share.first; frame < share.last; ++frame) {
+      console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
+      const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame, options_));
+      if (snapshots_) {
+        write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame, options_));
+      }
+      if (scene_) draw(frame, turned);
+    }
+    console_.done(fmt::format("frames {} to {} of {}, {} Myr in all", share.first, share.last - 1,
+                              options_.frames, options_.duration_myr));
+  }
+
+ private:
+  void begin_drawing(const TurningGalaxy& galaxy) {
+    scene_.emplace(options_, galaxy);
+    const ImageSettings& image = scene_->scene().image;
+    for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
+      check_image_size(pictures_->at(0), size.width, size.height);
+    renderer_.emplace(RendererOptions{options_.device, CompositeShape::automatic});
+    std::vector<std::string> notes;
+    scene_->decide(notes);
+    tell(notes);
+  }
+
+  void draw(int frame, const std::shared_ptr<const Snapshot>& turned) {
+    std::vector<std::string> notes;
+    ImageFileOptions file;
+    file.gamma = scene_->scene().image.gamma;
+    for (const Picture& picture : scene_->draw(turned, *renderer_, notes)) {
+      write_image(picture_path(pictures_->at(frame), picture.suffix), picture.image, file);
+    }
+    tell(notes);
+  }
+
+  // Once each.
+  void tell(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+      if (told_.insert(note).second) console_.note(note);
+    }
+  }
+
+  const EvolveOptions& options_;
+  Console& console_;
+  std::optional<NumberedFiles> pictures_, snapshots_;
+  std::optional<TurningScene> scene_;
+  std::optional<Renderer> renderer_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+int run_evolve(const EvolveOptions& options, Console& console) {
+  check(options);
+  Evolution(options, console).run();
+  return 0;
+}
+
+}  // namespace splotchcl::cli
