@@ -103,6 +103,29 @@ inline void sample_knots(__global const float* knots, uint first, uint count, fl
   for (int c = 0; c < 3; ++c) color[c] = a[c] + fraction * (b[c] - a[c]);
 }
 
+#ifndef LIGHT_ORDERED
+// E w, or A w in the proportional plan, at the cloud's centre (scene.h, Absorption). A
+// component that only emits has no place in the proportional plan, and a gray one in neither.
+inline void sum_amplitude(const Splat splat, const ComponentColors colors,
+                          __global const float* knots, float* light) {
+#ifdef LIGHT_EMISSION
+  const int own = 0;
+  const float scale = splat.weight * colors.brightness;
+#else
+  const int own = colors.absorption_knot_count > 0;
+  const float scale = splat.weight * (colors.absorption_kind == ABSORPTION_FACTOR
+                                          ? colors.absorption_factor
+                                          : colors.brightness);
+#endif
+  sample_knots(knots, own ? colors.first_absorption_knot : colors.first_knot,
+               own ? colors.absorption_knot_count : colors.knot_count, splat.color, light);
+  for (int c = 0; c < 3; ++c) light[c] *= scale;
+#ifdef VECTOR_COLORS
+  // An absorption palette of its own is not the particles' colour.
+  for (int c = 0; c < 3 && !own; ++c) light[c] *= splat.vector[c];
+#endif
+}
+#else
 // E w and A w at the cloud's centre (scene.h, Absorption).
 inline void amplitudes(const Splat splat, const ComponentColors colors,
                        __global const float* knots, const BinParameters p, float* emission,
@@ -133,6 +156,7 @@ inline void amplitudes(const Splat splat, const ComponentColors colors,
     }
   }
 }
+#endif
 
 __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const Splat* splats, __global const uint* order,
@@ -157,22 +181,15 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     TileSplat entry;
     entry.slot = place;
 #else
-    float emission[3], absorption[3];
-    amplitudes(splat, component_colors[splat.component_and_grid & 0xffffu], knots, p, emission,
-               absorption);
     TileSplat entry;
     entry.sigma = splat.sigma;
     entry.radius = splat.radius;
-    for (int c = 0; c < 3; ++c) {
+    const ComponentColors colors = component_colors[splat.component_and_grid & 0xffffu];
 #ifdef LIGHT_ORDERED
-      entry.light[c] = absorption[c];
-      entry.emission[c] = emission[c];
-#elif defined(LIGHT_EMISSION)
-      entry.light[c] = emission[c];
+    amplitudes(splat, colors, knots, p, entry.emission, entry.light);
 #else
-      entry.light[c] = absorption[c];
+    sum_amplitude(splat, colors, knots, entry.light);
 #endif
-    }
 #endif
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
