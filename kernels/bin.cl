@@ -22,10 +22,12 @@ inline uint slots_end(const BinParameters p, __global const uint* visible, uint 
 #endif
 }
 
-// counts[block * tile_count + tile]
+// counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
+// fetched once, here, and kept in order for the scatter.
 __kernel void bin_count(const BinParameters p, __global const Grid* grids,
                         __global const Splat* splats, __global const uint* order,
-                        __global const uint* visible, __global uint* counts) {
+                        __global const uint* visible, __global uint* counts,
+                        __global Splat* in_order) {
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t) count[t] = 0;
@@ -33,6 +35,7 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef LIGHT_ORDERED
     const Splat splat = splats[order[slot]];
+    in_order[slot - p.first] = splat;
 #else
     const Splat splat = splats[slot];
 #endif
@@ -161,7 +164,7 @@ inline void amplitudes(const Splat splat, const ComponentColors colors,
 __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const Splat* splats, __global const uint* order,
                           __global const uint* visible, __global uint* counts,
-                          __global const uint* starts,
+                          __global const Splat* in_order, __global const uint* starts,
                           __global const ComponentColors* component_colors,
                           __global const float* knots, __global TileSplat* entries) {
   const uint block = get_global_id(0);
@@ -169,17 +172,20 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
   const uint end = slots_end(p, visible, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef LIGHT_ORDERED
-    const uint place = order[slot];
+    const Splat splat = in_order[slot - p.first];
 #else
-    const uint place = slot;
+    const Splat splat = splats[slot];
 #endif
-    const Splat splat = splats[place];
     const Grid grid = grids[splat.component_and_grid >> 16];
     const int4 range = tile_range(splat, grid);
     if (range.x > range.y) continue;
 #ifdef EXACT_NUMBERS
     TileSplat entry;
-    entry.slot = place;
+#ifdef LIGHT_ORDERED
+    entry.slot = order[slot];
+#else
+    entry.slot = slot;
+#endif
 #else
     TileSplat entry;
     entry.sigma = splat.sigma;

@@ -42,8 +42,8 @@ Binner::Binner(DeviceContext& device, const FrameLayout& layout, const Frame& fr
   entry_capacity_ = std::max<std::uint64_t>(most_entries, layout.tile_count);
   segment_capacity_ = static_cast<std::uint32_t>(
       layout.tile_count + entry_capacity_ / device.traits.segment_length + 1);
-  const bool ordered = plan.light == LightPlan::ordered;
-  entry_bytes_ = layout.exact_numbers ? 4 : ordered ? 40 : 28;
+  ordered_ = plan.light == LightPlan::ordered;
+  entry_bytes_ = layout.exact_numbers ? 4 : ordered_ ? 40 : 28;
 
   parameters_.tile_count = layout.tile_count;
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
@@ -52,7 +52,7 @@ Binner::Binner(DeviceContext& device, const FrameLayout& layout, const Frame& fr
   parameters_.widening = layout.widening;
 
   std::string defines = kernel_defines(frame, plan, layout);
-  if (!ordered) defines += "#define BLOCKS_OF_PROJECTION\n";
+  if (!ordered_) defines += "#define BLOCKS_OF_PROJECTION\n";
   program_ = device.programs.get(defines, {"common.cl", "bin.cl"});
   upload_colors(frame);
 }
@@ -108,6 +108,9 @@ bool Binner::bin(const kernel::BinParameters& parameters, const compute::buffer&
       buffers.get("tile counts", 4ull * parameters.block_count * parameters.tile_count);
   const compute::buffer lengths = buffers.get("tile lengths", 4ull * parameters.tile_count);
   const compute::buffer starts = buffers.get("tile starts", 4ull * parameters.tile_count);
+  const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
+  const compute::buffer in_order =
+      buffers.get("splats in order", ordered_ ? slots * splat_bytes(layout_) : 0);
   lists.segments = buffers.get("segments", segment_capacity_ * sizeof(kernel::Segment));
   lists.totals = buffers.get("totals", sizeof(kernel::BinTotals));
 
@@ -118,6 +121,7 @@ bool Binner::bin(const kernel::BinParameters& parameters, const compute::buffer&
       .arg(order)
       .arg(visible)
       .arg(counts)
+      .arg(in_order)
       .run_items(parameters.block_count);
   Launch(device_, "bin", program_.create_kernel("bin_scan_blocks"))
       .value(parameters)
@@ -151,6 +155,7 @@ bool Binner::bin(const kernel::BinParameters& parameters, const compute::buffer&
       .arg(order)
       .arg(visible)
       .arg(counts)
+      .arg(in_order)
       .arg(starts)
       .arg(component_colors_)
       .arg(knots_)

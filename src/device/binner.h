@@ -44,6 +44,7 @@ class Binner {
   std::uint64_t entry_capacity_ = 0;
   std::uint32_t segment_capacity_ = 0;
   std::uint32_t entry_bytes_ = 0;
+  bool ordered_ = false;
 };
 
 }  // namespace splotchcl
