@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include "io/snapshot/snapshot_format.h"
 #include "splotchcl/error.h"
@@ -20,17 +21,31 @@
 namespace splotchcl::fuzz {
 
 // A file of its own for this process, in memory where the system has such a place.
-inline const std::filesystem::path& scratch_file() {
-  static const std::filesystem::path path = [] {
+class ScratchFile {
+ public:
+  ScratchFile() {
     const std::filesystem::path memory = "/dev/shm";
     const std::filesystem::path folder =
         (std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path()) /
         ("splotchcl-fuzz-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
-    std::atexit([] { std::filesystem::remove_all(scratch_file().parent_path()); });
-    return folder / "input";
-  }();
-  return path;
+    path_ = folder / "input";
+  }
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_.parent_path(), ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const std::filesystem::path& scratch_file() {
+  static const ScratchFile file;
+  return file.path();
 }
 
 inline void write_scratch(const std::uint8_t* data, std::size_t size) {
