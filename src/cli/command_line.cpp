@@ -138,6 +138,27 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
       "  splotchcl movie flight.toml -o frame_%04d.exr --frames 0:100 --part 3/8");
 }
 
+void add_path(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App* const sub =
+      add_command<PathOptions>(app, run, "path", "Plot the set-up of a film", options,
+                               [&console](const PathOptions& o) { return run_path(o, console); });
+  sub->add_option("SCENE", options->scene, wrapped("A scene file (.toml) with a [path]"))
+      ->required();
+  sub->add_option("-o,--output", options->output, wrapped("The picture of it"))
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--set", options->settings,
+                  wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->footer(
+      "Shows, from two sides, the particles and their densest places, the camera's way with what\n"
+      "it looks at, its sky and its view at some frames, and the second eye of a pair.\n"
+      "Example:\n"
+      "  splotchcl path flight.toml -o path.png");
+}
+
 void add_info(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* const sub =
@@ -298,6 +319,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_render(app, run, console);
   add_convert(app, run, console);
   add_movie(app, run, console);
+  add_path(app, run, console);
   add_info(app, run, console);
   add_compare(app, run, console);
   add_devices(app, run);

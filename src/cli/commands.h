@@ -49,6 +49,13 @@ struct MovieOptions {
 };
 int run_movie(const MovieOptions& options, Console& console);
 
+struct PathOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::vector<std::string> settings;  // key=value
+};
+int run_path(const PathOptions& options, Console& console);
+
 struct InfoOptions {
   std::filesystem::path snapshot;
   std::vector<std::string> columns;  // of a table

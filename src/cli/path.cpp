@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "cli/commands.h"
+#include "cli/film_scene.h"
+#include "io/path_plot/path_plot.h"
+#include "scene/statistics.h"
+#include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
+
+namespace splotchcl::cli {
+namespace {
+
+constexpr std::size_t particle_limit = 1000000;  // plotted, of all components together
+constexpr double pi = 3.14159265358979323846;
+
+std::vector<Vec3> sample_particles(const Frame& frame) {
+  std::size_t total = 0;
+  for (const DrawnComponent& component : frame.components)
+    total += component.particles.count;
+  const std::size_t stride = sample_stride(total, particle_limit);
+  std::vector<Vec3> sample;
+  for (const DrawnComponent& component : frame.components) {
+    const Particles& particles = component.particles;
+    for (std::size_t i = 0; i < particles.count; i += stride) {
+      Vec3 at = particles.origin;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        at.a[axis] += static_cast<double>(particles.position[3 * i + axis]);
+      if (std::isfinite(boost::qvm::mag(at))) sample.push_back(at);
+    }
+  }
+  return sample;
+}
+
+// The eyes of a frame: one, or two where the scene has a pair.
+void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
+  const std::vector<FrameView> views = views_of(scene, frame);
+  const CameraFrame& first = views.front().frame.camera;
+  plot.cameras.push_back(first);
+  plot.look_at.push_back(scene.camera->look_at);
+  plot.sky.push_back(scene.camera->sky);
+  plot.half_angles.push_back(0.5 * scene.camera->field_of_view_degrees * pi / 180);
+  for (const FrameView& view : views) {
+    if (boost::qvm::mag(view.frame.camera.position - first.position) > 0) {
+      plot.second_eyes.push_back(view.frame.camera.position);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+int run_path(const PathOptions& options, Console& console) {
+  check_image_path(options.output);
+  FilmScene film(options.scene, options.settings);
+  console.status("reading");
+  film.decide();
+  for (const std::string& note : film.notes())
+    console.note(note);
+
+  const Scene start = film.scene_at(0);
+  const std::shared_ptr<const Snapshot> snapshot = film.snapshot_at(start);
+  std::vector<std::string> told;
+  Frame frame = load_frame(start, *snapshot, told);
+  PathPlot plot;
+  plot.particles = sample_particles(frame);
+  plot.box_size = snapshot->info().box_size;
+  frame.components.clear();
+  for (int i = 0; i < film.path().frame_count(); ++i) {
+    const Scene scene = film.scene_at(i);
+    frame.camera = make_camera_frame(*scene.camera, frame.width, frame.height);
+    add_cameras(scene, frame, plot);
+  }
+  // A pair of eyes in some frames only cannot be told apart by their number.
+  if (plot.second_eyes.size() != plot.cameras.size()) plot.second_eyes.clear();
+  console.status("drawing");
+  write_image(options.output, draw_path_plot(plot));
+  console.done(
+      fmt::format("{}: the path of {} frames", options.output.string(), film.path().frame_count()));
+  return 0;
+}
+
+}  // namespace splotchcl::cli
