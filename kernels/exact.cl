@@ -89,7 +89,7 @@ inline int is_negative(Exact a) { return high_part(a) < 0.0f; }
 inline Exact exact_magnitude(Exact a) { return is_negative(a) ? exact_negative(a) : a; }
 
 // 2^n for -126 <= n <= 127.
-inline float power_of_two(int n) { return as_float((n + 127) << 23); }
+inline float exact_power_of_two(int n) { return as_float((n + 127) << 23); }
 
 // exp(t) for t <= 80, relative error 3e-9; 0 below -86, where single precision ends.
 inline Exact exact_exp(Exact t) {
@@ -108,7 +108,7 @@ inline Exact exact_exp(Exact t) {
   tail = tail * f * f * f;
   const Exact square = exact_scaled(exact_product(r, r), 0.5f);
   const Exact sum = exact_sum(exact_of(1.0f), exact_sum(r, exact_sum(square, exact_of(tail))));
-  return exact_scaled(sum, power_of_two((int)n));
+  return exact_scaled(sum, exact_power_of_two((int)n));
 }
 
 // erfc(x) for x >= 0, relative error 5e-9; 0 from 9.2 on, where exp(-x^2) ends above. As

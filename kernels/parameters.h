@@ -56,7 +56,7 @@ struct ProjectParameters {
   float peak_own;      // does not follow the particles' own colour vectors
 
   float least_extent;    // sigmas drawn of a faint splat
-  float restored_light;  // factor on the weight of such a splat
+  float restored_light;  // part of its weight that such a splat gets back
   float inverse_edge;    // 1 / (value at which a splat may end)
   float coarse_sigma;    // smallest sigma in pixels of a coarse grid
   float coarse_peak;     // brighter splats stay on the picture's own grid

@@ -27,7 +27,10 @@ struct Plan {
   // add up to it.
   double truncation_share = 0;  // of a splat's light left out by ending its disc
   double coarse_share = 0;      // coarse grids (sums only)
-  double arithmetic_share = 0;  // exp, phi, single precision, early stop
+  double arithmetic_share = 0;  // of which:
+  double pixel_mean_share = 0;  // centre values in place of means over pixels
+  double phi_share = 0;         // exp and (1 - exp(-y)) / y
+  double stop_share = 0;        // what an early stop leaves out (ordered only)
 };
 
 Plan make_plan(const Frame& frame);

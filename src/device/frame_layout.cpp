@@ -187,6 +187,11 @@ void plan_coarse_grids(const Frame& frame, double error, FrameLayout& layout) {
   layout.coarse_sigma = static_cast<float>(smallest_sigma);
 }
 
+// Projections that project_exact.cl knows; others take the kernels of single precision.
+bool has_exact_projection(Projection projection) {
+  return projection == Projection::perspective || projection == Projection::orthographic;
+}
+
 }  // namespace
 
 std::size_t splat_bytes(const FrameLayout& layout) {
@@ -203,33 +208,32 @@ double blur_of_grid(const FrameLayout& layout, std::uint32_t grid) {
 
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
-  layout.exact_numbers = plan.exact;
+  layout.exact_numbers = plan.exact && has_exact_projection(frame.projection);
   layout.tile_width = 16;
   layout.tile_height = 16;
-  if (rows && !plan.exact) {
+  if (rows && !layout.exact_numbers) {
     layout.tile_width = plan.light == LightPlan::ordered ? 32 : 64;
     layout.tile_height = 32;
   }
   layout.planes = plan.light == LightPlan::ordered ? 6 : 3;
   // A high and a low part of each.
-  if (plan.exact) layout.planes *= 2;
+  if (layout.exact_numbers) layout.planes *= 2;
   layout.vector_colors =
       std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
   const double background = brightest_background(frame);
   const double picture_error = response(frame, background);
-  const double arithmetic = plan.arithmetic_share;
   const double truncation = plan.truncation_share;
   layout.exact = frame.tolerance < 3e-4;
   // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
   layout.builtin_erf = frame.tolerance < 3e-5;
   const double loss = truncation / (uneven_light * picture_error);
   layout.least_extent = static_cast<float>(extent_of_loss(loss));
-  layout.restored_light = static_cast<float>(1 + 0.5 * loss);
+  layout.restored_light = static_cast<float>(0.5 * loss);
   // Two dozen edges may cross in one pixel: so many clouds of peak 0.1 overlapped in tests.
   layout.inverse_edge = static_cast<float>(24 / truncation);
   if (frame.kernel.sampling == Sampling::mean) {
     // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
-    const double sigma = std::pow(7.7e-3 * picture_error / (0.75 * arithmetic), 0.25);
+    const double sigma = std::pow(7.7e-3 * picture_error / plan.pixel_mean_share, 0.25);
     layout.mean_sigma = static_cast<float>(std::clamp(sigma, 1.5, 64.0));
     layout.widening = 1.0f / 6.0f;
   }
@@ -241,9 +245,9 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
     append_coarse_grids(layout, frame.crop);
   }
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
-  layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * 0.25 * arithmetic)));
-  layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * 0.25 * arithmetic, 0.25)));
-  layout.opaque = opaque_limit(frame, background, plan.exact ? 0 : 0.25 * plan.arithmetic_share);
+  layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * plan.phi_share)));
+  layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * plan.phi_share, 0.25)));
+  layout.opaque = opaque_limit(frame, background, plan.stop_share);
   return layout;
 }
 

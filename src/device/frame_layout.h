@@ -35,7 +35,7 @@ struct FrameLayout {
   float coarse_peak = 0;                // brighter splats stay on grid 0
   float coarse_sigma = 0;               // smallest sigma in pixels of a coarse grid
   float least_extent = 0;               // sigmas drawn of a faint splat
-  float restored_light = 1;             // factor on the weight of a faint splat
+  float restored_light = 0;             // part of a faint splat's weight that it gets back
   float inverse_edge = 0;               // 1 / (value at which a splat may end)
   float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;

@@ -173,7 +173,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.peak_own = static_cast<float>(peak_own_absorption(component));
   p.least_extent = layout_.least_extent;
   // A cut is part of the model: nothing is left out.
-  p.restored_light = frame_.kernel.cut ? 1.0f : layout_.restored_light;
+  p.restored_light = frame_.kernel.cut ? 0.0f : layout_.restored_light;
   p.inverse_edge = layout_.inverse_edge;
   p.coarse_sigma = layout_.coarse_sigma;
   p.coarse_peak = layout_.coarse_peak;

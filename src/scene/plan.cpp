@@ -40,22 +40,33 @@ void choose_light(const Frame& frame, Plan& plan) {
   }
 }
 
+// The one place that spends the tolerance.
+void share_out(double tolerance, Plan& plan) {
+  plan.exact = tolerance == 0;
+  if (plan.exact) {
+    // Farther discs cost little; single precision's last digits cannot be had back.
+    plan.truncation_share = 0.01 * most_exact_tolerance;
+    plan.arithmetic_share = most_exact_tolerance - plan.truncation_share;
+    plan.pixel_mean_share = 0.5 * plan.arithmetic_share;
+    plan.phi_share = plan.arithmetic_share - plan.pixel_mean_share;
+    return;
+  }
+  const bool ordered = plan.light == LightPlan::ordered;
+  plan.truncation_share = 0.5 * tolerance;
+  plan.coarse_share = ordered ? 0 : 0.25 * tolerance;
+  plan.arithmetic_share = tolerance - plan.truncation_share - plan.coarse_share;
+  plan.stop_share = ordered ? 0.2 * plan.arithmetic_share : 0;
+  plan.phi_share = (ordered ? 0.2 : 0.25) * plan.arithmetic_share;
+  plan.pixel_mean_share = plan.arithmetic_share - plan.phi_share - plan.stop_share;
+}
+
 }  // namespace
 
 Plan make_plan(const Frame& frame) {
   Plan plan;
   choose_light(frame, plan);
   plan.needs_sort = plan.light == LightPlan::ordered;
-  plan.exact = frame.tolerance == 0;
-  const double tolerance = plan.exact ? most_exact_tolerance : frame.tolerance;
-  if (plan.exact) {
-    // Farther discs cost little; single precision's last digits cannot be had back.
-    plan.truncation_share = 0.01 * tolerance;
-  } else {
-    plan.truncation_share = 0.5 * tolerance;
-    plan.coarse_share = plan.needs_sort ? 0 : 0.25 * tolerance;
-  }
-  plan.arithmetic_share = tolerance - plan.truncation_share - plan.coarse_share;
+  share_out(frame.tolerance, plan);
   return plan;
 }
 
@@ -70,6 +81,25 @@ const char* name(LightPlan light) {
   }
   return "";
 }
+
+namespace {
+
+void explain_shares(const Plan& plan, double tolerance, std::ostream& out) {
+  out << "tolerance: " << tolerance << " of white per pixel and channel";
+  if (plan.exact) {
+    out << ": the most exact mode, which promises " << most_exact_tolerance << "\n"
+        << "  numbers of 45 bits, no coarse grids, no early stop\n"
+        << "  ends of the splats " << plan.truncation_share << ", single precision of the light "
+        << plan.arithmetic_share << "\n";
+    return;
+  }
+  out << "\n  ends of the splats " << plan.truncation_share << ", coarse grids "
+      << plan.coarse_share << ", arithmetic " << plan.arithmetic_share << ":\n"
+      << "    centre values for pixel means " << plan.pixel_mean_share << ", exp and phi "
+      << plan.phi_share << ", early stop " << plan.stop_share << "\n";
+}
+
+}  // namespace
 
 std::string explain(const Plan& plan, const Frame& frame) {
   std::ostringstream out;
@@ -88,9 +118,7 @@ std::string explain(const Plan& plan, const Frame& frame) {
           << ", nearer layers over farther ones\n";
       break;
   }
-  out << "tolerance: " << frame.tolerance << " of white per pixel and channel\n"
-      << "  ends of the splats " << plan.truncation_share << ", coarse grids " << plan.coarse_share
-      << ", arithmetic and early stop " << plan.arithmetic_share << "\n";
+  explain_shares(plan, frame.tolerance, out);
   return out.str();
 }
 

@@ -178,11 +178,10 @@ class SceneMaker {
 // docs/accuracy.md: a pixel whose centre lies on the edge of a cut disc, as far as the disc's
 // place is known, may be in or out. How much light of such discs each pixel has, in its
 // brightest colour. Places are known to 2e-4 pixels in these pictures of up to 70.
-std::vector<double> light_on_edges(const Frame& frame) {
+std::vector<double> light_on_edges(const Frame& frame, double known_to = 2e-4) {
   std::vector<double> light(static_cast<std::size_t>(frame.crop.width) *
                             static_cast<std::size_t>(frame.crop.height));
   if (!frame.kernel.cut) return light;
-  constexpr double known_to = 2e-4;
   for (const reference::Splat& splat : reference::project(frame)) {
     const double radius = *frame.kernel.cut * splat.sigma;
     std::size_t i = 0;
@@ -208,6 +207,20 @@ std::string describe(const Frame& frame) {
   return out.str();
 }
 
+// As largest_error(), where each pixel's error may be larger by `ambiguous` light.
+double largest_error_beyond(const Image& image, const ExactImage& exact,
+                            const std::vector<double>& ambiguous) {
+  double worst = 0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const double error = std::abs(static_cast<double>(image.pixels[i]) - exact.pixels[i]);
+    const double beyond = error - ambiguous[i / 4];
+    worst = std::max(
+        worst, std::isfinite(beyond) ? beyond / std::max(1.0, std::abs(exact.pixels[i])) : 1e300);
+  }
+  return worst;
+}
+
 class RandomScenes : public PictureTest {};
 
 TEST_F(RandomScenes, KeepTheirTolerance) {
@@ -215,21 +228,28 @@ TEST_F(RandomScenes, KeepTheirTolerance) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const Frame frame = SceneMaker(seed).make();
     const ExactImage exact = reference::render(frame);
-    const std::vector<double> ambiguous = light_on_edges(frame);
-    const Image image = draw(frame);
     lit += largest_value(exact) > 0.05;
-    double worst = 0;
-    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
-      if (i % 4 == 3) continue;
-      const double error = std::abs(static_cast<double>(image.pixels[i]) - exact.pixels[i]);
-      const double beyond = error - ambiguous[i / 4];
-      worst = std::max(
-          worst, std::isfinite(beyond) ? beyond / std::max(1.0, std::abs(exact.pixels[i])) : 1e300);
-    }
+    const double worst = largest_error_beyond(draw(frame), exact, light_on_edges(frame));
     EXPECT_LE(worst, frame.tolerance) << "seed " << seed << ": " << describe(frame);
     EXPECT_EQ(renderer().stats().bad_particles, reference::count_bad(frame)) << "seed " << seed;
   }
   EXPECT_GT(lit, 100) << "most scenes should have something to see";
+}
+
+// At tolerance 0 with numbers that are doubles and pairs of floats in turn; places are known
+// to 2^-40 of coordinates, which are some ten lengths or hundreds of pixels.
+TEST_F(RandomScenes, KeepThePromiseOfToleranceZero) {
+  Renderer pairs({"", CompositeShape::automatic, false});
+  for (std::uint64_t seed = 1001; seed <= 1080; ++seed) {
+    Frame frame = SceneMaker(seed).make();
+    frame.tolerance = 0;
+    const ExactImage exact = reference::render(frame);
+    const Image image = seed % 2 == 0 ? pairs.render(frame) : draw(frame);
+    EXPECT_LE(largest_error_beyond(image, exact, light_on_edges(frame, 1e-8)), most_exact_tolerance)
+        << "seed " << seed << ": " << describe(frame);
+    const RenderStats& stats = seed % 2 == 0 ? pairs.stats() : renderer().stats();
+    EXPECT_EQ(stats.bad_particles, reference::count_bad(frame)) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -101,6 +101,15 @@ Frame cut_kernel(double cut, LightPlan plan) {
   return frame;
 }
 
+// One cloud alone, wide enough for a coarse grid, whose cut edge is a step of exp(-cut^2) of
+// its peak.
+Frame lone_cut_edge(double sigma, LightPlan plan) {
+  Frame frame =
+      lit(frame_of(128, 96, {component_of({{0.3, -1.2, 1, sigma, 2}}, two_colors())}), plan);
+  frame.kernel.cut = 2.66;
+  return frame;
+}
+
 Frame smallest_radius(LightPlan plan) {
   Frame frame = widths(1e-3, 5, 500, 0.5, plan);
   frame.kernel.min_radius_pixels = 0.7;
@@ -141,6 +150,10 @@ std::vector<HardCase> size_cases() {
        [](LightPlan plan) { return discs_at_tile_edges(Sampling::mean, 2, 4, plan); }},
       {"CutKernelOfPixelMeans", "a low cut leaves a bright edge, which belongs to the model",
        [](LightPlan plan) { return cut_kernel(1.1, plan); }},
+      {"LoneCutEdge", "no other edge hides what a coarse grid makes of this one",
+       [](LightPlan plan) { return lone_cut_edge(13, plan); }},
+      {"LoneWideCutEdge", "the same where a still coarser grid would do for the cloud itself",
+       [](LightPlan plan) { return lone_cut_edge(31, plan); }},
       {"CutGrainsOnPixelEdges", "a cut grain has one pixel, also on the edge between two",
        cut_grains_on_edges},
       {"StarsOf100TimesWhite", "errors relative to a star's peak show in its dark surroundings",

@@ -102,6 +102,8 @@ TEST(Plan, SharesOutTheWholeTolerance) {
       const double promise = tolerance > 0 ? tolerance : most_exact_tolerance;
       EXPECT_NEAR(plan.truncation_share + plan.coarse_share + plan.arithmetic_share, promise,
                   1e-15 * promise);
+      EXPECT_NEAR(plan.pixel_mean_share + plan.phi_share + plan.stop_share, plan.arithmetic_share,
+                  1e-15 * promise);
     }
   }
 }
