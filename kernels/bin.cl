@@ -5,7 +5,7 @@
 // Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
 // empty x range where there is none.
 inline int4 tile_range(const Splat splat, const Grid grid) {
-  const int2 columns = pixel_range(splat.x, splat.radius, grid.width);
+  const int2 columns = pixel_range(splat.x, RADIUS_X(splat), grid.width);
   const int2 rows = pixel_range(splat.y, splat.radius, grid.height);
   if (columns.x > columns.y || rows.x > rows.y) return (int4)(0, -1, 0, -1);
   return (int4)(columns.x / TILE_WIDTH, columns.y / TILE_WIDTH, rows.x / TILE_HEIGHT,
@@ -152,7 +152,12 @@ inline void amplitudes(const Splat splat, const ComponentColors colors,
     if (colors.absorption_kind == ABSORPTION_GRAY) {
       // The source depends on the cloud's own amplitude, before it was widened.
       const float widened2 = splat.sigma * splat.sigma;
-      const float restored = splat.sigma < p.mean_sigma ? 1.0f : widened2 / (widened2 - p.widening);
+      float restored = splat.sigma < p.mean_sigma ? 1.0f : widened2 / (widened2 - p.widening);
+#ifdef ELLIPSES
+      const float across2 = splat.sigma_x * splat.sigma_x;
+      restored *= splat.sigma_x < p.mean_sigma ? 1.0f : across2 / (across2 - p.widening);
+      restored = sqrt(restored);
+#endif
       const float own = emission[c] * restored;
       absorption[c] = emission[c];
       emission[c] *= own > 0.0f ? own / (own + colors.absorption_factor) : 0.0f;
@@ -190,6 +195,10 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     TileSplat entry;
     entry.sigma = splat.sigma;
     entry.radius = splat.radius;
+#ifdef ELLIPSES
+    entry.sigma_x = splat.sigma_x;
+    entry.radius_x = splat.radius_x;
+#endif
     const ComponentColors colors = component_colors[splat.component_and_grid & 0xffffu];
 #ifdef LIGHT_ORDERED
     amplitudes(splat, colors, knots, p, entry.emission, entry.light);

@@ -26,11 +26,22 @@ typedef struct TileSplat {
 typedef struct TileSplat {
   float x, y;
   float sigma, radius;
+#ifdef ELLIPSES
+  float sigma_x, radius_x;  // along x, where the others are along y
+#endif
   float light[3];
 #ifdef LIGHT_ORDERED
   float emission[3];
 #endif
 } TileSplat;
+#endif
+
+#ifdef ELLIPSES
+#define SIGMA_X(splat) ((splat).sigma_x)
+#define RADIUS_X(splat) ((splat).radius_x)
+#else
+#define SIGMA_X(splat) ((splat).sigma)
+#define RADIUS_X(splat) ((splat).radius)
 #endif
 
 inline size_t first_float(const Grid grid) {

@@ -18,18 +18,28 @@ inline float axis_shape(float d, float sigma, float inverse, float mean_sigma) {
 
 // X / w of one pixel; zero outside what the rows would draw.
 inline float pixel_shape(float dx, float dy, const TileSplat splat, float mean_sigma) {
-  if (fabs(dx) > splat.radius || fabs(dy) > splat.radius) return 0.0f;
+  if (fabs(dx) > RADIUS_X(splat) || fabs(dy) > splat.radius) return 0.0f;
   const float sigma = splat.sigma;
   const float inverse = 1.44269504f / (sigma * sigma);
 #ifdef KERNEL_CUT
   const float cut = cut_radius(splat.radius);
-  int inside = dx * dx + dy * dy <= cut * cut;
+#ifdef ELLIPSES
+  const float round_dx = dx * (cut / cut_radius(splat.radius_x));
+#else
+  const float round_dx = dx;
+#endif
+  int inside = round_dx * round_dx + dy * dy <= cut * cut;
 #ifdef SAMPLING_MEAN
   inside |= dx > -0.5f && dx <= 0.5f && dy > -0.5f && dy <= 0.5f;
 #endif
   if (!inside) return 0.0f;
 #endif
-  return axis_shape(dx, sigma, inverse, mean_sigma) *
+#ifdef ELLIPSES
+  const float sigma_x = splat.sigma_x, inverse_x = 1.44269504f / (sigma_x * sigma_x);
+#else
+  const float sigma_x = sigma, inverse_x = inverse;
+#endif
+  return axis_shape(dx, sigma_x, inverse_x, mean_sigma) *
          axis_shape(dy, sigma, inverse, mean_sigma);
 }
 

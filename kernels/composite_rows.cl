@@ -46,8 +46,12 @@ inline void store_partial(const float* tile, __global float* partial) {
 
 #ifdef KERNEL_CUT
 // `shape` of eight pixels of a row, zero outside the cut.
-inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
+inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squeeze) {
+#ifdef ELLIPSES
+  int8 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
+#else
   int8 outside = dx * dx + dy * dy > cut2;
+#endif
 #ifdef SAMPLING_MEAN
   // The pixel that holds the centre keeps its light.
   outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
@@ -55,7 +59,7 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
   return select(shape, (float8)(0.0f), outside);
 }
 #else
-#define cut_shape(shape, dx, dy, cut2) (shape)
+#define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
 #endif
 
 #ifdef LIGHT_ORDERED
@@ -64,7 +68,7 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2) {
 // optical depths of 1e-8.
 #define LAYER_ROWS(PHI)                                                             \
   for (int k = 0; k < window.rows; ++k, pixel += ROW) {                             \
-    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2);     \
+    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
     for (int c = 0; c < 3; ++c) {                                                   \
       float* source = pixel + c * TILE_PIXELS;                                      \
       float* opacity = pixel + (c + 3) * TILE_PIXELS;                               \
@@ -114,6 +118,7 @@ inline void update_window(float* tile, Window window, float8 across, const float
   const float8 dx = (float)window.x + 0.5f - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float dy = (float)window.y + 0.5f - splat->y;
   const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
+  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif
   float* pixel = tile + window.y * ROW + window.x;
 #ifdef LIGHT_ORDERED
@@ -129,7 +134,7 @@ inline void update_window(float* tile, Window window, float8 across, const float
   const float8 light1 = across * splat->light[1];
   const float8 light2 = across * splat->light[2];
   for (int k = 0; k < window.rows; ++k, pixel += ROW) {
-    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2);
+    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
     vstore8(vload8(0, pixel) + shape * light0, 0, pixel);
     vstore8(vload8(0, pixel + TILE_PIXELS) + shape * light1, 0, pixel + TILE_PIXELS);
     vstore8(vload8(0, pixel + 2 * TILE_PIXELS) + shape * light2, 0, pixel + 2 * TILE_PIXELS);
@@ -146,16 +151,17 @@ inline float8 seven_means(float first, float sigma) {
 inline void add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
                       const CompositeParameters p) {
   const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
-  const int2 columns = pixel_range(splat->x, splat->radius, TILE_WIDTH);
+  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return;
-  const float sigma = splat->sigma;
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   float deepest = 0.0f;
 #ifdef LIGHT_ORDERED
   deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
-            (sigma < mean_sigma ? min(1.0f, 3.15f * sigma * sigma) : 1.0f);
+            (sigma < mean_sigma ? min(1.0f, 3.15f * sigma * sigma_x) : 1.0f);
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+#ifndef ELLIPSES
   if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
     // A grain: the edges of its pixels along both axes fit one call.
     window.rows = 3;
@@ -171,7 +177,13 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest, p);
     return;
   }
+#endif
   const float inverse = 1.44269504f / (sigma * sigma);
+#ifdef ELLIPSES
+  const float inverse_x = 1.44269504f / (sigma_x * sigma_x);
+#else
+  const float inverse_x = inverse;
+#endif
   if (columns_count <= 7 && rows_count <= 7) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
     // Rows beside the splat take its tails, which is no less exact.
@@ -188,11 +200,15 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
       across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse);
       vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse), 0, along);
     }
+#ifdef ELLIPSES
+    across = sigma_x < mean_sigma ? seven_means(dx, sigma_x)
+                                    : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
+#endif
     update_window(tile, window, across, along, splat, deepest, p);
     return;
   }
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
-  fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma, inverse,
+  fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma_x, inverse_x,
             mean_sigma);
   fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, mean_sigma);
   window.y = rows.x;
@@ -202,7 +218,12 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
 #ifdef KERNEL_CUT
     // The disc's part of these columns.
     const float nearest = clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
+#ifdef ELLIPSES
+    const float part_of_radius = nearest / splat->radius_x;
+    const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+#else
     const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+#endif
     const int2 part = pixel_range(splat->y, half_height, TILE_HEIGHT);
     window.y = part.x;
     window.rows = part.y - part.x + 1;

@@ -37,6 +37,9 @@ struct ProjectParameters {
   float pixels_per_length;   // perspective: at z = 1
   float centre_x, centre_y;  // of the whole picture, relative to the crop's corner
   int perspective;
+  float period;        // pixels after which an equirectangular picture repeats itself
+  float eye_offset;    // of an eye beside the camera, in wide angles
+  float turn_axis[3];  // of its head: right, down, forward
 
   float near_limit;   // z below is left out
   float near_factor;  // z below near_factor * h is left out
@@ -88,6 +91,9 @@ struct Splat {
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
   unsigned int component_and_grid;  // component | grid << 16
+#ifdef ELLIPSES
+  float sigma_x, radius_x;  // along x, where the others are along y
+#endif
 #ifdef VECTOR_COLORS
   float vector[3];  // the particle's own colour
 #endif
@@ -193,6 +199,9 @@ struct ResolveParameters {
   float source[3];
   float background[3];
   int background_stride;  // pixels in a row of the background's picture; 0: there is none
+  // Of a fisheye picture, in half pixels: twice the crop's corner less the picture's size, and
+  // the diameter of the circle outside which nothing is shown.
+  int circle_x, circle_y, circle_diameter;
 };
 
 #endif

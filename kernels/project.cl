@@ -70,6 +70,13 @@ inline VALUE chain_dot(Offset d, const float* axis) {
   return (d.x * axis[0] + d.y * axis[1]) + d.z * axis[2];
 }
 
+#ifdef WIDE_ANGLE
+inline VALUE squared_distance(Offset d, float inverse_unit) {
+  const VALUE x = d.x * inverse_unit, y = d.y * inverse_unit, z = d.z * inverse_unit;
+  return (x * x + y * y) + z * z;
+}
+#endif
+
 inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
 
 inline VALUE normalised(VALUE value, const FieldScaling map) {
@@ -114,6 +121,9 @@ typedef struct SplatLanes {
   INTEGER visible, bad;
   INTEGER grid;
   VALUE x, y, sigma, radius, weight, color;
+#ifdef ELLIPSES
+  VALUE sigma_x, radius_x;
+#endif
 #ifdef VECTOR_COLORS
   VALUE red, green, blue;
 #endif
@@ -156,8 +166,15 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE raw_sort = load_values(sort_fields, i, end, p.sort_stride);
   const Offset position = load_positions(positions, i, end);
   const Offset d = offset_from(position, p.position_high, p.position_low);
+#ifdef WIDE_ANGLE
+  // Depth is the distance; its square orders as well, and has a chain of its own.
+  const VALUE squared = squared_distance(d, p.length_scale);
+  const VALUE z = sqrt(squared) / p.length_scale;
+  s.sort_value = p.sort_by_field ? raw_sort : squared;
+#else
   const VALUE z = chain_dot(d, p.forward);
   s.sort_value = p.sort_by_field ? raw_sort : z;
+#endif
 
   INTEGER good = is_finite(d.x) & is_finite(d.y) & is_finite(d.z) & is_finite(raw_h) &
                        raw_h > 0.0f & is_finite(raw_weight) & raw_weight >= 0.0f &
@@ -169,11 +186,20 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.bad = exists & (good == 0);
 
   const VALUE h = raw_h * p.size_factor;
+#ifdef WIDE_ANGLE
+  const Place place = place_in_wide_angle(chain_dot(d, p.right), chain_dot(d, p.down),
+                                          chain_dot(d, p.forward), z, p);
+  const VALUE scale = place.scale;
+#else
   const VALUE scale = p.perspective ? p.pixels_per_length / z : (VALUE)(p.pixels_per_length);
+#endif
   const VALUE sigma_true = p.kernel_width * h * scale;
   const float sigma_floor = p.kernel_width * p.min_radius;
   const VALUE sigma =
       p.min_radius > 0.0f ? sqrt(sigma_true * sigma_true + sigma_floor * sigma_floor) : sigma_true;
+#ifdef WIDE_ANGLE
+  const VALUE x = p.centre_x + place.x, y = p.centre_y + place.y;
+#else
   // Across the view the look-at point serves as well as the camera. Seen from afar it is
   // much closer to the particle, and less is lost in the difference.
   const Offset l = offset_from(position, p.look_at_high, p.look_at_low);
@@ -182,6 +208,10 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE along = choose(chain_dot(d, p.down), chain_dot(l, p.down), far_away);
   const VALUE x = p.centre_x + across * scale;
   const VALUE y = p.centre_y + along * scale;
+#endif
+#ifdef ELLIPSES
+  const VALUE sigma_x = sigma_along_x(sigma, place.cos_latitude, p);
+#endif
 
 #ifdef EXACT_NUMBERS
   // Only what certainly lies off the picture; exact_splat() decides. Ten sigma reach beyond
@@ -199,8 +229,13 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const float width = (float)grids[0].width, height = (float)grids[0].height;
   s.visible = exists & good & z >= (p.near_factor > 0.0f ? max(p.near_factor * h, (VALUE)(p.near_limit))
                                        : (VALUE)(p.near_limit)) &
-              z <= p.far_limit & x + far_reach >= 0.0f & x - far_reach <= width &
-              y + far_reach >= 0.0f & y - far_reach <= height;
+              z <= p.far_limit & y + far_reach >= 0.0f & y - far_reach <= height;
+#ifdef WIDE_ANGLE
+  s.visible &= place.seen;
+#endif
+#ifndef ELLIPSES  // of these, copies beside the picture may reach it
+  s.visible &= x + far_reach >= 0.0f & x - far_reach <= width;
+#endif
   if (!ANY(s.visible)) return s;
 
   VALUE weight = column_weight(raw_weight, h, p) * normalised(raw_intensity, p.intensity);
@@ -208,14 +243,22 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const INTEGER by_mean = sigma < p.mean_sigma;
   const VALUE widened = choose(sqrt(sigma * sigma + p.widening), sigma, by_mean);
   const VALUE narrowing = sigma / widened;
+#ifdef ELLIPSES
+  const INTEGER by_mean_x = sigma_x < p.mean_sigma;
+  const VALUE widened_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, by_mean_x);
+  weight *= narrowing * (sigma_x / widened_x);
+  const VALUE area = widened * widened_x;
+#else
   weight *= narrowing * narrowing;
+  const VALUE area = widened * widened;
+#endif
 
   // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
   VALUE brightest = p.peak_colour;
 #ifdef VECTOR_COLORS
   brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
 #endif
-  const VALUE peak = weight * brightest * min((VALUE)(1.0f), 3.2f * widened * widened);
+  const VALUE peak = weight * brightest * min((VALUE)(1.0f), 3.2f * area);
   const VALUE extent =
       p.kernel_cut > 0.0f ? (VALUE)(p.kernel_cut) : truncation_extent(peak, p);
 
@@ -245,11 +288,20 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.radius = p.kernel_cut > 0.0f
                  ? p.kernel_cut * sigma * shrink + (p.widening > 0.0f ? 0.5f : 0.0f)
                  : extent * s.sigma + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean);
+#ifdef ELLIPSES
+  // Such pictures have no coarse grids.
+  s.sigma_x = widened_x;
+  s.radius_x = p.kernel_cut > 0.0f
+                   ? p.kernel_cut * sigma_x + (p.widening > 0.0f ? 0.5f : 0.0f)
+                   : extent * widened_x + choose((VALUE)(0.0f), (VALUE)(0.5f), by_mean_x);
+#endif
   const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
   s.x = x * shrink + guard;
   s.y = y * shrink + guard;
-  s.visible &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f &
-               s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
+#ifndef ELLIPSES
+  s.visible &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f;
+#endif
+  s.visible &= s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
   // Half of the light beyond the square goes back into it: the sum of many errs by as much
   // above as below. Means are drawn in all pixels that the square touches, half a pixel more
   // on average and for a grain nearly everything: with t / sigma more, erfc(k) falls as
@@ -315,7 +367,9 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
     if (!ANY(s.visible)) continue;
     SPREAD(int, visible)
 #if defined(OUTPUT_SPLATS) && !defined(EXACT_NUMBERS)
+#ifndef ELLIPSES
     SPREAD(float, x)
+#endif
     SPREAD(float, y)
     SPREAD(float, sigma)
     SPREAD(float, radius)
@@ -331,8 +385,20 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #ifdef OUTPUT_KEYS
     SPREAD(float, sort_value)
 #endif
+#ifdef ELLIPSES
+    SPREAD(float, x)
+    SPREAD(float, radius_x)
+#ifdef OUTPUT_SPLATS
+    SPREAD(float, sigma_x)
+#endif
+#endif
     for (uint k = 0; k < LANES; ++k) {
       if (!LANE(visible, k)) continue;
+#ifdef ELLIPSES
+      const int2 copies =
+          copies_in_picture(LANE(x, k), LANE(radius_x, k), (float)grids[0].width, p.period);
+      for (int copy = copies.x; copy <= copies.y; ++copy) {
+#endif
 #ifdef EXACT_NUMBERS
       Splat found;
       ExactSplat exact;
@@ -347,10 +413,18 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #endif
 #elif defined(OUTPUT_SPLATS)
       __global Splat* splat = splats + slot;
+#ifdef ELLIPSES
+      splat->x = LANE(x, k) + (float)copy * p.period;
+#else
       splat->x = LANE(x, k);
+#endif
       splat->y = LANE(y, k);
       splat->sigma = LANE(sigma, k);
       splat->radius = LANE(radius, k);
+#ifdef ELLIPSES
+      splat->sigma_x = LANE(sigma_x, k);
+      splat->radius_x = LANE(radius_x, k);
+#endif
       splat->weight = LANE(weight, k);
       splat->color = LANE(color, k);
 #ifdef VECTOR_COLORS
@@ -365,6 +439,9 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
       order[slot] = slot;
 #endif
       ++slot;
+#ifdef ELLIPSES
+      }
+#endif
     }
   }
   visible[2 * numbered] = slot - first_slot;

@@ -110,6 +110,14 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
   const int count = min(8, p.width - x);
   __global float* out = image + ((size_t)y * p.width + x) * 4;
   for (int i = 0; i < count; ++i) {
+#ifdef PROJECTION_FISHEYE
+    // Half pixels from the middle: outside the circle there is no direction to show.
+    const long across = 2 * (x + i) + 1 + p.circle_x, along = 2 * y + 1 + p.circle_y;
+    if (across * across + along * along > (long)p.circle_diameter * p.circle_diameter) {
+      vstore4((float4)(0.0f), i, out);
+      continue;
+    }
+#endif
     vstore4((float4)(light[0][i], light[1][i], light[2][i], light[3][i]), i, out);
   }
 }

@@ -6,24 +6,41 @@
 
 namespace splotchcl {
 
+// docs/projections.md has the formulas.
 enum class Projection {
   perspective,
-  orthographic,  // the scale at the look-at distance, everywhere
+  orthographic,     // the scale at the look-at distance, everywhere
+  fisheye,          // a dome: the angle from the view direction is linear in the radius
+  equirectangular,  // 360 degrees: longitude and latitude are linear in x and y
+  cube,             // six square faces of 90 degrees
 };
+
+// Fisheye, equirectangular and cube: limits and depth are the distance from the camera, not
+// the distance along the view direction, so that pictures in all directions fit together.
+bool is_wide_angle(Projection projection);
+
+// The six faces of a cube as one picture of 3 x 2 faces, or as six.
+enum class CubeLayout { sheet, files };
 
 // Where the picture is taken from. Lengths are in the snapshot's length unit.
 struct Camera {
   Vec3 position = {{0, 0, 0}};
   Vec3 look_at = {{0, 0, 1}};
-  Vec3 sky = {{0, 1, 0}};             // shown upwards; any direction not parallel to the view
-  double field_of_view_degrees = 45;  // horizontal, 0 < value < 180
+  Vec3 sky = {{0, 1, 0}};  // shown upwards; any direction not parallel to the view
+  // Between the left and right edges; of a fisheye across its circle. Unset: 45, fisheye 180,
+  // equirectangular 360, cube 90.
+  std::optional<double> field_of_view_degrees;
   Projection projection = Projection::perspective;
-  // Limits of z, the distance along the view direction. Without a near limit,
-  // perspective leaves out z < 0.1 h of the particle itself (its disc would cover
-  // the sky), orthographic leaves out z < 0.
+  // Limits of z, the distance along the view direction (wide angles: of the distance).
+  // Without a near limit, orthographic leaves out z < 0, all others leave out z < 0.1 h of
+  // the particle itself (its disc would cover the sky).
   std::optional<double> near_limit;
   std::optional<double> far_limit;
+  CubeLayout cube_layout = CubeLayout::sheet;
 };
+
+// The field of view, or the projection's own where the camera does not say.
+double field_of_view_degrees(const Camera& camera);
 
 // The camera as both renderers use it: orthonormal axes x right, y down, z forward.
 //   perspective:  x_pixel = centre_x + focal_pixels * x / z
@@ -32,14 +49,21 @@ struct Camera {
 struct CameraFrame {
   Vec3 position;
   Vec3 right, down, forward;
-  double focal_pixels = 0;  // (width / 2) / tan(field of view / 2)
+  // (width / 2) / tan(field of view / 2); pixels per radian in fisheye and equirectangular.
+  double focal_pixels = 0;
   double look_at_distance = 0;
   double pixels_per_length = 0;  // focal_pixels / look_at_distance
   double centre_x = 0, centre_y = 0;
+  // Stereo in all directions: every particle is turned about turn_axis (a unit vector, the
+  // upward direction of a head that looks around) by asin(eye_offset / its distance), to the
+  // left for an eye that lies eye_offset > 0 to the right. 0: no stereo.
+  double eye_offset = 0;
+  Vec3 turn_axis = {{0, 0, 0}};
 };
 
-// Throws UsageError for a field of view outside (0, 180), a camera at its look-at
-// point, a sky direction (almost) parallel to the view, or limits out of order.
+// Throws UsageError for a field of view that the projection cannot have, a picture that does
+// not fit it, a camera at its look-at point, a sky direction (almost) parallel to the view,
+// or limits out of order.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 
 }  // namespace splotchcl

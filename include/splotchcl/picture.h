@@ -20,17 +20,9 @@ struct Picture {
   Image image;
 };
 
-// One drawing of a frame on the way to a picture. The frame shares its particles.
-struct FrameView {
-  std::string suffix;
-  Frame frame;
-};
-
-// The frames that a scene's pictures are drawn from.
-std::vector<FrameView> views_of(const Scene& scene, const Frame& frame);
-
 // What a scene's pictures look like before any of them is drawn. With a crop, give its size
 // for the width and height of the view.
+// Two eyes and six faces may be one picture each or parts of one.
 struct PictureSize {
   std::string suffix;
   int width = 0, height = 0;

@@ -16,6 +16,7 @@ namespace splotchcl::reference {
 struct Splat {
   double x = 0, y = 0;
   double sigma = 0;            // after kernel.min_radius, before any pixel averaging
+  double stretch = 1;          // along x the width is stretch * sigma
   double weight = 0;           // w, divided by the reference column, times intensity
   double emission[3] = {};     // E of the light model: brightness * palette etc., without w
   double absorption[3] = {};   // A likewise; E X and A X with X = weight * shape
@@ -24,7 +25,9 @@ struct Splat {
 };
 
 // Drawable particles in component and file order. Left out: bad values (count_bad),
-// z outside the limits. Nothing is left out for lying off the image.
+// z outside the limits. Nothing is left out for lying off the image. An equirectangular
+// picture repeats itself: a particle has a splat for each copy that reaches the picture, or
+// one if none does, one after the other.
 std::vector<Splat> project(const Frame& frame);
 
 // Number of particles with bad values: any that is not finite, h <= 0, weight < 0, a

@@ -15,6 +15,7 @@
 #include "splotchcl/read_settings.h"
 #include "splotchcl/selection.h"
 #include "splotchcl/sequence.h"
+#include "splotchcl/stereo.h"
 
 namespace splotchcl {
 
@@ -126,6 +127,7 @@ struct Scene {
   SequenceSettings time;  // a sequence of snapshots instead of one
   ImageSettings image;
   std::optional<Camera> camera;  // unset: chosen from the data
+  std::optional<Stereo> stereo;  // unset: one picture
   KernelSettings kernel;
   SortOrder sort;
   PathSettings path;  // of films

@@ -43,7 +43,7 @@ Binner::Binner(DeviceContext& device, const FrameLayout& layout, const Frame& fr
   segment_capacity_ = static_cast<std::uint32_t>(
       layout.tile_count + entry_capacity_ / device.traits.segment_length + 1);
   ordered_ = plan.light == LightPlan::ordered;
-  entry_bytes_ = layout.exact_numbers ? 4 : ordered_ ? 40 : 28;
+  entry_bytes_ = layout.exact_numbers ? 4 : (ordered_ ? 40 : 28) + (layout.ellipses ? 8 : 0);
 
   parameters_.tile_count = layout.tile_count;
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());

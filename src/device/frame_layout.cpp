@@ -42,8 +42,9 @@ void append_grid(FrameLayout& layout, int width, int height, int guard, float me
   layout.plane_floats += std::uint64_t{layout.planes} * grid.plane_size;
 }
 
-bool may_use_coarse_grids(const Plan& plan) {
-  return plan.coarse_share > 0;
+// Coarse grids are for round splats.
+bool may_use_coarse_grids(const Plan& plan, const FrameLayout& layout) {
+  return !layout.ellipses && plan.coarse_share > 0;
 }
 
 // Guard pixels whose values a blur needs beyond those that refining reads.
@@ -195,7 +196,8 @@ bool has_exact_projection(Projection projection) {
 }  // namespace
 
 std::size_t splat_bytes(const FrameLayout& layout) {
-  return sizeof(kernel::Splat) + (layout.vector_colors ? 3 * sizeof(float) : 0);
+  return sizeof(kernel::Splat) + (layout.ellipses ? 2 * sizeof(float) : 0) +
+         (layout.vector_colors ? 3 * sizeof(float) : 0);
 }
 
 int level_of_grid(const FrameLayout& layout, std::uint32_t grid) {
@@ -220,6 +222,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   if (layout.exact_numbers) layout.planes *= 2;
   layout.vector_colors =
       std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
+  layout.ellipses = frame.projection == Projection::equirectangular;
+  if (layout.ellipses) layout.splats_per_particle = 7;  // wide_angle.cl: three on either side
   const double background = brightest_background(frame);
   const double picture_error = response(frame, background);
   const double truncation = plan.truncation_share;
@@ -240,7 +244,7 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   append_grid(layout, frame.crop.width, frame.crop.height, 0, layout.mean_sigma);
   layout.level_grids = {0};
   layout.coarse_sigma = std::numeric_limits<float>::max();
-  if (may_use_coarse_grids(plan)) {
+  if (may_use_coarse_grids(plan, layout)) {
     plan_coarse_grids(frame, plan.coarse_share / picture_error, layout);
     append_coarse_grids(layout, frame.crop);
   }
@@ -262,6 +266,8 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (frame.kernel.sampling == Sampling::mean) define("SAMPLING_MEAN");
   if (layout.vector_colors) define("VECTOR_COLORS");
   if (layout.exact_numbers) define("EXACT_NUMBERS");
+  if (layout.ellipses) define("ELLIPSES");
+  if (frame.projection == Projection::fisheye) define("PROJECTION_FISHEYE");
   if (layout.exact) define("EXACT");
   if (layout.builtin_erf) define("BUILTIN_ERF");
   std::ostringstream weights;

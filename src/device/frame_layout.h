@@ -41,8 +41,11 @@ struct FrameLayout {
   float opaque = 0;
   bool exact_numbers = false;  // tolerance 0: kernels of exact.cl
   bool vector_colors = false;  // some particles have colours of their own
-  bool exact = false;          // polynomials of full single precision
-  bool builtin_erf = false;    // for tolerances that the polynomial cannot hold
+  // Equirectangular pictures: splats are wider than high, and have copies beside the picture.
+  bool ellipses = false;
+  std::uint32_t splats_per_particle = 1;  // at most
+  bool exact = false;                     // polynomials of full single precision
+  bool builtin_erf = false;               // for tolerances that the polynomial cannot hold
 };
 
 // The level of a grid, whose pixels are 2^level of the picture's wide, and the sigma^2 by

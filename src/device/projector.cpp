@@ -1,11 +1,13 @@
 #include "device/projector.h"
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "device/exact_parameters.h"
+#include "scene/projection.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -100,6 +102,11 @@ CameraFrame at_look_at(CameraFrame camera) {
   return camera;
 }
 
+Vec3 along_axes(const Vec3& v, const CameraFrame& camera) {
+  using boost::qvm::dot;
+  return {{dot(v, camera.right), dot(v, camera.down), dot(v, camera.forward)}};
+}
+
 std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
   return value / by + (value % by != 0 ? 1 : 0);
 }
@@ -125,9 +132,12 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.far_away = static_cast<float>(0.5 * frame_.camera.look_at_distance);
   copy(frame_.camera.right, p.right);
   copy(frame_.camera.down, p.down);
-  p.perspective = frame_.projection == Projection::perspective;
+  p.perspective = frame_.projection != Projection::orthographic;
   p.pixels_per_length = static_cast<float>(p.perspective ? frame_.camera.focal_pixels
                                                          : frame_.camera.pixels_per_length);
+  p.period = static_cast<float>(period_along_x(frame_.camera, frame_.projection));
+  p.eye_offset = static_cast<float>(frame_.camera.eye_offset);
+  copy(along_axes(frame_.camera.turn_axis, frame_.camera), p.turn_axis);
   p.centre_x = static_cast<float>(frame_.camera.centre_x - frame_.crop.x);
   p.centre_y = static_cast<float>(frame_.camera.centre_y - frame_.crop.y);
 
@@ -206,7 +216,17 @@ compute::program Projector::program(const std::string& outputs) const {
         defines + outputs, {"common.cl", "lanes.cl", "exact.cl", "project_exact.cl", "project.cl"});
   }
   if (layout_.vector_colors) defines += "#define VECTOR_COLORS\n";
-  return device_.programs.get(defines + outputs, {"common.cl", "lanes.cl", "project.cl"});
+  if (!is_wide_angle(frame_.projection)) {
+    return device_.programs.get(defines + outputs, {"common.cl", "lanes.cl", "project.cl"});
+  }
+  defines += "#define WIDE_ANGLE\n";
+  if (frame_.projection == Projection::fisheye) defines += "#define PROJECTION_FISHEYE\n";
+  if (frame_.projection == Projection::equirectangular) {
+    defines += "#define PROJECTION_EQUIRECTANGULAR\n#define ELLIPSES\n";
+  }
+  if (frame_.camera.eye_offset != 0) defines += "#define EYE_OFFSET\n";
+  return device_.programs.get(defines + outputs,
+                              {"common.cl", "lanes.cl", "wide_angle.cl", "project.cl"});
 }
 
 void Projector::make_room(std::uint64_t splats) {
@@ -251,8 +271,8 @@ SplatBlocks Projector::project_chunk(const DrawnComponent& component, std::uint3
   parameters.first_particle = first;
   parameters.end_particle = end;
   SplatBlocks blocks;
-  blocks.stride = parameters.block_particles;
-  blocks.block_count = ceil_divide(end - first, blocks.stride);
+  blocks.stride = parameters.block_particles * layout_.splats_per_particle;
+  blocks.block_count = ceil_divide(end - first, parameters.block_particles);
 
   std::vector<std::uint32_t> offsets(blocks.block_count);
   for (std::uint32_t b = 0; b < blocks.block_count; ++b)

@@ -24,6 +24,9 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
     parameters_.source[c] = static_cast<float>(plan.source[c]);
     parameters_.background[c] = static_cast<float>(frame.background[c]);
   }
+  parameters_.circle_x = 2 * frame.crop.x - frame.width;
+  parameters_.circle_y = 2 * frame.crop.y - frame.height;
+  parameters_.circle_diameter = std::min(frame.width, frame.height);
   std::string defines = kernel_defines(frame, plan, layout) + "#define LANES_8\n";
   if (frame.background_image) defines += "#define BACKGROUND_IMAGE\n";
   program_ = device.programs.get(defines,

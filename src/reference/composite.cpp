@@ -16,7 +16,7 @@ double phi(double y) {
 
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel) {
   if (is_cut(splat, x, y, kernel)) return 0;
-  return axis_profile(splat.x, splat.sigma, x, kernel.sampling) *
+  return axis_profile(splat.x, splat.stretch * splat.sigma, x, kernel.sampling) *
          axis_profile(splat.y, splat.sigma, y, kernel.sampling);
 }
 

@@ -36,7 +36,7 @@ inline double axis_profile(double centre, double sigma, int i, Sampling sampling
 // however small the splat is, or all clouds far below a pixel would vanish.
 inline bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kernel) {
   if (!kernel.cut) return false;
-  const double dx = x + 0.5 - splat.x;
+  const double dx = (x + 0.5 - splat.x) / splat.stretch;
   const double dy = y + 0.5 - splat.y;
   const double radius = *kernel.cut * splat.sigma;
   if (dx * dx + dy * dy <= radius * radius) return false;

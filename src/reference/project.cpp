@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "scene/central_column.h"
+#include "scene/projection.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/reference.h"
 
@@ -19,11 +21,6 @@ struct Particle {
   float color_vector[3];
   float intensity;
   float sort_field;
-};
-
-// A particle as the camera sees it: x right, y down, z forward, in world lengths.
-struct View {
-  double x, y, z;
 };
 
 // What a component does not have counts as 1 where it is a factor.
@@ -56,7 +53,8 @@ bool is_bad(const Particle& p) {
   return !all_finite || !has_color || p.smoothing_length <= 0 || p.weight < 0;
 }
 
-View view_of(const Particle& p, const Vec3& origin, const CameraFrame& camera) {
+// Along the camera's right, down and forward axes, in world lengths.
+Vec3 from_camera(const Particle& p, const Vec3& origin, const CameraFrame& camera) {
   double d[3];
   for (int axis = 0; axis < 3; ++axis) {
     // The two large numbers first, so that what is left is small when p is added.
@@ -65,20 +63,13 @@ View view_of(const Particle& p, const Vec3& origin, const CameraFrame& camera) {
   const auto along = [&d](const Vec3& axis) {
     return d[0] * axis.a[0] + d[1] * axis.a[1] + d[2] * axis.a[2];
   };
-  return {along(camera.right), along(camera.down), along(camera.forward)};
+  return {{along(camera.right), along(camera.down), along(camera.forward)}};
 }
 
-bool is_within_limits(double z, double h, const Frame& frame) {
-  const bool perspective = frame.projection == Projection::perspective;
-  if (perspective && z <= 0) return false;
-  const double near_limit = frame.near_limit.value_or(perspective ? 0.1 * h : 0.0);
-  if (z < near_limit) return false;
-  return !frame.far_limit || z <= *frame.far_limit;
-}
-
-double pixels_per_length(double z, const Frame& frame) {
-  return frame.projection == Projection::perspective ? frame.camera.focal_pixels / z
-                                                     : frame.camera.pixels_per_length;
+bool is_within_limits(double depth, double h, const Frame& frame) {
+  const bool flat = frame.projection == Projection::orthographic;
+  if (depth < frame.near_limit.value_or(flat ? 0.0 : 0.1 * h)) return false;
+  return !frame.far_limit || depth <= *frame.far_limit;
 }
 
 // Emission and absorption per unit of X; the weight stays in X.
@@ -120,24 +111,29 @@ void color_splat(Splat& splat, const Particle& p, const DrawnComponent& componen
 
 // The same operations in the same order as the kernel's, each rounded to binary32:
 // this file is compiled without contraction.
-float depth_key(const float position[3], const DepthChain& chain) {
+float depth_key(const float position[3], const DepthChain& chain, bool by_distance) {
   float d[3];
   for (int axis = 0; axis < 3; ++axis) {
     d[axis] = (position[axis] - chain.position_high[axis]) - chain.position_low[axis];
   }
-  return (d[0] * chain.forward[0] + d[1] * chain.forward[1]) + d[2] * chain.forward[2];
+  if (!by_distance) {
+    return (d[0] * chain.forward[0] + d[1] * chain.forward[1]) + d[2] * chain.forward[2];
+  }
+  for (float& axis : d)
+    axis *= chain.inverse_unit;
+  return (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
 }
 
-Splat splat_of(const Particle& p, const View& view, double h, const DrawnComponent& component,
+Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnComponent& component,
                const Frame& frame) {
-  const double scale = pixels_per_length(view.z, frame);
-  const double h_pixels = h * scale;
+  const double h_pixels = h * place.pixels_per_length;
   const double h_drawn = std::hypot(h_pixels, frame.kernel.min_radius_pixels);
 
   Splat splat;
-  splat.x = frame.camera.centre_x + scale * view.x;
-  splat.y = frame.camera.centre_y + scale * view.y;
+  splat.x = place.x;
+  splat.y = place.y;
   splat.sigma = frame.kernel.width * h_drawn;
+  splat.stretch = stretch_along_x(place, splat.sigma, frame.camera, frame.projection);
   const double w =
       central_column(component.weight, static_cast<double>(p.weight), h, frame.kernel.width * h);
   splat.weight = w / component.reference_column * (h_pixels / h_drawn);
@@ -149,6 +145,21 @@ Splat splat_of(const Particle& p, const View& view, double h, const DrawnCompone
   return splat;
 }
 
+// The splat and its copies a period to the left and right, as far as they reach the picture.
+// At eight sigmas a cloud has 1e-28 of its peak left.
+void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
+  const double period = period_along_x(frame.camera, frame.projection);
+  const double reach = 8 * splat.stretch * splat.sigma + 2;
+  const double x = splat.x;
+  const double first = std::ceil((-reach - x) / period);
+  const double last = std::floor((frame.width + reach - x) / period);
+  if (first > last) splats.push_back(splat);
+  for (double copy = first; copy <= last; ++copy) {
+    splat.x = x + copy * period;
+    splats.push_back(splat);
+  }
+}
+
 void project_component(const DrawnComponent& component, const Frame& frame,
                        std::uint64_t first_particle, std::vector<Splat>& splats) {
   const Particles& particles = component.particles;
@@ -157,13 +168,20 @@ void project_component(const DrawnComponent& component, const Frame& frame,
     const Particle p = particle_at(particles, i);
     if (is_bad(p)) continue;
     const double h = component.size_factor * static_cast<double>(p.smoothing_length);
-    const View view = view_of(p, particles.origin, frame.camera);
-    if (!is_within_limits(view.z, h, frame)) continue;
+    const std::optional<Projected> place = project_point(
+        from_camera(p, particles.origin, frame.camera), frame.camera, frame.projection);
+    if (!place || !is_within_limits(place->depth, h, frame)) continue;
 
-    Splat splat = splat_of(p, view, h, component, frame);
-    splat.key = frame.sort.by == SortOrder::By::depth ? depth_key(p.position, chain) : p.sort_field;
+    Splat splat = splat_of(p, *place, h, component, frame);
+    splat.key = frame.sort.by == SortOrder::By::depth
+                    ? depth_key(p.position, chain, is_wide_angle(frame.projection))
+                    : p.sort_field;
     splat.particle = first_particle + i;
-    splats.push_back(splat);
+    if (frame.projection == Projection::equirectangular) {
+      push_copies(splat, frame, splats);
+    } else {
+      splats.push_back(splat);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <future>
 #include <thread>
 #include <vector>
@@ -19,13 +20,13 @@ struct Range {
 // Beyond this distance from its centre a splat adds less than 1e-14 to any pixel: far
 // below what the other terms of a pixel's sum lose in double precision. The pixel more
 // is for means, whose pixels reach closer to the splat than their centres do.
-double reach(const Splat& splat) {
+double reach_in_sigmas(const Splat& splat) {
   double strongest = 1;
   for (int c = 0; c < 3; ++c) {
     strongest =
         std::max({strongest, splat.weight * splat.emission[c], splat.weight * splat.absorption[c]});
   }
-  return splat.sigma * std::sqrt(std::log(1e14) + std::log(strongest)) + 1;
+  return std::sqrt(std::log(1e14) + std::log(strongest));
 }
 
 Range pixels_within(double centre, double radius, int first, int end) {
@@ -43,21 +44,23 @@ class RowPainter {
 
   void add(const Splat& splat, std::vector<Layer>& layers) {
     const Rectangle& crop = frame_.crop;
-    const double radius = reach(splat);
-    const Range columns = pixels_within(splat.x, radius, crop.x, crop.x + crop.width);
+    const double radius = splat.sigma * reach_in_sigmas(splat) + 1;
+    const double radius_x = splat.stretch * (radius - 1) + 1;
+    const Range columns = pixels_within(splat.x, radius_x, crop.x, crop.x + crop.width);
     const Range rows = pixels_within(splat.y, radius, crop.y, crop.y + crop.height);
     if (columns.first >= columns.end || rows.first >= rows.end) return;
 
     const Sampling sampling = frame_.kernel.sampling;
     profile_x_.clear();
     for (int x = columns.first; x < columns.end; ++x) {
-      profile_x_.push_back(splat.weight * axis_profile(splat.x, splat.sigma, x, sampling));
+      profile_x_.push_back(splat.weight *
+                           axis_profile(splat.x, splat.stretch * splat.sigma, x, sampling));
     }
     for (int y = own_row_from(rows.first); y < rows.end; y += row_step_) {
-      // The row's part of a circle; a pixel more, since dy is to the pixel's centre.
-      const double dy = std::min(std::abs(y + 0.5 - splat.y), radius);
-      const Range row_columns = pixels_within(splat.x, std::sqrt(radius * radius - dy * dy) + 1,
-                                              columns.first, columns.end);
+      // The row's part of an ellipse; a pixel more, since dy is to the pixel's centre.
+      const double dy = std::min(std::abs(y + 0.5 - splat.y) / radius, 1.0);
+      const Range row_columns =
+          pixels_within(splat.x, radius_x * std::sqrt(1 - dy * dy) + 1, columns.first, columns.end);
       const double profile_y = axis_profile(splat.y, splat.sigma, y, sampling);
       Layer* row = layers.data() +
                    static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
@@ -120,9 +123,22 @@ std::array<double, 3> background_of(std::size_t i, const Frame& frame) {
           static_cast<double>(pixel[2])};
 }
 
+// Whether the pixel shows any direction at all: not outside the circle of a fisheye picture.
+// In half pixels, which are whole numbers.
+bool is_in_picture(std::size_t i, const Frame& frame) {
+  if (frame.projection != Projection::fisheye) return true;
+  const auto width = static_cast<std::size_t>(frame.crop.width);
+  const auto x = static_cast<std::int64_t>(i % width) + frame.crop.x;
+  const auto y = static_cast<std::int64_t>(i / width) + frame.crop.y;
+  const std::int64_t across = 2 * x + 1 - frame.width, along = 2 * y + 1 - frame.height;
+  const std::int64_t diameter = std::min(frame.width, frame.height);
+  return across * across + along * along <= diameter * diameter;
+}
+
 ExactImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
   ExactImage image(frame.crop.width, frame.crop.height);
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    if (!is_in_picture(i, frame)) continue;
     const std::array<double, 3> background = background_of(i, frame);
     double opacity = 0;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -44,7 +44,81 @@ void check_limits(const Camera& camera) {
   }
 }
 
+double largest_field_of_view(Projection projection) {
+  return projection == Projection::fisheye || projection == Projection::equirectangular ? 360 : 180;
+}
+
+void check_field_of_view(const Camera& camera) {
+  const double found = field_of_view_degrees(camera);
+  const std::string start = "camera.field_of_view: found " + text(found) + " degrees, expected ";
+  if (camera.projection == Projection::cube) {
+    if (found == 90) return;
+    throw UsageError(start + "90, which the faces of a cube always have; leave it out");
+  }
+  const double largest = largest_field_of_view(camera.projection);
+  const bool may_be_largest = largest == 360;
+  if (found > 0 && (found < largest || (may_be_largest && found == largest))) return;
+  throw UsageError(start + "more than 0 and " + (may_be_largest ? "at most " : "less than ") +
+                   text(largest));
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+void check_shape(const Camera& camera, int width, int height) {
+  if (camera.projection == Projection::cube && width != height) {
+    throw UsageError("image.size: found " + size_text(width, height) +
+                     ", expected as high as wide, since it is the size of one face of the cube");
+  }
+  const double degrees_per_pixel = field_of_view_degrees(camera) / width;
+  if (camera.projection == Projection::equirectangular && degrees_per_pixel * height > 180.5) {
+    throw UsageError("image.size: found " + size_text(width, height) + ", which is " +
+                     text(degrees_per_pixel * height) +
+                     " degrees high in the equirectangular projection, expected at most 180: a "
+                     "whole panorama is twice as wide as high");
+  }
+}
+
+// Pixels per radian, or per unit of the tangent, in the middle of the picture.
+double focal_length(const Camera& camera, int width, int height) {
+  const double angle = field_of_view_degrees(camera) * pi / 180;
+  switch (camera.projection) {
+    case Projection::fisheye:
+      return std::min(width, height) / angle;
+    case Projection::equirectangular:
+      return width / angle;
+    case Projection::cube:
+      return 0.5 * width;
+    case Projection::perspective:
+    case Projection::orthographic:
+      break;
+  }
+  return 0.5 * width / std::tan(0.5 * angle);
+}
+
 }  // namespace
+
+bool is_wide_angle(Projection projection) {
+  return projection == Projection::fisheye || projection == Projection::equirectangular ||
+         projection == Projection::cube;
+}
+
+double field_of_view_degrees(const Camera& camera) {
+  if (camera.field_of_view_degrees) return *camera.field_of_view_degrees;
+  switch (camera.projection) {
+    case Projection::fisheye:
+      return 180;
+    case Projection::equirectangular:
+      return 360;
+    case Projection::cube:
+      return 90;
+    case Projection::perspective:
+    case Projection::orthographic:
+      break;
+  }
+  return 45;
+}
 
 CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   using namespace boost::qvm;
@@ -52,10 +126,8 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   check_finite(camera.look_at, "camera.look_at");
   check_finite(camera.sky, "camera.sky");
   check_limits(camera);
-  if (!(camera.field_of_view_degrees > 0 && camera.field_of_view_degrees < 180)) {
-    throw UsageError("camera.field_of_view: found " + text(camera.field_of_view_degrees) +
-                     " degrees, expected more than 0 and less than 180");
-  }
+  check_field_of_view(camera);
+  check_shape(camera, width, height);
 
   const Vec3 view = camera.look_at - camera.position;
   const double distance = mag(view);
@@ -84,7 +156,7 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   frame.forward = forward;
   frame.right = normalized(right);
   frame.down = cross(forward, frame.right);
-  frame.focal_pixels = 0.5 * width / std::tan(0.5 * camera.field_of_view_degrees * pi / 180);
+  frame.focal_pixels = focal_length(camera, width, height);
   frame.look_at_distance = distance;
   frame.pixels_per_length = frame.focal_pixels / distance;
   frame.centre_x = 0.5 * width;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "splotchcl/frame.h"
 
 namespace splotchcl {
@@ -13,6 +15,8 @@ DepthChain make_depth_chain(const CameraFrame& camera, const Vec3& origin) {
     chain.position_low[axis] = static_cast<float>(position - static_cast<double>(high));
     chain.forward[axis] = static_cast<float>(camera.forward.a[axis]);
   }
+  chain.inverse_unit =
+      static_cast<float>(std::exp2(-std::round(std::log2(camera.look_at_distance))));
   return chain;
 }
 

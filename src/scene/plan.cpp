@@ -66,7 +66,9 @@ Plan make_plan(const Frame& frame) {
   Plan plan;
   choose_light(frame, plan);
   plan.needs_sort = plan.light == LightPlan::ordered;
-  share_out(frame.tolerance, plan);
+  // Wide angles have single precision only, and at tolerance 0 do what that can.
+  const bool is_bounded = frame.tolerance > 0 || !is_wide_angle(frame.projection);
+  share_out(is_bounded ? frame.tolerance : most_exact_tolerance, plan);
   return plan;
 }
 

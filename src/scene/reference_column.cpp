@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/central_column.h"
+#include "scene/projection.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 
@@ -139,21 +140,24 @@ std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& fram
                         static_cast<double>(particles.position[3 * i + 1]),
                         static_cast<double>(particles.position[3 * i + 2])}};
   const Vec3 from_camera = particles.origin - frame.camera.position + offset;
-  const double z = dot(from_camera, frame.camera.forward);
-  const bool perspective = frame.projection == Projection::perspective;
-  if (perspective && z <= 0) return std::nullopt;
-  if (z < frame.near_limit.value_or(perspective ? 0.1 * h : 0.0)) return std::nullopt;
-  if (frame.far_limit && z > *frame.far_limit) return std::nullopt;
+  const std::optional<Projected> place =
+      project_point({{dot(from_camera, frame.camera.right), dot(from_camera, frame.camera.down),
+                      dot(from_camera, frame.camera.forward)}},
+                    frame.camera, frame.projection);
+  if (!place) return std::nullopt;
+  const bool flat = frame.projection == Projection::orthographic;
+  if (place->depth < frame.near_limit.value_or(flat ? 0.0 : 0.1 * h)) return std::nullopt;
+  if (frame.far_limit && place->depth > *frame.far_limit) return std::nullopt;
 
   const double coarse_pixels = coarse_scale(frame);
-  const double scale = coarse_pixels * (perspective ? frame.camera.focal_pixels / z
-                                                    : frame.camera.pixels_per_length);
   Cloud cloud;
-  cloud.x = coarse_pixels * frame.camera.centre_x + scale * dot(from_camera, frame.camera.right);
-  cloud.y = coarse_pixels * frame.camera.centre_y + scale * dot(from_camera, frame.camera.down);
-  cloud.sigma = scale * sigma;
-  const double weight =
-      particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
+  cloud.x = coarse_pixels * place->x;
+  cloud.y = coarse_pixels * place->y;
+  // A cloud that is wider than high has the light of a circle of the same area.
+  const double height = sigma * place->pixels_per_length;
+  cloud.sigma = coarse_pixels * height *
+                std::sqrt(stretch_along_x(*place, height, frame.camera, frame.projection));
+  const double weight = particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
   cloud.column = central_column(component.weight, weight, h, sigma);
   if (!particles.intensity.is_absent()) {
     cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);

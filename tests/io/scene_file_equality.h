@@ -79,6 +79,7 @@ inline void expect_same(const Camera& a, const Camera& b) {
   EXPECT_TRUE(same(a.sky, b.sky));
   EXPECT_EQ(a.field_of_view_degrees, b.field_of_view_degrees);
   EXPECT_EQ(a.projection, b.projection);
+  EXPECT_EQ(a.cube_layout, b.cube_layout);
   EXPECT_EQ(a.near_limit, b.near_limit);
   EXPECT_EQ(a.far_limit, b.far_limit);
 }
@@ -176,6 +177,13 @@ inline void expect_same(const FinishSettings& a, const FinishSettings& b) {
   EXPECT_EQ(a.fade_color, b.fade_color);
 }
 
+inline void expect_same(const Stereo& a, const Stereo& b) {
+  EXPECT_EQ(a.angle_degrees, b.angle_degrees);
+  EXPECT_EQ(a.mode, b.mode);
+  EXPECT_EQ(a.eyes, b.eyes);
+  EXPECT_EQ(a.layout, b.layout);
+}
+
 inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.snapshot, b.snapshot);
   expect_same(a.read, b.read);
@@ -188,6 +196,8 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.image.convention, b.image.convention);
   ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
   if (a.camera) expect_same(*a.camera, *b.camera);
+  ASSERT_EQ(a.stereo.has_value(), b.stereo.has_value());
+  if (a.stereo) expect_same(*a.stereo, *b.stereo);
   EXPECT_EQ(a.kernel.width, b.kernel.width);
   EXPECT_EQ(a.kernel.cut, b.kernel.cut);
   EXPECT_EQ(a.kernel.sampling, b.kernel.sampling);

@@ -35,6 +35,7 @@ TEST(SceneKeys, AreAllExplained) {
 TEST(SceneKeys, HaveADefaultOrSayWhatCountsWithoutThem) {
   Scene scene;
   scene.camera.emplace();
+  scene.stereo.emplace();
   scene.components.emplace_back();
   for (const Key& key : all_keys()) {
     EXPECT_TRUE(!key.absent.empty() || key.get(scene, 0)) << key.path;
@@ -64,6 +65,7 @@ TEST(SceneKeys, RefuseValuesOfNoType) {
   for (const Key& key : all_keys()) {
     Scene scene;
     scene.camera.emplace();
+    scene.stereo.emplace();
     scene.components.emplace_back();
     EXPECT_FALSE(key.set(scene, 0, *nested.get("value"))) << key.path;
   }
@@ -91,7 +93,8 @@ TEST(SceneDocumentation, ShowsTheExamplesAsTheyAre) {
 }
 
 TEST(Examples, AreScenesWithPalettesThatExist) {
-  for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml"}) {
+  for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml", "dome.toml",
+                           "panorama.toml", "cube.toml", "stereo.toml"}) {
     const Scene scene = read_scene_file(std::string(SPLOTCHCL_SOURCE_DIR) + "/examples/" + name);
     EXPECT_FALSE(scene.components.empty()) << name;
     for (const Component& component : scene.components) {

@@ -35,7 +35,8 @@ class RandomScenes {
       scene.image.background = {0, 0, 0};
       scene.image.background_image = word();
     }
-    if (coin()) scene.camera = camera();
+    if (coin()) scene.camera = camera(scene.image);
+    if (coin()) scene.stereo = stereo(scene);
     scene.kernel = {positive(1e-6, 1e6), maybe(positive()),
                     coin() ? Sampling::mean : Sampling::center, coin() ? 0 : unit()};
     if (coin()) {
@@ -99,21 +100,47 @@ class RandomScenes {
     return text;
   }
 
-  Camera camera() {
+  Camera camera(const ImageSettings& image) {
     Camera camera;
+    choose_projection(camera, image);
     do {
       camera.position = {{length(), length(), length()}};
       camera.look_at = {{length(), length(), length()}};
       camera.sky = {{unit(), unit(), unit()}};
     } while (!is_usable(camera));
-    camera.field_of_view_degrees = 0.001 + 179 * unit();
-    camera.projection = coin() ? Projection::perspective : Projection::orthographic;
     const bool may_be_behind = camera.projection == Projection::orthographic;
     camera.near_limit = maybe(may_be_behind && coin() ? -unit() : unit());
     camera.far_limit = maybe(1 + positive());
     return camera;
   }
-  static bool is_usable(const Camera& camera) {
+  // A projection that the picture's shape allows, with a field of view that it may have.
+  void choose_projection(Camera& camera, const ImageSettings& image) {
+    camera.projection = static_cast<Projection>(integer(0, 2));
+    if (image.width == image.height) camera.projection = Projection::cube;
+    if (image.width >= 2 * image.height) camera.projection = Projection::equirectangular;
+    if (camera.projection == Projection::cube || coin()) return;
+    const bool may_be_wide = camera.projection == Projection::fisheye;
+    if (camera.projection == Projection::equirectangular) {
+      camera.field_of_view_degrees = 360;
+    } else {
+      camera.field_of_view_degrees = 0.001 + (may_be_wide ? 359 : 179) * unit();
+    }
+    camera.cube_layout = coin() ? CubeLayout::sheet : CubeLayout::files;
+  }
+  Stereo stereo(const Scene& scene) {
+    Stereo stereo;
+    stereo.angle_degrees = 0.001 + 44 * unit();
+    const Projection projection = scene.camera ? scene.camera->projection : Projection::perspective;
+    stereo.mode = coin() ? StereoMode::off_axis : StereoMode::parallel;
+    if (projection == Projection::orthographic) stereo.mode = StereoMode::toe_in;
+    stereo.eyes = coin() ? StereoEyes::right_shifted : StereoEyes::centered;
+    stereo.layout = static_cast<StereoLayout>(integer(0, 2));
+    return stereo;
+  }
+  static bool is_usable(Camera camera) {
+    // Its projection fits the picture, which is not known here.
+    camera.projection = Projection::perspective;
+    camera.field_of_view_degrees.reset();
     try {
       make_camera_frame(camera, 1, 1);
       return true;

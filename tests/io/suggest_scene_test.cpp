@@ -47,7 +47,7 @@ double distance(const Camera& camera) {
 
 // Half the width of what the camera sees at its look-at point.
 double half_width(const Camera& camera) {
-  return distance(camera) * std::tan(camera.field_of_view_degrees * 3.14159265358979 / 360);
+  return distance(camera) * std::tan(field_of_view_degrees(camera) * 3.14159265358979 / 360);
 }
 
 TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {

@@ -26,8 +26,12 @@ Camera camera_of(const InsetSettings& settings, const Frame& frame) {
   camera.look_at =
       settings.look_at.value_or(Vec3(own.position + own.forward * own.look_at_distance));
   camera.sky = settings.sky.value_or(Vec3(-own.down));
-  camera.field_of_view_degrees = settings.field_of_view_degrees.value_or(
-      2 * degrees * std::atan(0.5 * frame.width / own.focal_pixels));
+  camera.field_of_view_degrees = settings.field_of_view_degrees;
+  if (is_wide_angle(frame.projection)) {
+    camera.projection = Projection::perspective;
+  } else if (!camera.field_of_view_degrees) {
+    camera.field_of_view_degrees = 2 * degrees * std::atan(0.5 * frame.width / own.focal_pixels);
+  }
   return camera;
 }
 
@@ -80,6 +84,7 @@ Inset make_inset(const Scene& scene, const Frame& frame, Layout& layout) {
   inset.frame.height = height;
   inset.frame.crop = {0, 0, width, height};
   inset.frame.camera = inset_camera(settings, frame, width, height);
+  if (is_wide_angle(frame.projection)) inset.frame.projection = Projection::perspective;
   if (frame.background_image) {
     inset.frame.background_image =
         std::make_shared<const Image>(scaled_to_fill(*frame.background_image, width, height));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t position_limit = 200000;  // looked at, of all types together
-constexpr double field_of_view_degrees = 40;
+constexpr double suggested_degrees = 40;
 constexpr Vec3 sky = {{0, 0, 1}};
 
 // From where a target is seen: angles of the line from the target to the camera, about
@@ -185,13 +185,13 @@ Camera suggest_camera(const Snapshot& snapshot, const std::vector<int>& types, i
   Sample sample = sample_positions(snapshot, types_to_frame(types));
   const double aspect = static_cast<double>(height) / width;
   const Target target = find_target(sample, snapshot.info(), aspect);
-  const double half_angle = 0.5 * field_of_view_degrees * pi / 180;
+  const double half_angle = 0.5 * suggested_degrees * pi / 180;
   const double distance = target.is_box ? box_distance * target.size
                                         : object_margin * target.size / std::tan(half_angle);
   const Vec3 towards_camera = direction(target.is_box ? box_viewpoint : object_viewpoint);
 
   Camera camera;
-  camera.field_of_view_degrees = field_of_view_degrees;
+  camera.field_of_view_degrees = suggested_degrees;
   camera.sky = sky;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     camera.look_at.a[axis] = rounded(target.centre.a[axis], target.size);

@@ -1,21 +1,37 @@
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "io/finish/cross_fade.h"
 #include "io/finish/fade.h"
 #include "io/finish/finish_picture.h"
+#include "io/picture/views.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/sequence.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
+namespace {
 
-std::vector<FrameView> views_of(const Scene&, const Frame& frame) {
-  return {{"", frame}};
+void copy_into(const Image& part, int x, int y, Image& whole) {
+  for (int row = 0; row < part.height; ++row) {
+    const float* const first = part.at(0, row);
+    std::copy(first, first + 4 * static_cast<std::size_t>(part.width), whole.at(x, y + row));
+  }
 }
 
-std::vector<PictureSize> picture_sizes(const Scene&, int view_width, int view_height) {
-  return {{"", view_width, view_height}};
+}  // namespace
+
+std::vector<PictureSize> picture_sizes(const Scene& scene, int view_width, int view_height) {
+  std::vector<PictureSize> sizes;
+  for (const ViewPlace& place : view_places(scene)) {
+    auto size = std::find_if(sizes.begin(), sizes.end(),
+                             [&](const PictureSize& s) { return s.suffix == place.suffix; });
+    if (size == sizes.end()) size = sizes.insert(sizes.end(), {place.suffix, 0, 0});
+    size->width = std::max(size->width, (place.column + 1) * view_width);
+    size->height = std::max(size->height, (place.row + 1) * view_height);
+  }
+  return sizes;
 }
 
 namespace {
@@ -24,10 +40,17 @@ namespace {
 std::vector<Picture> draw_views(const Scene& scene, const Frame& frame,
                                 const SnapshotInfo& snapshot, const DrawFrame& draw) {
   std::vector<Picture> pictures;
-  for (const FrameView& view : views_of(scene, frame)) {
-    const PictureFinish finish(scene, view.frame, snapshot);
-    pictures.push_back({view.suffix, draw(view.frame)});
-    finish.apply(pictures.back().image, draw);
+  for (const PictureSize& size : picture_sizes(scene, frame.crop.width, frame.crop.height)) {
+    pictures.push_back({size.suffix, Image(size.width, size.height)});
+  }
+  for (const ViewPlace& place : view_places(scene)) {
+    const Frame view = frame_of_view(scene, frame, place);
+    const PictureFinish finish(scene, view, snapshot);
+    Image image = draw(view);
+    finish.apply(image, draw);
+    const auto picture = std::find_if(pictures.begin(), pictures.end(),
+                                      [&](const Picture& p) { return p.suffix == place.suffix; });
+    copy_into(image, place.column * image.width, place.row * image.height, picture->image);
   }
   return pictures;
 }

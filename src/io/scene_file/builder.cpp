@@ -142,6 +142,7 @@ void SceneBuilder::assign_key(const Key& key, const Place& place, const Value& v
     refuse(value.where, place.label, "it for the second time", "each key once");
   }
   need_camera(place, value.where);
+  need_stereo(place);
   bool is_set = key.set(scene_, place.component, value.node);
   if (!is_set && value.bare_text != nullptr) {
     is_set = key.set(scene_, place.component, toml::value<std::string>(*value.bare_text));
@@ -159,6 +160,7 @@ void SceneBuilder::assign_table(const Place& place, const Value& value) {
         fmt::format("a table with keys such as {}", fmt::join(names_in_table(place.path), ", ")));
   }
   need_camera(place, value.where);
+  need_stereo(place);
   for (const auto& [key, node] : in_file_order(*table)) {
     const std::string name(key->str());
     const std::string where = is_reading_file_ ? where_in_file(key->source()) : value.where;
@@ -190,6 +192,12 @@ void SceneBuilder::need_camera(const Place& place, const std::string& where) {
   scene_.camera.emplace();
   camera_is_new_ = true;
   origins_.where["camera"] = where;
+}
+
+// An empty [stereo] asks for two eyes, too.
+void SceneBuilder::need_stereo(const Place& place) {
+  const bool is_of_stereo = place.path.substr(0, place.path.find('.')) == "stereo";
+  if (is_of_stereo && !scene_.stereo) scene_.stereo.emplace();
 }
 
 void SceneBuilder::refuse_exclusions() const {

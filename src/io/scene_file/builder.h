@@ -41,6 +41,7 @@ class SceneBuilder {
   void assign_table(const Place& place, const Value& value);
   void assign_components(const Value& value);
   void need_camera(const Place& place, const std::string& where);
+  void need_stereo(const Place& place);
   void refuse_exclusions() const;
   std::string where_in_file(const toml::source_region& region) const;
 

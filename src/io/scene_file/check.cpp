@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <set>
 
 #include "io/scene_file/values.h"
@@ -29,19 +30,29 @@ void check_image(const ImageSettings& image, const Origins& origins) {
          fmt::format("at most {} pixels", largest_pixel_count));
 }
 
-void check_camera(const Scene& scene, const Origins& origins) {
-  const Camera& camera = *scene.camera;
+// Runs a check whose message begins with a key, and says where that was given.
+void check_at(const Origins& origins, const std::function<void()>& check) {
   try {
-    make_camera_frame(camera, scene.image.width, scene.image.height);
+    check();
   } catch (const UsageError& error) {
     const std::string message = error.what();
     const std::string label = message.substr(0, message.find(':'));
     throw UsageError(fmt::format("{}: key {}", origins.at(label), message));
   }
-  if (camera.projection == Projection::perspective && camera.near_limit.value_or(0) < 0) {
+}
+
+void check_camera(const Scene& scene, const Origins& origins) {
+  const Camera& camera = *scene.camera;
+  check_at(origins, [&] { make_camera_frame(camera, scene.image.width, scene.image.height); });
+  if (camera.projection != Projection::orthographic && camera.near_limit.value_or(0) < 0) {
     refuse(origins.at("camera.near"), "camera.near", write_number(*camera.near_limit),
-           "a number >= 0 with the perspective projection");
+           "a number >= 0 with any projection but the orthographic one");
   }
+}
+
+void check_two_eyes(const Scene& scene, const Origins& origins) {
+  const Projection projection = scene.camera ? scene.camera->projection : Projection::perspective;
+  check_at(origins, [&] { check_stereo(*scene.stereo, projection); });
 }
 
 void check_sort(const SortOrder& sort, const Origins& origins) {
@@ -199,6 +210,7 @@ void refuse(const std::string& where, const std::string& label, const std::strin
 void check_scene(const Scene& scene, const Origins& origins) {
   check_image(scene.image, origins);
   if (scene.camera) check_camera(scene, origins);
+  if (scene.stereo) check_two_eyes(scene, origins);
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
   check_time(scene, origins);

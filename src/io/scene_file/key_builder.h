@@ -23,6 +23,7 @@ Keys time_keys();
 Keys finish_keys();
 Keys periodic_keys();
 Keys read_keys();
+Keys stereo_keys();
 
 inline void append(Keys& keys, const Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -72,6 +73,8 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.image;
   } else if constexpr (std::is_same_v<Part, Camera>) {
     return *scene.camera;
+  } else if constexpr (std::is_same_v<Part, Stereo>) {
+    return *scene.stereo;
   } else if constexpr (std::is_same_v<Part, KernelSettings>) {
     return scene.kernel;
   } else if constexpr (std::is_same_v<Part, SortOrder>) {
@@ -113,6 +116,7 @@ Key key(const std::string& path, const ValueType<V>& type,
   key.get = [write = type.write, get](const Scene& scene,
                                       std::size_t component) -> std::optional<std::string> {
     if (std::is_same_v<Part, Camera> && !scene.camera) return std::nullopt;
+    if (std::is_same_v<Part, Stereo> && !scene.stereo) return std::nullopt;
     const std::optional<V> value = get(part<Part>(scene, component));
     return value ? std::optional<std::string>(write(*value)) : std::nullopt;
   };

@@ -11,6 +11,13 @@ namespace {
 
 constexpr int largest_side = 65536;
 
+// Wide angles included.
+Range any_field_of_view() {
+  Range range = more_than(0);
+  range.at_most = 360;
+  return range;
+}
+
 Keys top_level_keys() {
   return {
       key<Scene, std::string>(
@@ -100,19 +107,33 @@ Keys camera_keys() {
            "required where there is a `[camera]`"}),
       key("camera.sky", vector(), &Camera::sky,
           {"The direction shown upwards. Any direction that is not parallel to the view."}),
-      key("camera.field_of_view", number(field_of_view_range()), &Camera::field_of_view_degrees,
-          {"Horizontal angle of the picture, between its left and right edges.", "degrees"}),
+      key("camera.field_of_view", number(any_field_of_view()), &Camera::field_of_view_degrees,
+          {"Horizontal angle of the picture, between its left and right edges; of a fisheye "
+           "picture across its circle. Less than 180 in perspective and orthographic projection.",
+           "degrees",
+           "perspective, orthographic: 45; fisheye: 180; equirectangular: 360; cube: 90, always"}),
       key("camera.projection",
           choice<Projection>({{"perspective", Projection::perspective},
-                              {"orthographic", Projection::orthographic}}),
+                              {"orthographic", Projection::orthographic},
+                              {"fisheye", Projection::fisheye},
+                              {"equirectangular", Projection::equirectangular},
+                              {"cube", Projection::cube}}),
           &Camera::projection,
-          {"`orthographic` has the scale of the look-at distance everywhere."}),
+          {"`orthographic` has the scale of the look-at distance everywhere. `fisheye` is for "
+           "domes, `equirectangular` a panorama of 360 degrees, `cube` six square faces of 90 "
+           "degrees, of `image.size` each; see projections.md."}),
+      key("camera.cube",
+          choice<CubeLayout>({{"sheet", CubeLayout::sheet}, {"files", CubeLayout::files}}),
+          &Camera::cube_layout,
+          {"The faces of a cube as one sheet, right, left, up above down, front, back, or as six "
+           "files whose names end in _right, _left, _up, _down, _front and _back."}),
       key("camera.near", number(), &Camera::near_limit,
-          {"Particles nearer than this along the view direction are left out. Perspective "
-           "needs a value >= 0.",
-           "length", "perspective: 0.1 h of the particle itself; orthographic: 0"}),
+          {"Particles nearer than this along the view direction are left out; in `fisheye`, "
+           "`equirectangular` and `cube` the distance itself counts. Needs a value >= 0 but "
+           "with `orthographic`.",
+           "length", "orthographic: 0; others: 0.1 h of the particle itself"}),
       key("camera.far", number(), &Camera::far_limit,
-          {"Particles farther than this along the view direction are left out.", "length",
+          {"Particles farther than this are left out, measured as for `near`.", "length",
            "no limit"}),
   };
 }
@@ -167,9 +188,10 @@ bool is_prefix(const std::string& table, const std::string& path) {
 const std::vector<Key>& all_keys() {
   static const Keys keys = [] {
     Keys all;
-    for (const Keys& part : {top_level_keys(), read_keys(), image_keys(), background_keys(),
-                             camera_keys(), kernel_keys(), sort_keys(), time_keys(), path_keys(),
-                             movie_keys(), periodic_keys(), finish_keys(), component_keys()}) {
+    for (const Keys& part :
+         {top_level_keys(), read_keys(), image_keys(), background_keys(), camera_keys(),
+          stereo_keys(), kernel_keys(), sort_keys(), time_keys(), path_keys(), movie_keys(),
+          periodic_keys(), finish_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

@@ -11,6 +11,7 @@ namespace {
 Scene default_scene() {
   Scene scene;
   scene.camera.emplace();
+  scene.stereo.emplace();
   scene.components.emplace_back();
   return scene;
 }
@@ -36,8 +37,8 @@ std::string row(const Key& key, const std::string& name) {
 
 std::string key_reference() {
   std::string text;
-  for (const std::string table : {"", "read", "image", "camera", "kernel", "sort", "time", "path",
-                                  "movie", "periodic", "finish", "component"}) {
+  for (const std::string table : {"", "read", "image", "camera", "stereo", "kernel", "sort", "time",
+                                  "path", "movie", "periodic", "finish", "component"}) {
     text +=
         fmt::format("### {}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                     heading(table));

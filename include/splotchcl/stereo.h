@@ -1,0 +1,39 @@
+#pragma once
+
+#include "splotchcl/camera.h"
+
+namespace splotchcl {
+
+enum class StereoMode {
+  off_axis,  // parallel view directions; what lies at the look-at distance has no disparity
+  parallel,  // parallel view directions; what is infinitely far has no disparity
+  toe_in,    // each eye looks at the look-at point
+};
+
+enum class StereoEyes {
+  right_shifted,  // the left eye is the camera, the right one a step to its right
+  centered,       // each eye half a step to its side of the camera
+};
+
+enum class StereoLayout { files, side_by_side, top_bottom };
+
+// Two eyes that lie angle * |look_at - position| apart (the angle in radians).
+struct Stereo {
+  double angle_degrees = 2;
+  StereoMode mode = StereoMode::off_axis;
+  StereoEyes eyes = StereoEyes::right_shifted;
+  StereoLayout layout = StereoLayout::files;
+};
+
+enum class Eye { left, right };
+
+// Throws UsageError, naming the key, for an angle that is not in (0, 45] or a mode that the
+// projection cannot have: parallel view directions show no depth in orthographic projection,
+// and wide angles have no one point to turn the eyes to.
+void check_stereo(const Stereo& stereo, Projection projection);
+
+// The camera of one eye. Throws as check_stereo does.
+CameraFrame eye_camera(const CameraFrame& camera, Projection projection, const Stereo& stereo,
+                       Eye eye);
+
+}  // namespace splotchcl

@@ -1,0 +1,119 @@
+#include "scene/projection.h"
+
+#include <algorithm>
+#include <boost/qvm/quat_operations.hpp>
+#include <boost/qvm/quat_vec_operations.hpp>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+
+namespace splotchcl {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// A fisheye picture of 360 degrees draws the point right behind the camera as its whole rim.
+// Clouds within 6 degrees of it grow no wider.
+constexpr double smallest_sine_behind = 0.1;
+
+std::optional<Projected> project_straight(const Vec3& v, const CameraFrame& camera,
+                                          bool perspective) {
+  const double z = v.a[2];
+  if (perspective && z <= 0) return std::nullopt;
+  const double scale = perspective ? camera.focal_pixels / z : camera.pixels_per_length;
+  return Projected{camera.centre_x + scale * v.a[0], camera.centre_y + scale * v.a[1], z, scale};
+}
+
+// The direction `u` as an eye beside the camera sees it, turned about the head's axis.
+Vec3 turned(const Vec3& u, double sine, const CameraFrame& camera) {
+  using namespace boost::qvm;
+  const Vec3 axis = {{dot(camera.turn_axis, camera.right), dot(camera.turn_axis, camera.down),
+                      dot(camera.turn_axis, camera.forward)}};
+  return rot_quat(axis, std::asin(sine)) * u;
+}
+
+Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& camera) {
+  const double sine = std::hypot(u.a[0], u.a[1]);
+  const double angle = std::atan2(sine, u.a[2]);
+  const double radius = camera.focal_pixels * angle;
+  // Any direction serves for what lies exactly before or behind the camera.
+  const double cosine_around = sine > 0 ? u.a[0] / sine : 1;
+  const double sine_around = sine > 0 ? u.a[1] / sine : 0;
+  const double widening_sine = u.a[2] > 0 ? sine : std::max(sine, smallest_sine_behind);
+  const double widening = widening_sine > 0 ? angle / widening_sine : 1;
+  Projected place;
+  place.x = camera.centre_x + radius * cosine_around;
+  place.y = camera.centre_y + radius * sine_around;
+  place.pixels_per_length = camera.focal_pixels / distance * std::sqrt(widening);
+  return place;
+}
+
+Projected project_equirectangular(const Vec3& u, double distance, const CameraFrame& camera) {
+  Projected place;
+  place.cos_latitude = std::hypot(u.a[0], u.a[2]);
+  place.x = camera.centre_x + camera.focal_pixels * std::atan2(u.a[0], u.a[2]);
+  place.y = camera.centre_y + camera.focal_pixels * std::atan2(u.a[1], place.cos_latitude);
+  place.pixels_per_length = camera.focal_pixels / distance;
+  return place;
+}
+
+// The corners of a face are 55 degrees from its axis. Clouds beyond 60 degrees grow no wider,
+// or those at 90 degrees would fill the face.
+constexpr double smallest_cosine_of_face = 0.5;
+
+std::optional<Projected> project_cube_face(const Vec3& u, double distance,
+                                           const CameraFrame& camera) {
+  if (u.a[2] <= 0) return std::nullopt;
+  const double cosine = std::max(u.a[2], smallest_cosine_of_face);
+  Projected place;
+  place.x = camera.centre_x + camera.focal_pixels * u.a[0] / u.a[2];
+  place.y = camera.centre_y + camera.focal_pixels * u.a[1] / u.a[2];
+  place.pixels_per_length = camera.focal_pixels / (distance * cosine * std::sqrt(cosine));
+  return place;
+}
+
+}  // namespace
+
+std::optional<Projected> project_point(const Vec3& from_camera, const CameraFrame& camera,
+                                       Projection projection) {
+  using namespace boost::qvm;
+  if (!is_wide_angle(projection)) {
+    return project_straight(from_camera, camera, projection == Projection::perspective);
+  }
+  const double distance = mag(from_camera);
+  if (!(distance > std::abs(camera.eye_offset))) return std::nullopt;
+  Vec3 u = from_camera / distance;
+  if (camera.eye_offset != 0) u = turned(u, camera.eye_offset / distance, camera);
+  std::optional<Projected> place;
+  switch (projection) {
+    case Projection::fisheye:
+      place = project_fisheye(u, distance, camera);
+      break;
+    case Projection::equirectangular:
+      place = project_equirectangular(u, distance, camera);
+      break;
+    default:
+      place = project_cube_face(u, distance, camera);
+  }
+  if (place) place->depth = distance;
+  return place;
+}
+
+// With c the cosine of the latitude and s the cloud's angular width: the light of the cloud is
+// w pi s^2. A Gaussian that is s high and b wide (angles) has in the picture w sqrt(pi) b times
+// the integral of y exp(-(y - c)^2 / s^2) over y > 0, the rows' lengths on the sphere, which is
+// sqrt(pi) s^2 g(c / s). So b = 1 / g(c / s): s / c far from the poles, 2 sqrt(pi) at one,
+// where the copies that the picture's period adds make a ring of even light.
+double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
+                       Projection projection) {
+  if (projection != Projection::equirectangular) return 1;
+  const double s = sigma / camera.focal_pixels;
+  const double u = place.cos_latitude / s;
+  const double g = std::exp(-u * u) / (2 * std::sqrt(pi)) + 0.5 * u * (1 + std::erf(u));
+  return 1 / (s * g);
+}
+
+double period_along_x(const CameraFrame& camera, Projection projection) {
+  return projection == Projection::equirectangular ? 2 * pi * camera.focal_pixels : 0;
+}
+
+}  // namespace splotchcl

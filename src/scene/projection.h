@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "splotchcl/camera.h"
+#include "splotchcl/vector.h"
+
+// Where projections put a particle: the formulas of docs/projections.md.
+namespace splotchcl {
+
+// Pixels of the whole picture.
+struct Projected {
+  double x = 0, y = 0;
+  double depth = 0;              // by which limits and order go: z, or the distance
+  double pixels_per_length = 0;  // of a cloud's width; along y where that is not the same
+  double cos_latitude = 1;       // in equirectangular pictures
+};
+
+// `from_camera`: along the camera's right, down and forward axes. Nothing where the projection
+// cannot show the point, wherever the picture ends: behind a perspective camera or a cube's
+// face, or nearer than the eye's offset in stereo.
+std::optional<Projected> project_point(const Vec3& from_camera, const CameraFrame& camera,
+                                       Projection projection);
+
+// How many times wider than high a cloud is, sigma pixels high. 1 but in equirectangular
+// pictures, where it grows towards the poles so that the cloud keeps its light.
+double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
+                       Projection projection);
+
+// The pixels after which an equirectangular picture repeats itself, 0 for others.
+double period_along_x(const CameraFrame& camera, Projection projection);
+
+}  // namespace splotchcl

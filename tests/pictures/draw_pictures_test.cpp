@@ -1,0 +1,180 @@
+// How the views of a scene become pictures.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "splotchcl/error.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int width = 4, height = 4;
+
+Scene scene_with(const std::vector<std::string>& settings) {
+  std::vector<std::string> all = {"camera.position=[0,0,-1]", "camera.look_at=[0,0,0]",
+                                  "image.size=[4,4]"};
+  all.insert(all.end(), settings.begin(), settings.end());
+  return apply_settings(Scene(), all);
+}
+
+Frame frame_of(const Scene& scene) {
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  frame.crop = {0, 0, width, height};
+  frame.projection = scene.camera->projection;
+  frame.camera = make_camera_frame(*scene.camera, width, height);
+  return frame;
+}
+
+// Every view is filled with its number, from 1, in the order of drawing.
+std::vector<Picture> numbered(const Scene& scene, std::vector<Frame>* frames = nullptr) {
+  float number = 0;
+  const auto draw = [&](const Frame& frame) {
+    if (frames != nullptr) frames->push_back(frame);
+    Image image(frame.crop.width, frame.crop.height);
+    ++number;
+    for (float& value : image.pixels)
+      value = number;
+    return image;
+  };
+  std::vector<std::string> notes;
+  return draw_pictures(scene, frame_of(scene), SnapshotInfo(), draw, notes);
+}
+
+// The numbers of the views that a picture is put together of, row by row.
+std::vector<int> parts(const Picture& picture) {
+  std::vector<int> numbers;
+  for (int y = 0; y < picture.image.height; y += height) {
+    for (int x = 0; x < picture.image.width; x += width)
+      numbers.push_back(static_cast<int>(picture.image.at(x + width - 1, y + height - 1)[2]));
+  }
+  return numbers;
+}
+
+std::vector<std::string> suffixes(const std::vector<Picture>& pictures) {
+  std::vector<std::string> all;
+  for (const Picture& picture : pictures)
+    all.push_back(picture.suffix);
+  return all;
+}
+
+using Names = std::vector<std::string>;
+using Numbers = std::vector<int>;
+
+TEST(Pictures, AreOneWithoutASuffix) {
+  const auto pictures = numbered(scene_with({}));
+  EXPECT_EQ(suffixes(pictures), Names{""});
+  EXPECT_EQ(parts(pictures[0]), Numbers{1});
+}
+
+TEST(Pictures, OfTwoEyesAreTwoFiles) {
+  const auto pictures = numbered(scene_with({"stereo.layout=files"}));
+  EXPECT_EQ(suffixes(pictures), (Names{"_left", "_right"}));
+  EXPECT_EQ(parts(pictures[0]), Numbers{1});
+  EXPECT_EQ(parts(pictures[1]), Numbers{2});
+}
+
+TEST(Pictures, OfTwoEyesLieBesideEachOther) {
+  const auto pictures = numbered(scene_with({"stereo.layout=side_by_side"}));
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_EQ(pictures[0].image.width, 2 * width);
+  EXPECT_EQ(pictures[0].image.height, height);
+  EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2}));
+}
+
+TEST(Pictures, OfTheLeftEyeLieOnTop) {
+  const auto pictures = numbered(scene_with({"stereo.layout=top_bottom"}));
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_EQ(pictures[0].image.height, 2 * height);
+  EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2}));
+}
+
+TEST(Pictures, OfTheSecondEyeAreSeenFromTheRight) {
+  std::vector<Frame> frames;
+  numbered(scene_with({"stereo.angle=3"}), &frames);
+  ASSERT_EQ(frames.size(), 2u);
+  const double step = 3 * 3.14159265358979323846 / 180;
+  EXPECT_EQ(frames[0].camera.position.a[0], 0);
+  // The sky is +y and the view +z: right is -x.
+  EXPECT_NEAR(frames[1].camera.position.a[0], -step, 1e-12);
+}
+
+TEST(Pictures, OfACubeAreOneSheet) {
+  std::vector<Frame> frames;
+  const auto pictures = numbered(scene_with({"camera.projection=cube"}), &frames);
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_EQ(pictures[0].image.width, 3 * width);
+  EXPECT_EQ(pictures[0].image.height, 2 * height);
+  EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2, 3, 4, 5, 6}));
+  // right, left, up; down, front, back
+  EXPECT_EQ(frames[4].camera.forward.a[2], 1);
+  EXPECT_EQ(frames[5].camera.forward.a[2], -1);
+  EXPECT_EQ(frames[2].camera.forward.a[1], 1);
+}
+
+TEST(Pictures, OfACubeMayBeSixFiles) {
+  const auto pictures = numbered(scene_with({"camera.projection=cube", "camera.cube=files"}));
+  EXPECT_EQ(suffixes(pictures), (Names{"_right", "_left", "_up", "_down", "_front", "_back"}));
+}
+
+TEST(Pictures, OfTwoEyesMayBeTwoSheets) {
+  const auto pictures =
+      numbered(scene_with({"camera.projection=cube", "stereo.layout=top_bottom"}));
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+}
+
+TEST(Pictures, HaveTheSizesThatAreToldBefore) {
+  for (const char* layout : {"files", "side_by_side", "top_bottom"}) {
+    const Scene scene = scene_with({std::string("stereo.layout=") + layout});
+    const auto sizes = picture_sizes(scene, width, height);
+    const auto pictures = numbered(scene);
+    ASSERT_EQ(sizes.size(), pictures.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      EXPECT_EQ(sizes[i].suffix, pictures[i].suffix);
+      EXPECT_EQ(sizes[i].width, pictures[i].image.width);
+      EXPECT_EQ(sizes[i].height, pictures[i].image.height);
+    }
+  }
+}
+
+TEST(Pictures, HaveTheirSuffixBeforeTheEnding) {
+  EXPECT_EQ(picture_path("folder/a.b.png", "_left"), "folder/a.b_left.png");
+  EXPECT_EQ(picture_path("picture.exr", ""), "picture.exr");
+}
+
+// What the message names and what to do must both be there.
+void expect_refused(const std::vector<std::string>& settings, const std::string& key,
+                    const std::string& expected) {
+  try {
+    scene_with(settings);
+    ADD_FAILURE() << "accepted " << settings.front();
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find(key), std::string::npos) << message;
+    EXPECT_NE(message.find(expected), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Pictures, ThatNoCameraCanTakeAreRefusedBeforeAnythingIsRead) {
+  expect_refused({"camera.look_at=[0,0,-1]"}, "camera.look_at", "another point");
+  expect_refused({"camera.sky=[0,0,2]"}, "camera.sky", "parallel to the view");
+  expect_refused({"camera.field_of_view=180"}, "camera.field_of_view", "less than 180");
+  expect_refused({"camera.field_of_view=0"}, "camera.field_of_view", "> 0");
+  expect_refused({"camera.projection=cube", "camera.field_of_view=60"}, "camera.field_of_view",
+                 "90");
+  expect_refused({"camera.projection=cube", "image.size=[4,3]"}, "image.size", "as high as wide");
+  expect_refused({"camera.projection=equirectangular"}, "image.size", "twice as wide as high");
+  expect_refused({"camera.projection=fisheye", "camera.near=-1"}, "camera.near", ">= 0");
+  expect_refused({"camera.projection=orthographic", "stereo.angle=2"}, "stereo.mode", "toe_in");
+  expect_refused({"camera.projection=fisheye", "stereo.mode=toe_in"}, "stereo.mode", "parallel");
+  expect_refused({"stereo.angle=0"}, "stereo.angle", "> 0");
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,108 @@
+// The equirectangular picture of 360 degrees against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "projections/wide_frames.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl::test {
+namespace {
+
+// Longitude to the right, latitude upwards.
+Cloud at_place(double longitude, double latitude, double sigma = 0.01, double column = 1) {
+  return cloud_towards({{std::cos(latitude) * std::sin(longitude), -std::sin(latitude),
+                         std::cos(latitude) * std::cos(longitude)}},
+                       3, sigma, column);
+}
+
+Frame panorama(const std::vector<Cloud>& clouds, int width = 200) {
+  return wide_frame({Projection::equirectangular, width, width / 2}, {white_light(clouds)});
+}
+
+// The light of the picture on the sphere: pixels near the poles are narrower there.
+double light_on_sphere(const ExactImage& image) {
+  double sum = 0;
+  const double pixel = 2 * pi / image.width;
+  for (int y = 0; y < image.height; ++y) {
+    const double latitude = 0.5 * pi - (y + 0.5) * pixel;
+    for (int x = 0; x < image.width; ++x)
+      sum += red_of(image, x, y) * pixel * pixel * std::cos(latitude);
+  }
+  return sum;
+}
+
+TEST(Panorama, PlaceIsLinearInLongitudeAndLatitude) {
+  for (const double longitude : {-3.0, -1.0, 0.0, 0.5, 2.0}) {
+    for (const double latitude : {-1.4, -0.3, 0.0, 1.2}) {
+      const reference::Splat splat = only_splat(panorama({at_place(longitude, latitude)}));
+      EXPECT_NEAR(splat.x, 100 + longitude * 100 / pi, 1e-3);
+      EXPECT_NEAR(splat.y, 50 - latitude * 100 / pi, 1e-3);
+    }
+  }
+}
+
+TEST(Panorama, CloudsWidenTowardsThePoles) {
+  for (const double latitude : {0.0, 0.5, -1.0, 1.4}) {
+    const reference::Splat splat = only_splat(panorama({at_place(1, latitude)}));
+    EXPECT_NEAR(splat.sigma, 0.01 * 100 / pi, 1e-6);
+    // Far from the pole, at 17 sigma the nearest, to the digits.
+    EXPECT_NEAR(splat.stretch, 1 / std::cos(latitude), 1e-5 / std::cos(latitude));
+  }
+}
+
+TEST(Panorama, CloudAtThePoleIsARingOfEvenLight) {
+  const ExactImage image = reference::render(panorama({at_place(1, 0.5 * pi, 0.2)}));
+  // The first overtone of the copies' sum is 2 exp(-pi) (docs/projections.md).
+  for (int x = 0; x < 200; ++x)
+    EXPECT_NEAR(red_of(image, x, 0), 1, 2 * std::exp(-pi) + 0.01);
+}
+
+// The rows' lengths are taken for straight, which errs by about the square of the width.
+TEST(Panorama, CloudsKeepTheirLightUpToThePole) {
+  constexpr double sigma = 0.1;
+  for (const double from_pole : {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.5}) {
+    const ExactImage image =
+        reference::render(panorama({at_place(0.3, 0.5 * pi - from_pole, sigma)}));
+    EXPECT_NEAR(light_on_sphere(image) / (pi * sigma * sigma), 1, 2 * sigma * sigma) << from_pole;
+  }
+}
+
+TEST(Panorama, CloudOnTheSeamIsOnBothSides) {
+  const ExactImage seam = reference::render(panorama({at_place(pi - 0.004, 0.2, 0.1)}));
+  const ExactImage middle = reference::render(panorama({at_place(-0.004, 0.2, 0.1)}));
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      EXPECT_NEAR(red_of(seam, x, y), red_of(middle, (x + 100) % 200, y), 1e-4) << x << ", " << y;
+    }
+  }
+}
+
+// But within two widths of a pole: a round cloud there is no ellipse in the picture, and what
+// has the right light as a whole has less of it at the pole itself (docs/projections.md).
+TEST(Panorama, ShowsAnEvenSkyEvenly) {
+  const ExactImage image =
+      reference::render(wide_frame({Projection::equirectangular, 120, 60}, {even_sky(8000, 0.05)}));
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const bool near_pole = y < 3 || y >= 57;
+      EXPECT_NEAR(red_of(image, x, y), 1, near_pole ? 0.45 : 0.05) << x << ", " << y;
+    }
+  }
+}
+
+TEST(Panorama, MayShowAPartOfTheSky) {
+  const Frame frame =
+      wide_frame({Projection::equirectangular, 90, 60, 90.0}, {white_light({at_place(0.5, 0.25)})});
+  const reference::Splat splat = only_splat(frame);
+  EXPECT_NEAR(splat.x, 45 + 0.5 * 180 / pi, 1e-3);
+  EXPECT_NEAR(splat.y, 30 - 0.25 * 180 / pi, 1e-3);
+}
+
+TEST(Panorama, IsAtMost180DegreesHigh) {
+  EXPECT_THROW(wide_frame({Projection::equirectangular, 100, 60}, {}), UsageError);
+  EXPECT_NO_THROW(wide_frame({Projection::equirectangular, 100, 30}, {}));
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,112 @@
+// Where the device puts particles in wide angles, and in which order, is the oracle's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "device/stages.h"
+#include "projections/wide_frames.h"
+#include "splotchcl/stereo.h"
+
+namespace splotchcl::test {
+namespace {
+
+// Of floats that are not negative, as unsigned integers of the same order.
+std::uint32_t ordered_bits(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits | 0x80000000u;
+}
+
+Frame ball_around_the_camera(Projection projection, const Vec3& centre, double radius) {
+  constexpr std::size_t count = 3001;
+  Random random(7);
+  std::vector<float> positions;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    positions.push_back(static_cast<float>(radius * random.uniform(-1, 1)));
+  DrawnComponent component;
+  component.particles.count = count;
+  component.particles.origin = centre;
+  component.particles.position = Column::owning(positions);
+  component.particles.smoothing_length = Column::uniform(static_cast<float>(0.01 * radius));
+  component.weight = WeightModel::constant;
+  component.reference_column = 1 / (0.01 * radius);
+  Camera camera;
+  camera.position = centre + Vec3{{0.1, 0.03, -0.2}} * radius;
+  camera.look_at = camera.position + Vec3{{0.4, -0.3, 0.8}} * radius;
+  camera.projection = projection;
+  if (projection == Projection::fisheye) camera.field_of_view_degrees = 360;
+  const int height = projection == Projection::equirectangular ? 100 : 200;
+  Frame frame = frame_of(200, height, {component});
+  frame.projection = projection;
+  frame.camera = make_camera_frame(camera, 200, height);
+  return with_identities(frame);
+}
+
+void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& frame, bool lanes) {
+  Stages stages(device, frame, lanes);
+  stages.project();
+  std::multimap<std::uint64_t, reference::Splat> expected;
+  for (const reference::Splat& splat : reference::project(stages.frame()))
+    expected.emplace(splat.particle, splat);
+  // With the widths of ellipses behind each.
+  const std::size_t words = splat_bytes(stages.layout()) / sizeof(float);
+  const std::vector<std::uint32_t> keys = stages.keys();
+  const auto values = stages.read<float>("splats", keys.size() * words);
+  ASSERT_GT(keys.size(), 400u);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    kernel::Splat splat;
+    std::memcpy(&splat, values.data() + i * words, sizeof(splat));
+    const auto [first, last] = expected.equal_range(identity_of(splat));
+    ASSERT_NE(first, last) << "a particle that the oracle leaves out";
+    ASSERT_EQ(keys[i], ordered_bits(first->second.key)) << "particle " << identity_of(splat);
+    const bool is_on_a_coarse_grid = splat.component_and_grid >> 16 != 0;
+    if (is_on_a_coarse_grid) continue;
+    double nearest = 1e300;
+    for (auto copy = first; copy != last; ++copy) {
+      nearest = std::min(nearest, std::hypot(static_cast<double>(splat.x) - copy->second.x,
+                                             static_cast<double>(splat.y) - copy->second.y));
+    }
+    // A rounding of the direction is as wide as the picture's 64 pixels per radian make it,
+    // and near a pole or behind a fisheye wider by the distance to the axis.
+    EXPECT_LT(nearest, 2e-2) << "particle " << identity_of(splat);
+  }
+}
+
+class WideAngleKeys : public StageTest,
+                      public testing::WithParamInterface<std::tuple<Projection, bool>> {
+ protected:
+  Projection projection() const { return std::get<0>(GetParam()); }
+  void expect(const Frame& frame) const {
+    expect_keys_and_places_of_the_oracle(device(), frame, std::get<1>(GetParam()));
+  }
+};
+
+TEST_P(WideAngleKeys, AreSquaredDistancesToTheBit) {
+  expect(ball_around_the_camera(projection(), {{120, -340, 560}}, 100));
+}
+
+TEST_P(WideAngleKeys, HoldForLengthsWhoseSquaresDoNotFitAFloat) {
+  expect(ball_around_the_camera(projection(), {{0, 0, 0}}, 3e24));
+  expect(ball_around_the_camera(projection(), {{0, 0, 0}}, 3e-24));
+}
+
+TEST_P(WideAngleKeys, HoldForAnEyeBesideTheCamera) {
+  Frame frame = ball_around_the_camera(projection(), {{0, 0, 0}}, 10);
+  Stereo stereo;
+  stereo.angle_degrees = 10;
+  frame.camera = eye_camera(frame.camera, frame.projection, stereo, Eye::right);
+  expect(frame);
+}
+
+INSTANTIATE_TEST_SUITE_P(Projections, WideAngleKeys,
+                         testing::Combine(testing::Values(Projection::fisheye,
+                                                          Projection::equirectangular,
+                                                          Projection::cube),
+                                          testing::Bool()));
+
+}  // namespace
+}  // namespace splotchcl::test
