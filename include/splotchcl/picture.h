@@ -20,6 +20,15 @@ struct Picture {
   Image image;
 };
 
+// One drawing of a frame on the way to a picture. The frame shares its particles.
+struct FrameView {
+  std::string suffix;  // of the picture that it is, or is a part of
+  Frame frame;
+};
+
+// The frames that a scene's pictures are drawn from: one, or one for each eye and face.
+std::vector<FrameView> views_of(const Scene& scene, const Frame& frame);
+
 // What a scene's pictures look like before any of them is drawn. With a crop, give its size
 // for the width and height of the view.
 // Two eyes and six faces may be one picture each or parts of one.

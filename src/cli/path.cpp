@@ -42,10 +42,13 @@ void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
   plot.cameras.push_back(first);
   plot.look_at.push_back(scene.camera->look_at);
   plot.sky.push_back(scene.camera->sky);
-  plot.half_angles.push_back(0.5 * scene.camera->field_of_view_degrees * pi / 180);
+  plot.half_angles.push_back(0.5 * field_of_view_degrees(*scene.camera) * pi / 180);
   for (const FrameView& view : views) {
-    if (boost::qvm::mag(view.frame.camera.position - first.position) > 0) {
-      plot.second_eyes.push_back(view.frame.camera.position);
+    const CameraFrame& camera = view.frame.camera;
+    // In wide angles an eye is beside the camera for whatever direction is looked at.
+    const Vec3 eye = camera.position + camera.eye_offset * frame.camera.right;
+    if (boost::qvm::mag(eye - first.position) > 0) {
+      plot.second_eyes.push_back(eye);
       return;
     }
   }

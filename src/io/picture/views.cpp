@@ -65,6 +65,13 @@ std::vector<ViewPlace> view_places(const Scene& scene) {
   return places;
 }
 
+std::vector<FrameView> views_of(const Scene& scene, const Frame& frame) {
+  std::vector<FrameView> views;
+  for (const ViewPlace& place : view_places(scene))
+    views.push_back({place.suffix, frame_of_view(scene, frame, place)});
+  return views;
+}
+
 Frame frame_of_view(const Scene& scene, const Frame& frame, const ViewPlace& place) {
   Frame view = frame;
   if (place.eye) view.camera = eye_camera(view.camera, view.projection, *scene.stereo, *place.eye);
