@@ -49,9 +49,9 @@ class SceneMaker {
   void choose_camera(Frame& frame) {
     Camera camera;
     camera.look_at = {{random_.uniform(-5, 5), random_.uniform(-5, 5), random_.uniform(-5, 5)}};
-    camera.field_of_view_degrees = random_.uniform(1, 110);
-    const double distance =
-        random_.uniform(0.3, 1.5) / std::tan(0.5 * camera.field_of_view_degrees * pi / 180);
+    const double field_of_view = random_.uniform(1, 110);
+    camera.field_of_view_degrees = field_of_view;
+    const double distance = random_.uniform(0.3, 1.5) / std::tan(0.5 * field_of_view * pi / 180);
     camera.position = camera.look_at + Vec3{{0.48, -0.6, 0.64}} * distance;
     camera.sky = {{random_.uniform(-1, 1), 1, random_.uniform(-1, 1)}};
     if (chance(0.4)) camera.projection = Projection::orthographic;

@@ -69,7 +69,7 @@ TEST_P(FloatFormats, KeepEveryBitOfColourAndAlpha) {
   const TemporaryFolder folder;
   const auto path = folder / (std::string("picture.") + GetParam());
   const Image image = ramp(7, 5, 20);
-  write_image(path, image, {2.2, {}});
+  write_image(path, image, {2.2, false, {}});
   const Image read = read_image(path);
   EXPECT_EQ(read.width, 7);
   EXPECT_EQ(read.height, 5);
@@ -124,9 +124,9 @@ TEST(ImageFile, AppliesTheGammaToEightBitsOnly) {
   const TemporaryFolder folder;
   Image image(1, 1);
   image.pixels = {0.25F, 1, 0, 1};
-  write_image(folder / "a.png", image, {2, {}});
+  write_image(folder / "a.png", image, {2, false, {}});
   EXPECT_FLOAT_EQ(read_image(folder / "a.png").at(0, 0)[0], 128.0F / 255);  // 127.5 rounds up
-  write_image(folder / "a.exr", image, {2, {}});
+  write_image(folder / "a.exr", image, {2, false, {}});
   EXPECT_EQ(read_image(folder / "a.exr").at(0, 0)[0], 0.25F);
 }
 
