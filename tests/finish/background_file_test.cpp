@@ -33,7 +33,7 @@ TEST_F(BackgroundFile, OfFloatsIsLinearLight) {
 TEST_F(BackgroundFile, OfEightBitsLooksAsItDoes) {
   write_image(path("a.png"), plain_image(6, 4, {0.25F, 0.5F, 1}));
   const auto image = load_background_image(path("a.png"), 6, 4, 2.2);
-  write_image(path("b.png"), *image, {2.2, {}});
+  write_image(path("b.png"), *image, {2.2, false, {}});
   EXPECT_EQ(read_image(path("b.png")).pixels, read_image(path("a.png")).pixels);
 }
 

@@ -163,7 +163,7 @@ TEST(ImageFile, RefusesToStoreNotANumberInEightBitsAndSaysWhere) {
 TEST(ImageFile, KeepsMetadataInExr) {
   const TemporaryFolder folder;
   const std::string scene = "[image]\nwidth = 3\n";
-  write_image(folder / "a.exr", Image(2, 2), {1, {{"splotchcl:scene", scene}}});
+  write_image(folder / "a.exr", Image(2, 2), {1, false, {{"splotchcl:scene", scene}}});
   const ImageFileInfo info = read_image_info(folder / "a.exr");
   EXPECT_EQ(info.metadata.at("splotchcl:scene"), scene);
   EXPECT_TRUE(info.has_alpha);

@@ -70,7 +70,10 @@ absorption = 0.5
   Scene expected;
   expected.snapshot = "snap_006";
   expected.tolerance = 0.01;
-  expected.image = {640, 480, {0.1, 0.2, 0.3}, 2.2};
+  expected.image.width = 640;
+  expected.image.height = 480;
+  expected.image.background = {0.1, 0.2, 0.3};
+  expected.image.gamma = 2.2;
   expected.camera =
       Camera{{{1, 2, 3}}, {{4.5, 5, 6}}, {{0, 0, 1}}, 30, Projection::orthographic, -1, 100};
   expected.kernel = {0.4, 1.815, Sampling::center, 1};
