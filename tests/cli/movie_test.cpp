@@ -11,11 +11,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A few hundred particles, some small frames, and the renderer that needs no device.
+// A thousand particles, some small frames, and the renderer that needs no device.
 class Movie : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(splotchcl_in(folder_, "generate halo -o halo.gadget --particles 300").exit_code, 0);
+    ASSERT_EQ(splotchcl_in(folder_, "generate halo -o halo.gadget --particles 1000").exit_code, 0);
     write("film.toml",
           "snapshot = 'halo.gadget'\n"
           "[image]\nsize = [32, 18]\n"

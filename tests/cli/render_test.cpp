@@ -115,9 +115,9 @@ TEST_F(Render, DrawsACropAsThatPartOfThePicture) {
   }
 }
 
-TEST_F(Render, RefusesParameterFilesOfTheOriginalClearly) {
+TEST_F(Render, NamesWhatAParameterFileOfTheOriginalLacks) {
   std::ofstream(folder_ / "old.par") << "infile=u\n";
-  expect_wrong_call("old.par", "not supported yet");
+  expect_wrong_call("old.par", "old.par: key palette0");
 }
 
 TEST_F(Render, NamesFileAndLineOfAWrongScene) {

@@ -144,7 +144,7 @@ TEST(Selection, FindsSizesAmongAllParticlesNotOnlyTheSelected) {
   const Particles particles = load(selecting({"mass == 555"}), snapshot).particles;
   ASSERT_EQ(particles.count, 1u);
   // On a unit grid: see LoadFrameSize.
-  EXPECT_NEAR(particles.smoothing_length[0], std::sqrt(5.0f), 1e-6);
+  EXPECT_NEAR(particles.smoothing_length[0], std::sqrt(6.0f), 1e-6);
 }
 
 TEST(Selection, OfNothingIsToldAndDrawsNothing) {

@@ -46,14 +46,13 @@ tolerance = 0.001
 
 [image]
 size = [640, 1024]
-background = [0, 0, 0]
 gamma = 1
+background = [0, 0, 0]
 
 [camera]
 position = [0, 0, 0]
 look_at = [0, 0, 1]
 sky = [0, 1, 0]
-field_of_view = 45
 projection = "perspective"
 
 [kernel]

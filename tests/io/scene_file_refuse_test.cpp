@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"[image]\nbackground = [1, 2]", "scene.toml:2: key image.background: found array"},
         Refused{"[image]\nbackground = [1, 2, \"3\"]", "scene.toml:2: key image.background"},
         Refused{"[camera]\nposition = [1, [2], 3]", "scene.toml:2: key camera.position: found"},
-        Refused{camera + "projection = \"fisheye\"", "scene.toml:4: key camera.projection"},
+        Refused{camera + "projection = \"fish\"", "scene.toml:4: key camera.projection"},
         Refused{"component = 3", "scene.toml:1: key component: found integer 3"},
         Refused{"component = [1]", "scene.toml:1: key component: found array"},
         Refused{"component = []", "scene.toml:1: key component: found array"},

@@ -14,10 +14,9 @@ namespace {
 constexpr int width = 4, height = 4;
 
 Scene scene_with(const std::vector<std::string>& settings) {
-  std::vector<std::string> all = {"camera.position=[0,0,-1]", "camera.look_at=[0,0,0]",
-                                  "image.size=[4,4]"};
-  all.insert(all.end(), settings.begin(), settings.end());
-  return apply_settings(Scene(), all);
+  const Scene usual = apply_settings(
+      Scene(), {"camera.position=[0,0,-1]", "camera.look_at=[0,0,0]", "image.size=[4,4]"});
+  return apply_settings(usual, settings);
 }
 
 Frame frame_of(const Scene& scene) {

@@ -54,13 +54,14 @@ std::string format_scene(const Scene& scene) {
   const std::string name = "the scene to write";
   scene_file::check_scene(scene, {name, {}});
   std::string text = format_table("", scene, 0);
-  for (const std::string table : {"image", "camera", "stereo", "kernel", "sort", "time", "path",
-                                  "movie", "periodic", "finish"}) {
+  for (const std::string table : {"read", "image", "camera", "stereo", "kernel", "sort", "time",
+                                  "path", "movie", "periodic", "finish"}) {
     if (table == "camera" && !scene.camera) continue;
     if (table == "stereo" && !scene.stereo) continue;
     const std::string lines = format_table(table, scene, 0);
     // What most scenes have nothing of.
-    const bool is_for_some = table == "time" || table == "path" || table == "movie";
+    const bool is_for_some =
+        table == "read" || table == "time" || table == "path" || table == "movie";
     if (lines == "\n") continue;
     if (is_for_some && lines == format_table(table, {}, 0)) continue;
     text += fmt::format("\n[{}]\n{}", table, lines);

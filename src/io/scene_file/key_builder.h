@@ -136,7 +136,13 @@ inline Key excluding(Key key, std::vector<std::string> paths) {
   return key;
 }
 
-// Keys of tables that few scenes need: written only where they are not the default.
+// What few scenes need: written only where it is not the default.
+inline Key written_if_set(Key key) {
+  key.is_written_by_default = false;
+  return key;
+}
+
+// The same for all keys of a table.
 inline Keys written_if_set(Keys keys) {
   for (Key& key : keys)
     key.is_written_by_default = false;

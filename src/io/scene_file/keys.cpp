@@ -88,13 +88,14 @@ Keys image_keys() {
                       {"The height alone, instead of `size`.", "pixels"})),
       key("image.gamma", number(between(0.01, 100)), &ImageSettings::gamma,
           {"Files of 8 bits store value^(1/gamma). EXR, TIFF and HDR always keep linear light."}),
-      key("image.convention",
+      written_if_set(key(
+          "image.convention",
           choice<PixelConvention>(
               {{"upright", PixelConvention::upright}, {"original", PixelConvention::original}}),
           &ImageSettings::convention,
           {"`original`: as the original program has it, with the sky direction down, samples half "
            "a pixel to the upper left of the pixels' centres, and 8 bits truncated; see "
-           "original-files.md."}),
+           "original-files.md."})),
   };
 }
 
@@ -122,11 +123,12 @@ Keys camera_keys() {
           {"`orthographic` has the scale of the look-at distance everywhere. `fisheye` is for "
            "domes, `equirectangular` a panorama of 360 degrees, `cube` six square faces of 90 "
            "degrees, of `image.size` each; see projections.md."}),
-      key("camera.cube",
+      written_if_set(key(
+          "camera.cube",
           choice<CubeLayout>({{"sheet", CubeLayout::sheet}, {"files", CubeLayout::files}}),
           &Camera::cube_layout,
           {"The faces of a cube as one sheet, right, left, up above down, front, back, or as six "
-           "files whose names end in _right, _left, _up, _down, _front and _back."}),
+           "files whose names end in _right, _left, _up, _down, _front and _back."})),
       key("camera.near", number(), &Camera::near_limit,
           {"Particles nearer than this along the view direction are left out; in `fisheye`, "
            "`equirectangular` and `cube` the distance itself counts. Needs a value >= 0 but "
