@@ -27,7 +27,8 @@ std::pair<std::string, std::string> split_first(const std::string& path) {
 std::string format_table(const std::string& table, const Scene& scene, std::size_t component) {
   std::vector<std::string> lines;
   std::string open_group;
-  const Scene plain;
+  Scene plain;
+  plain.camera.emplace();
   for (const Key& key : scene_file::all_keys()) {
     const auto [key_table, rest] = split_first(key.path);
     if (key_table != table || !key.is_written) continue;
