@@ -34,8 +34,8 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
   std::vector<std::uint64_t> counts;
   for (const double number : file.numbers("Header", attribute).value_or(std::vector<double>())) {
     if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
-      notes.push_back(fmt::format("Header/{} holds {} as a number of particles; ignored", attribute,
-                                  number));
+      notes.push_back(
+          fmt::format("Header/{} holds {} as a number of particles; ignored", attribute, number));
       return {};
     }
     counts.push_back(static_cast<std::uint64_t>(number));

@@ -67,7 +67,8 @@ std::vector<std::uint64_t> parse_shape(const PythonLiteral& literal, const std::
   if (literal.kind == PythonLiteral::Kind::integer) return {literal.integer};
   if (literal.kind != PythonLiteral::Kind::sequence) fail(name, "the array's shape is no tuple");
   for (const PythonLiteral& side : literal.items) {
-    if (side.kind != PythonLiteral::Kind::integer) fail(name, "the array's shape is not of numbers");
+    if (side.kind != PythonLiteral::Kind::integer)
+      fail(name, "the array's shape is not of numbers");
     shape.push_back(side.integer);
   }
   return shape;
@@ -76,8 +77,8 @@ std::vector<std::uint64_t> parse_shape(const PythonLiteral& literal, const std::
 // ("name", "<f4") or ("name", "<f4", (3,)). The name may be ("title", "name").
 NumpyMember parse_member(const PythonLiteral& literal, const std::string& name) {
   using Kind = PythonLiteral::Kind;
-  const bool is_member = literal.kind == Kind::sequence && literal.items.size() >= 2 &&
-                         literal.items.size() <= 3;
+  const bool is_member =
+      literal.kind == Kind::sequence && literal.items.size() >= 2 && literal.items.size() <= 3;
   if (!is_member) fail(name, "a member of its records has no name and type");
   const PythonLiteral* label = &literal.items[0];
   if (label->kind == Kind::sequence && label->items.size() == 2) label = &label->items[1];

@@ -16,10 +16,10 @@ struct NumpyMember {
   std::string name;  // empty in a plain array
   ValueKind kind = ValueKind::float32;
   bool is_swapped = false;
-  bool is_usable = false;          // a number of a kind that is read
-  std::uint64_t offset = 0;        // in the record
-  std::uint64_t values = 1;        // more for members that are arrays
-  std::uint64_t bytes = 0;         // of one value
+  bool is_usable = false;    // a number of a kind that is read
+  std::uint64_t offset = 0;  // in the record
+  std::uint64_t values = 1;  // more for members that are arrays
+  std::uint64_t bytes = 0;   // of one value
 };
 
 // The header of an array in NumPy's format (.npy, versions 1 to 3).

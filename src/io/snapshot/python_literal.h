@@ -17,8 +17,8 @@ struct PythonLiteral {
   std::string text;
   std::uint64_t integer = 0;
   bool is_true = false;
-  std::vector<PythonLiteral> items;                               // of a tuple or list
-  std::vector<std::pair<std::string, PythonLiteral>> entries;     // of a dictionary
+  std::vector<PythonLiteral> items;                            // of a tuple or list
+  std::vector<std::pair<std::string, PythonLiteral>> entries;  // of a dictionary
 
   const PythonLiteral* find(std::string_view key) const;  // null where there is none
 };

@@ -55,7 +55,7 @@ struct StoredValues {
   int values_per_particle = 1;
   std::uint64_t stride = 0;  // bytes from particle to particle; 0: without gaps
   ValueKind kind = ValueKind::float32;
-  bool is_swapped = false;  // the other endianness than this machine's
+  bool is_swapped = false;        // the other endianness than this machine's
   std::uint64_t axis_stride = 0;  // bytes from value to value of a particle; 0: without gaps
 
   std::uint64_t packed_bytes_per_particle() const {

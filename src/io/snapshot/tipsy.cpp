@@ -178,8 +178,9 @@ void TipsySnapshot::describe_types() {
       type.fields.push_back({"", field.label, field.values_per_particle, ""});
     }
     for (const TipsyArray& array : arrays_) {
-      const bool is_new = std::none_of(type.fields.begin(), type.fields.end(),
-                                       [&](const FieldInfo& f) { return f.file_name == array.name; });
+      const bool is_new =
+          std::none_of(type.fields.begin(), type.fields.end(),
+                       [&](const FieldInfo& f) { return f.file_name == array.name; });
       if (is_new) type.fields.push_back({"", array.name, 1, ""});
     }
     name_fields(type);
@@ -219,9 +220,8 @@ std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {
   while (tipsy_types()[group].type != type)
     ++group;
   const TipsyArray* const array = find_array(field.file_name);
-  auto ids = array == nullptr
-                 ? std::nullopt
-                 : read_tipsy_integers(*array, first_of(group), header_.counts[group]);
+  auto ids = array == nullptr ? std::nullopt
+                              : read_tipsy_integers(*array, first_of(group), header_.counts[group]);
   if (!ids) refuse_ids(info_, type, field);
   return std::move(*ids);
 }

@@ -92,9 +92,9 @@ std::vector<TipsyArray> find_tipsy_arrays(const fs::path& path, std::uint64_t pa
     array.is_swapped = is_swapped;
     const std::uint64_t size = array.file->size();
     array.is_text = begins_with_number(content(*array.file), particles);
-    const bool is_binary = !array.is_text && size >= 4 &&
-                           number_at(array.file, 0, ValueKind::uint32, is_swapped) ==
-                               static_cast<double>(particles);
+    const bool is_binary =
+        !array.is_text && size >= 4 &&
+        number_at(array.file, 0, ValueKind::uint32, is_swapped) == static_cast<double>(particles);
     if (is_binary && size != 4 + 4 * particles) {
       notes.push_back(
           fmt::format("array {} left out: it has {} bytes, expected {} of one number per particle",
