@@ -1,12 +1,10 @@
 #include "io/finish/text_style.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "io/finish/adjust_light.h"
+#include "io/image/image_library.h"
 
 namespace splotchcl {
 namespace {
@@ -16,14 +14,9 @@ constexpr float shade_opacity = 0.65F;
 // The letters, grown and blurred by a part of their size.
 TextMask shade_of(const TextMask& letters, double size) {
   TextMask shade = letters;
-  const OIIO::ImageSpec spec(letters.width, letters.height, 1, OIIO::TypeDesc::FLOAT);
-  const OIIO::ImageBuf source(spec, shade.coverage.data());
   const auto reach = static_cast<float>(std::max(3.0, 0.3 * size));
-  const OIIO::ImageBuf kernel = OIIO::ImageBufAlgo::make_kernel("gaussian", reach, reach);
-  const OIIO::ImageBuf blurred = OIIO::ImageBufAlgo::convolve(source, kernel);
-  std::vector<float> values(shade.coverage.size());
-  blurred.get_pixels(OIIO::ROI(0, letters.width, 0, letters.height), OIIO::TypeDesc::FLOAT,
-                     values.data());
+  const std::vector<float> values =
+      image_library().blurred(letters.coverage, letters.width, letters.height, reach);
   // Thin letters cover little of the filter's reach.
   for (std::size_t i = 0; i < values.size(); ++i)
     shade.coverage[i] = std::clamp(2.5F * values[i], 0.0F, 1.0F);

@@ -1,12 +1,10 @@
 #include "io/image/background_image.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "io/image/image_library.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -31,34 +29,22 @@ void make_linear(Image& image, double gamma) {
   }
 }
 
-OIIO::ImageBuf wrap(Image& image) {
-  return OIIO::ImageBuf(OIIO::ImageSpec(image.width, image.height, 4, OIIO::TypeDesc::FLOAT),
-                        image.pixels.data());
-}
-
 // The middle part that has the shape of width x height.
-OIIO::ROI middle_of_shape(const Image& image, int width, int height) {
+PictureArea middle_of_shape(const Image& image, int width, int height) {
   const double shape = static_cast<double>(width) / height;
   const int part_width =
       std::clamp(static_cast<int>(std::lround(image.height * shape)), 1, image.width);
   const int part_height =
       std::clamp(static_cast<int>(std::lround(image.width / shape)), 1, image.height);
-  const int x = (image.width - part_width) / 2, y = (image.height - part_height) / 2;
-  return {x, x + part_width, y, y + part_height};
+  return {(image.width - part_width) / 2, (image.height - part_height) / 2, part_width,
+          part_height};
 }
 
 }  // namespace
 
 Image scaled_to_fill(const Image& image, int width, int height) {
   if (image.width == width && image.height == height) return image;
-  Image pixels = image;
-  const OIIO::ImageBuf source =
-      OIIO::ImageBufAlgo::cut(wrap(pixels), middle_of_shape(image, width, height));
-  Image result(width, height);
-  OIIO::ImageBuf target = wrap(result);
-  // A filter without negative weights: light stays >= 0.
-  OIIO::ImageBufAlgo::resize(target, source, "blackman-harris");
-  return result;
+  return image_library().scaled(image, middle_of_shape(image, width, height), width, height);
 }
 
 std::shared_ptr<const Image> load_background_image(const std::filesystem::path& path, int width,

@@ -1,8 +1,5 @@
 #include "splotchcl/image_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,12 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "io/common/unfinished_file.h"
-#include "io/image/image_input.h"
+#include "io/image/image_library.h"
+#include "io/image/png_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -29,7 +26,7 @@ struct Format {
   int longest_side = std::numeric_limits<int>::max();
 };
 
-// Those that OpenImageIO can encode in memory: writing the bytes is then ours to check.
+// Those that can be encoded in memory: writing the bytes is then ours to check.
 // (On a full disk, and for a picture that is too large, libjpeg ends the whole program.)
 constexpr std::array<Format, 13> formats = {{{"png", false, false},
                                              {"jpg", false, false, 65500},
@@ -92,52 +89,28 @@ std::vector<std::uint8_t> to_bytes(const std::filesystem::path& path, const Imag
   return bytes;
 }
 
-OIIO::ImageSpec make_spec(const Image& image, const Format& format, const OIIO::ImageOutput& output,
-                          const ImageFileOptions& options) {
-  OIIO::ImageSpec spec(image.width, image.height, format.has_alpha ? 4 : 3,
-                       format.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  // PNG: the default level takes four times as long for 7 % less.
-  spec.attribute("png:compressionLevel", 4);
-  // JPEG: little loss, and none of it by halving the resolution of colour.
-  spec.attribute("CompressionQuality", 95);
-  spec.attribute("jpeg:subsampling", "4:4:4");
-  if (output.supports("arbitrary_metadata")) {
-    for (const auto& [name, text] : options.metadata)
-      spec.attribute(name, text);
-  }
-  return spec;
-}
-
 // The whole file, as bytes.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Image& image,
                                   const ImageFileOptions& options) {
   const Format& format = format_of(path);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format.ending);
-  if (!output || !output->supports("ioproxy")) {
-    (void)OIIO::geterror();
-    throw UsageError(path.string() + ": this build of OpenImageIO cannot write ." + format.ending +
-                     "; choose another ending, such as .png or .exr");
-  }
-  const auto require = [&](bool good) {
-    if (good) return;
-    throw DataError(path.string() + ": " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) + " pixels cannot be stored as ." + format.ending +
-                    ": " + first_line(output->geterror()));
-  };
-  const std::vector<std::uint8_t> bytes =
-      format.is_float ? std::vector<std::uint8_t>() : to_bytes(path, image, options);
-  std::vector<unsigned char> file;
-  OIIO::Filesystem::IOVecOutput memory(file);
-  require(output->set_ioproxy(&memory));
-  require(output->open(std::string("picture.") + format.ending,
-                       make_spec(image, format, *output, options)));
+  StoredPicture picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.metadata = &options.metadata;
   if (format.is_float) {
-    require(output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data(), 4 * sizeof(float)));
-  } else {
-    require(output->write_image(OIIO::TypeDesc::UINT8, bytes.data()));
+    picture.is_float = true;
+    picture.channels = format.has_alpha ? 4 : 3;
+    picture.pixels = image.pixels.data();
+    picture.pixel_bytes = 4 * sizeof(float);
+    return image_library().encode(path, format.ending, picture);
   }
-  require(output->close());
-  return file;
+  const std::vector<std::uint8_t> bytes = to_bytes(path, image, options);
+  if (std::string(format.ending) == "png") {
+    return encode_png(path, image.width, image.height, bytes);
+  }
+  picture.pixels = bytes.data();
+  picture.pixel_bytes = 3;
+  return image_library().encode(path, format.ending, picture);
 }
 
 }  // namespace
@@ -165,43 +138,15 @@ void write_image(const std::filesystem::path& path, const Image& image,
 }
 
 Image read_image(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
-  const OIIO::ImageSpec spec = input->spec();
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  Image image(spec.width, spec.height);
-  const std::size_t pixels = image.pixels.size() / 4;
-  std::vector<float> values(channels * pixels);
-  const bool complete =
-      input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data());
-  // A truncated TIFF file is an error that read_image does not return.
-  if (!complete || input->has_error()) {
-    throw DataError(path.string() + ": is damaged: " + first_line(input->geterror()));
-  }
-  const ChannelPlaces places = find_channels(spec);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    const float* from = &values[channels * pixel];
-    float* to = &image.pixels[4 * pixel];
-    for (std::size_t i = 0; i < 3; ++i)
-      to[i] = from[places.color[i]];
-    to[3] = places.alpha < 0 ? 1.0F : from[places.alpha];
-  }
-  return image;
+  return image_library().read(path);
+}
+
+Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options) {
+  return image_library().read_linear(path, options);
 }
 
 ImageFileInfo read_image_info(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
-  const OIIO::ImageSpec& spec = input->spec();
-  ImageFileInfo info;
-  info.width = spec.width;
-  info.height = spec.height;
-  info.has_alpha = spec.alpha_channel >= 0;
-  info.is_float = spec.format.is_floating_point();
-  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-    if (attribute.type() == OIIO::TypeDesc::STRING) {
-      info.metadata[attribute.name().string()] = attribute.get_string();
-    }
-  }
-  return info;
+  return image_library().read_info(path);
 }
 
 }  // namespace splotchcl

@@ -1,4 +1,4 @@
-#include "io/image/image_input.h"
+#include "openimageio/input.h"
 
 #include "splotchcl/error.h"
 

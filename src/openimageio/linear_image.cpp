@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/image/image_input.h"
+#include "openimageio/input.h"
+#include "openimageio/pictures.h"
 #include "splotchcl/error.h"
-#include "splotchcl/image_file.h"
 
 namespace splotchcl {
 namespace {
@@ -172,7 +172,7 @@ void add_floats(BandReader& reader, double gamma, const std::filesystem::path& p
 
 }  // namespace
 
-Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options) {
+Image read_linear(const std::filesystem::path& path, const LinearImageOptions& options) {
   BandReader reader(path);
   const OIIO::ImageSpec& spec = reader.spec();
   const bool floats = is_stored_as_floats(spec);

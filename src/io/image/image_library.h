@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "splotchcl/image.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl {
+
+// A picture as a file shall hold it.
+struct StoredPicture {
+  int width = 0, height = 0;
+  int channels = 3;
+  bool is_float = false;                                         // 32-bit floats, otherwise bytes
+  const void* pixels = nullptr;                                  // rows from the top
+  std::size_t pixel_bytes = 0;                                   // from one pixel to the next
+  const std::map<std::string, std::string>* metadata = nullptr;  // where the format keeps it
+};
+
+// Part of a picture, in pixels.
+struct PictureArea {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
+// All that is done by OpenImageIO. It brings some 250 shared libraries with it, which take a
+// quarter of a second to load: as long as a frame of millions of particles. So it lies in a
+// module of its own (src/openimageio) that is loaded when the first picture needs it.
+class ImageLibrary {
+ public:
+  virtual ~ImageLibrary() = default;
+
+  // A whole file of the format with that ending. `path` is for messages. Throws UsageError
+  // where OpenImageIO was built without the format, DataError where it cannot hold the picture.
+  virtual std::vector<unsigned char> encode(const std::filesystem::path& path,
+                                            const std::string& ending,
+                                            const StoredPicture& picture) const = 0;
+  // As in image_file.h.
+  virtual Image read(const std::filesystem::path& path) const = 0;
+  virtual Image read_linear(const std::filesystem::path& path,
+                            const LinearImageOptions& options) const = 0;
+  virtual ImageFileInfo read_info(const std::filesystem::path& path) const = 0;
+
+  // Filtered without negative weights: light stays >= 0.
+  virtual Image scaled(const Image& image, const PictureArea& area, int width,
+                       int height) const = 0;
+  // One value per pixel, blurred by a Gaussian that ends `reach` pixels across.
+  virtual std::vector<float> blurred(const std::vector<float>& values, int width, int height,
+                                     float reach) const = 0;
+};
+
+// Loads the module when first called. Throws DataError where it is missing.
+const ImageLibrary& image_library();
+
+// What the module exports.
+using ImageLibraryEntry = const ImageLibrary*();
+inline constexpr char image_library_entry[] = "splotchcl_image_library";
+
+}  // namespace splotchcl

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace splotchcl {
+
+// The whole PNG file of a picture of 8 bits in red, green and blue, rows from the top. By
+// libpng itself: it is there in a millisecond, and most pictures are PNG files. `path` is for
+// messages. Throws DataError.
+std::vector<unsigned char> encode_png(const std::filesystem::path& path, int width, int height,
+                                      const std::vector<std::uint8_t>& rgb);
+
+}  // namespace splotchcl

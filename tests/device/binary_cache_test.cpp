@@ -1,0 +1,72 @@
+#include "device/binary_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace splotchcl {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BinaryCacheTest : public testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path only_file() const {
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+    return fs::directory_iterator(folder_)->path();
+  }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / "splotchcl_binaries" / "of_a_test";
+  const BinaryCache cache_{folder_};
+  const std::string binary_ = std::string("code\0with\nanything", 18);
+};
+
+TEST_F(BinaryCacheTest, FindsWhatWasKeptUnderTheSameKeyOnly) {
+  EXPECT_FALSE(cache_.find("device\nsource"));
+  cache_.keep("device\nsource", binary_);
+  EXPECT_EQ(cache_.find("device\nsource"), binary_);
+  EXPECT_FALSE(cache_.find("device\nother source"));
+}
+
+TEST_F(BinaryCacheTest, LeavesNothingUnfinishedBeside) {
+  cache_.keep("key", binary_);
+  cache_.keep("key", "newer");
+  EXPECT_EQ(only_file().extension(), ".kernels");
+  EXPECT_EQ(cache_.find("key"), "newer");
+}
+
+TEST_F(BinaryCacheTest, IgnoresAFileThatIsCutOrOfAnotherKey) {
+  cache_.keep("key", binary_);
+  const fs::path file = only_file();
+  for (std::uintmax_t size = fs::file_size(file); size > 0; --size) {
+    fs::resize_file(file, size - 1);
+    EXPECT_FALSE(cache_.find("key")) << "cut to " << size - 1 << " bytes";
+  }
+  cache_.keep("yek", binary_);
+  fs::rename(fs::directory_iterator(folder_)->path() == file
+                 ? std::next(fs::directory_iterator(folder_))->path()
+                 : fs::directory_iterator(folder_)->path(),
+             file);
+  EXPECT_FALSE(cache_.find("key"));
+}
+
+TEST_F(BinaryCacheTest, WithoutAFolderKeepsNothing) {
+  const BinaryCache none(std::nullopt);
+  none.keep("key", binary_);
+  EXPECT_FALSE(none.find("key"));
+}
+
+TEST_F(BinaryCacheTest, DoesWithoutAFolderThatCannotBeMade) {
+  fs::create_directories(folder_.parent_path());
+  std::ofstream(folder_) << "a file";
+  cache_.keep("key", binary_);
+  EXPECT_FALSE(cache_.find("key"));
+}
+
+}  // namespace
+}  // namespace splotchcl
