@@ -66,4 +66,8 @@ struct CameraFrame {
 // or limits out of order.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 
+// The same camera as the original program has it (PixelConvention::original): rows grow along
+// the sky direction, and samples lie on whole coordinates.
+CameraFrame in_original_convention(const CameraFrame& camera);
+
 }  // namespace splotchcl

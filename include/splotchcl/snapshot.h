@@ -83,8 +83,9 @@ class Snapshot {
   // selections, derived fields, snapshots of single components. No part of the snapshot's
   // value; copies share it. Not for use from several threads at once.
   LoadMemory& memory() const;
-  // For a snapshot that stands for another one, as at a time between two.
-  void share_companions_of(const Snapshot& other);
+  // For a snapshot that stands for another one, as at a time between two: the snapshots of
+  // single components and what else is the same at every time.
+  void share_lasting_memory_of(const Snapshot& other);
 
  private:
   mutable std::shared_ptr<LoadMemory> memory_;
@@ -117,9 +118,16 @@ using LoadProgress = std::function<void(const std::string& what, double fraction
 Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
                  const LoadProgress& progress = {});
 
+// Throws what load_frame would throw for this scene before it reads particles: unknown fields,
+// palettes and fonts, files that are missing.
+void check_load(const Scene& scene, const Snapshot& snapshot);
+
 // The scene with what it leaves to the data (camera, ranges of fields, weights, reference
 // columns) as load_frame decided it for this frame of the scene. The frames of a film are
-// drawn with what its first frame decided, or they would flicker.
+// drawn with what one of them decided, or they would flicker. What follows from particles
+// stays open for a component of which the frame has or shows none.
 Scene decide_scene(const Scene& scene, const Frame& frame);
+// Whether nothing is left to the data.
+bool is_decided(const Scene& scene);
 
 }  // namespace splotchcl

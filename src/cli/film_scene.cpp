@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <system_error>
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <set>
 
 #include "cli/scene_argument.h"
 #include "io/sequence/snapshot_list.h"
@@ -12,14 +14,10 @@
 namespace splotchcl::cli {
 namespace {
 
-std::string describe(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  // The base name of several files.
-  if (error) return file.string();
-  const auto time = std::filesystem::last_write_time(file, error).time_since_epoch();
-  return fmt::format("{}, {} bytes, time {}", std::filesystem::absolute(file, error).string(), size,
-                     std::chrono::duration_cast<std::chrono::milliseconds>(time).count());
+// Whether the value of "key=value" is a word, such as a field's name, or holds one.
+bool has_words(const std::string& setting) {
+  const std::string value = setting.substr(setting.find('=') + 1);
+  return value.find_first_not_of("0123456789+-.eE[], ") != std::string::npos;
 }
 
 }  // namespace
@@ -54,35 +52,48 @@ void FilmScene::decide_camera() {
 
 void FilmScene::decide() {
   const Scene first = scene_at(0);
-  source_.check(first);
-  const std::shared_ptr<const Snapshot> snapshot = snapshot_at(first);
-  notes_.insert(notes_.end(), snapshot->info().notes.begin(), snapshot->info().notes.end());
-  scene_ = decide_scene(first, load_frame(first, *snapshot, notes_));
+  snapshots_.check(first);
+  check_words();
+  const std::vector<std::string>& of_data = snapshot_at(first)->info().notes;
+  notes_.insert(notes_.end(), of_data.begin(), of_data.end());
+  decide_components();
+  for (int frame = 0; frame < path_->frame_count(); ++frame)
+    other_scenes_.decide(scene_at(frame));
 }
 
-std::shared_ptr<const Snapshot> FilmScene::snapshot_at(const Scene& scene) {
-  std::shared_ptr<const Snapshot> snapshot = source_.at(scene);
-  if (scene.time.is_set()) return snapshot;
-  if (single_ != snapshot) {
-    single_ = snapshot;
-    cached_ = std::make_shared<CachedSnapshot>(snapshot);
+// Each combination of words that frames have, once: fields, palettes, files, texts.
+void FilmScene::check_words() {
+  const Scene first = scene_at(0);
+  std::set<std::vector<std::string>> checked;
+  for (int frame = 0; frame < path_->frame_count(); ++frame) {
+    std::vector<std::string> words;
+    const std::vector<std::string>& settings = path_->settings(frame);
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(words), has_words);
+    if (words.empty() || !checked.insert(words).second) continue;
+    try {
+      const Scene scene = scene_at(frame);
+      const bool is_the_same = scene.snapshot == first.snapshot;
+      check_load(scene, is_the_same ? *snapshot_at(first) : *SnapshotSource().at(scene));
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("frame {} of the path: {}", frame, error.what()));
+    }
   }
-  return cached_;
 }
 
-std::vector<std::string> FilmScene::inputs() {
-  std::vector<std::string> files;
-  if (scene_.time.is_set()) {
-    for (const ListedSnapshot& snapshot : list_snapshots(scene_.time))
-      files.push_back(describe(snapshot.path));
-  } else {
-    for (const std::filesystem::path& file : snapshot_at(scene_)->info().files)
-      files.push_back(describe(file));
+// The first frame in which there is something of a component to be seen decides; only so many
+// are tried, over all of the film.
+void FilmScene::decide_components() {
+  constexpr int most_tries = 16;
+  const int last = path_->frame_count() - 1;
+  std::vector<std::string> ignored;
+  for (int i = 0; i <= most_tries; ++i) {
+    const Scene scene = scene_at(static_cast<int>(std::int64_t{last} * i / most_tries));
+    scene_ = decide_scene(scene, load_frame(scene, *snapshot_at(scene), i == 0 ? notes_ : ignored));
+    if (is_decided(scene_) || last == 0) return;
   }
-  for (const Component& component : scene_.components) {
-    if (!component.snapshot.empty()) files.push_back(describe(component.snapshot));
-  }
-  return files;
+  notes_.push_back(
+      "the first frames show nothing of a component: each frame decides its ranges and its "
+      "reference_column anew, which may flicker; set them in the scene");
 }
 
 }  // namespace splotchcl::cli

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/commands.h"
+#include "cli/film_inputs.h"
 #include "cli/film_scene.h"
 #include "io/movie/encoder.h"
 #include "io/movie/frame_files.h"
@@ -65,12 +66,12 @@ void check_pictures(const FrameFiles& files, const Scene& scene) {
 // tolerance.
 std::string manifest_of(FilmScene& film, bool by_reference) {
   Scene scene = film.scene();
-  scene.movie = {};
-  scene.path = {};
   std::string text =
       fmt::format("splotchcl {}, {}\n", SPLOTCHCL_VERSION, by_reference ? "reference" : "device");
-  for (const std::string& input : film.inputs())
+  for (const std::string& input : film_inputs(scene, film.path()))
     text += "input " + input + "\n";
+  scene.movie = {};
+  scene.path = {};
   text += format_scene(scene);
   for (int frame = 0; frame < film.path().frame_count(); ++frame) {
     text += fmt::format("frame {}: {}\n", frame, fmt::join(film.path().settings(frame), "; "));
@@ -145,10 +146,12 @@ class FrameLoop {
 
   void draw_frame(int frame) {
     const Scene scene = film_.scene_at(frame);
+    const std::shared_ptr<const Snapshot> snapshot = film_.snapshot_at(scene);
     std::vector<std::string> notes;
+    const Frame loaded = load_frame(scene, *snapshot, notes);
     std::vector<Picture> pictures = draw_pictures(
-        scene, *film_.snapshot_at(scene), [this](const Frame& view) { return draw_view(view); },
-        notes);
+        scene, loaded, snapshot->info(), [this](const Frame& view) { return draw_view(view); },
+        notes, film_.other_scenes());
     notes_.tell(notes);
     wait_for_writing();
     writing_ = std::async(std::launch::async, [this, frame, scene, drawn = std::move(pictures)] {
@@ -173,6 +176,7 @@ class FrameLoop {
   void write(int frame, const Scene& scene, const std::vector<Picture>& pictures) const {
     ImageFileOptions file;
     file.gamma = scene.image.gamma;
+    file.truncates = scene.image.convention == PixelConvention::original;
     file.metadata = {{"splotchcl:version", SPLOTCHCL_VERSION},
                      {"splotchcl:frame", std::to_string(frame)}};
     for (const Picture& picture : pictures)
@@ -248,6 +252,16 @@ void complete(const MovieOptions& options, const std::vector<int>& frames, const
                            scene.image.width, scene.image.height));
 }
 
+// The last part has made the film already, or nobody has begun it.
+void tell_of_nothing_to_join(const MovieOptions& options, const std::vector<int>& frames,
+                             const FrameFiles& files, Console& console) {
+  if (!files.is_complete(frames)) {
+    throw DataError(options.output.string() +
+                    ": found no frames to join, expected those of its parts; draw them first");
+  }
+  console.done(options.output.string() + " is complete already");
+}
+
 std::vector<std::string> settings_of(const MovieOptions& options) {
   std::vector<std::string> settings = options.settings;
   if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
@@ -264,6 +278,10 @@ int run_movie(const MovieOptions& options, Console& console) {
   const std::vector<int> frames = select_frames(options.frames, film.path().frame_count());
   const std::vector<int> part = select_part(options.part, frames);
 
+  if (options.join && !files.is_begun()) {
+    tell_of_nothing_to_join(options, frames, files, console);
+    return 0;
+  }
   console.status("reading");
   film.decide();
   files.open(manifest_of(film, options.reference));

@@ -37,7 +37,7 @@ class TurnedSnapshot : public Snapshot {
         info_(galaxy_->info()),
         myr_(myr) {
     info_.time = myr;
-    share_companions_of(*galaxy_);
+    share_lasting_memory_of(*galaxy_);
   }
 
   const SnapshotInfo& info() const override { return info_; }

@@ -164,4 +164,13 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   return frame;
 }
 
+CameraFrame in_original_convention(const CameraFrame& camera) {
+  using namespace boost::qvm;
+  CameraFrame frame = camera;
+  frame.down = -frame.down;
+  frame.centre_x += 0.5;
+  frame.centre_y += 0.5;
+  return frame;
+}
+
 }  // namespace splotchcl

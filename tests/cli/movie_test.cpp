@@ -104,6 +104,79 @@ TEST_F(Movie, IsTheSameWhenItWasInterruptedAndContinued) {
   }
 }
 
+TEST_F(Movie, OfImagesIsTheSameWhenItWasKilledAndContinued) {
+  ASSERT_EQ(movie("-o whole_%d.png").exit_code, 0);
+  run_in(folder_,
+         "\"$splotchcl\" movie film.toml --reference -o killed_%d.png & film=$!; "
+         "until [ -e killed_1.png ]; do sleep 0.002; done; kill -KILL $film; wait $film");
+  ASSERT_EQ(movie("-o killed_%d.png").exit_code, 0);
+  for (const char frame : {'0', '1', '2', '3', '4', '5'})
+    EXPECT_EQ(content(std::string("killed_") + frame + ".png"),
+              content(std::string("whole_") + frame + ".png"));
+  EXPECT_EQ(folder_.count_files(), 2U + 2 * 6U);  // and nothing unfinished
+}
+
+TEST_F(Movie, MayBeJoinedAfterItsLastPartHasDoneIt) {
+  SKIP_WITHOUT_FFMPEG();
+  const ProgramResult early = movie("-o film.mp4 --join");
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_THAT(early.err, HasSubstr("no frames to join"));
+  ASSERT_EQ(movie("-o film.mp4").exit_code, 0);
+  const std::string film = content("film.mp4");
+  EXPECT_EQ(movie("-o film.mp4 --join").exit_code, 0);
+  EXPECT_EQ(content("film.mp4"), film);
+  EXPECT_FALSE(has("film.mp4.frames"));
+}
+
+TEST_F(Movie, OfTwoEyesIsTwoFilmsOrOneOfTwiceTheSize) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o film.mp4 --set stereo.angle=3 --set movie.frames=2").exit_code, 0);
+  EXPECT_TRUE(has("film_left.mp4") && has("film_right.mp4"));
+  EXPECT_NE(content("film_left.mp4"), content("film_right.mp4"));
+  ASSERT_EQ(movie("-o eyes_%d.png --frames 0 --set stereo.angle=3 --set stereo.layout=side_by_side")
+                .exit_code,
+            0);
+  EXPECT_EQ(read_image(folder_ / "eyes_0.png").width, 64);
+}
+
+// A component may come into view late; then that frame decides, not one in which it is absent.
+TEST_F(Movie, DecidesByTheFirstFrameThatShowsSomething) {
+  write("away.txt",
+        "camera_x camera_y camera_z lookat_x lookat_y lookat_z\n"
+        "60 0 10 120 0 10\n60 0 10 0 0 0\n60 0 10 0 0 0\n");
+  const ProgramResult result =
+      movie("-o frame_%d.png --set path.file=away.txt --set movie.frames=3");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(content("frame_1.png"), content("frame_2.png"));
+  EXPECT_GT(read_image(folder_ / "frame_1.png").at(16, 9)[0], 0.2F);
+}
+
+// Whatever a later frame names is looked at before the first is drawn.
+TEST_F(Movie, ChecksTheWordsOfAllFramesBeforeItDraws) {
+  for (const std::string wrong :
+       {"palette='nosuch'", "color.field='nosuch'", "select.where='nosuch > 1'"}) {
+    const ProgramResult result = movie(
+        "-o f_%d.png --set \"path.keyframes=[{frame=0,component.gas.brightness=1},"
+        "{frame=5,component.gas." +
+        wrong + "}]\"");
+    EXPECT_EQ(result.exit_code, 2) << wrong;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("nosuch"));
+    EXPECT_EQ(folder_.count_files(), 2U);
+  }
+}
+
+TEST_F(Movie, DrawsAnewWhenAPaletteHasChanged) {
+  SKIP_WITHOUT_FFMPEG();
+  write("a.pal", "a\n0100\n2\n0 0 0\n255 255 255\n");
+  const std::string film = "-o film.mp4 --set component.gas.palette=a.pal";
+  ASSERT_EQ(movie(film + " --part 1/2").exit_code, 0);
+  write("a.pal", "a\n0100\n3\n0 0 0\n9 9 9\n255 255 255\n");
+  const ProgramResult other = movie(film);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("a.pal, "));
+}
+
 TEST_F(Movie, KeepsFramesThatAreThere) {
   ASSERT_EQ(movie("-o film.mp4 --part 1/6").exit_code, has_ffmpeg() ? 0 : 1);
   SKIP_WITHOUT_FFMPEG();

@@ -120,6 +120,29 @@ TEST_F(Render, NamesWhatAParameterFileOfTheOriginalLacks) {
   expect_wrong_call("old.par", "old.par: key palette0");
 }
 
+// From another folder, too.
+TEST_F(Render, DrawsTheSamePictureFromAParameterFileAndTheSceneItBecomes) {
+  ASSERT_EQ(splotchcl_in(folder_, "generate halo -o snap_007 --particles 1000").exit_code, 0);
+  std::ofstream(folder_ / "old.pal") << "old\n0100\n3\n0 0 99\n200 50 10\n255 255 255\n";
+  std::ofstream(folder_ / "old.par")
+      << "infile=snap_\nfidx=7\nperiodic=F\nptypes=1\nptype0=0\nsize_label0=HSML\n"
+         "size_fac0=0.5\ncolor_label0=U\npalette0=old.pal\nbrightness0=30\na_eq_e=F\n"
+         "gray_absorption=0.01\nxres=40\nyres=30\nfov=30\ncamera_x=90\ncamera_y=5\n"
+         "camera_z=10\nlookat_x=0\nlookat_y=0\nlookat_z=0\nEyeSeparation=2\npic_gamma=0.7\n"
+         "pic_contrast=1.5\n";
+  std::filesystem::create_directory(folder_ / "scenes");
+  const std::string draw = " --reference -o ";
+  ASSERT_EQ(splotchcl_in(folder_, "render old.par" + draw + "a.png").exit_code, 0);
+  ASSERT_EQ(splotchcl_in(folder_, "convert old.par -o scenes/new.toml").exit_code, 0);
+  const ProgramResult result = splotchcl_in(folder_, "render scenes/new.toml" + draw + "b.png");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string eye : {"_left.png", "_right.png"}) {
+    const Image image = read_image(folder_ / ("a" + eye));
+    EXPECT_EQ(image.pixels, read_image(folder_ / ("b" + eye)).pixels);
+    EXPECT_GT(image.at(20, 15)[0], 0.1F);
+  }
+}
+
 TEST_F(Render, NamesFileAndLineOfAWrongScene) {
   std::ofstream(folder_ / "scene.toml") << "snapshot = \"u\"\n\n[image]\nsize = \"large\"\n";
   expect_wrong_call("scene.toml", "scene.toml:4");

@@ -7,6 +7,8 @@
 
 #include "io/memory_snapshot.h"
 #include "scene/scalar_map.h"
+#include "splotchcl/image_file.h"
+#include "temporary_folder.h"
 
 namespace splotchcl {
 namespace {
@@ -62,6 +64,18 @@ TEST(CachedSnapshot, KnowsAFieldByAllItsNames) {
   EXPECT_EQ(source->fields_read().size(), 1U);
 }
 
+TEST(CachedSnapshot, RemembersThePictureBehindEverything) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "sky.png";
+  write_image(file, Image(4, 2));
+  Scene scene = scene_left_to_the_data();
+  scene.image.background_image = file.string();
+  const CachedSnapshot cached(some_particles());
+  const Frame first = load(scene, cached);
+  std::filesystem::remove(file);
+  EXPECT_EQ(load(scene, cached).background_image, first.background_image);
+}
+
 TEST(DecideScene, LeavesNothingToTheData) {
   const auto snapshot = some_particles();
   const Scene scene = scene_left_to_the_data();
@@ -103,6 +117,28 @@ TEST(DecideScene, KeepsWhatTheSceneSays) {
   EXPECT_EQ(decided.components[0].color.minimum, 2);
   EXPECT_EQ(decided.components[0].weight, WeightModel::constant);
   EXPECT_EQ(decided.components[0].reference_column, 7);
+}
+
+// A later frame of a film decides it.
+TEST(DecideScene, LeavesOpenWhatTheFrameShowsNothingOf) {
+  const auto snapshot = some_particles();
+  Scene scene = scene_left_to_the_data();
+  scene.components[0].select.where = {"internal_energy > 1e9"};
+  const Scene nothing_selected = decide_scene(scene, load(scene, *snapshot));
+  EXPECT_FALSE(is_decided(nothing_selected));
+  EXPECT_FALSE(nothing_selected.components[0].color.minimum);
+  EXPECT_FALSE(nothing_selected.components[0].reference_column);
+
+  scene = scene_left_to_the_data();
+  scene.camera = Camera();
+  scene.camera->position = {{0, 0, 10}};
+  scene.camera->look_at = {{0, 0, 20}};
+  const Scene nothing_seen = decide_scene(scene, load(scene, *snapshot));
+  EXPECT_TRUE(nothing_seen.components[0].color.minimum);
+  EXPECT_FALSE(nothing_seen.components[0].reference_column);
+
+  scene.camera->look_at = {{0, 0, 0}};
+  EXPECT_TRUE(is_decided(decide_scene(scene, load(scene, *snapshot))));
 }
 
 TEST(Unscaled, UndoesTheScaling) {

@@ -5,9 +5,11 @@
 
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
+#include <fstream>
 
 #include "film/path_messages.h"
 #include "splotchcl/scene_file.h"
+#include "temporary_folder.h"
 
 namespace splotchcl {
 namespace {
@@ -141,6 +143,18 @@ TEST(Keyframes, AreRefusedWhereTheyAreOfDifferentKinds) {
   EXPECT_THAT(message("[[path.keyframes]]\nframe = 0\ncomponent.gas.brightness = 1\n"
                       "[[path.keyframes]]\nframe = 2\ncomponent.gas.brightness = 'high'\n"),
               HasSubstr("component.gas.brightness at frame 2 is of another kind"));
+}
+
+TEST(Keyframes, NameFilesFromTheScenesFolder) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml") << "snapshot = 's'\n" + camera + component +
+                                              "[[path.keyframes]]\nframe = 0\n"
+                                              "component.gas.palette = 'a.pal'\n"
+                                              "[[path.keyframes]]\nframe = 1\n"
+                                              "component.gas.palette = 'magma'\n";
+  const auto film = frames_of(read_scene_file(folder / "scene.toml"));
+  EXPECT_EQ(film[0].components[0].palette, (folder / "a.pal").string());
+  EXPECT_EQ(film[1].components[0].palette, "magma");
 }
 
 TEST(Keyframes, AreRefusedOutOfOrder) {

@@ -79,6 +79,25 @@ TEST_F(PathFile, KnowsTheOriginalProgramsNames) {
   EXPECT_EQ(result[0].camera->look_at.a[2], 7);
 }
 
+// The original's minrad_pix is of r = 2 h.
+TEST_F(PathFile, HalvesTheOriginalProgramsSmallestRadius) {
+  const auto result = frames("minrad_pix kernel.width\n3 0.5\n");
+  EXPECT_EQ(result[0].kernel.min_radius_pixels, 1.5);
+  EXPECT_EQ(result[0].kernel.width, 0.5);
+}
+
+TEST_F(PathFile, NamesFilesFromItsOwnFolder) {
+  const auto result = frames(
+      "palette0 finish.font image.background_image\n"
+      "a.pal DejaVuSans sub/sky.png\nmagma x.ttf /sky.png\n");
+  EXPECT_EQ(result[0].components[0].palette, (folder_ / "a.pal").string());
+  EXPECT_EQ(result[0].finish.font, "DejaVuSans");
+  EXPECT_EQ(result[0].image.background_image, (folder_ / "sub/sky.png").string());
+  EXPECT_EQ(result[1].components[0].palette, "magma");
+  EXPECT_EQ(result[1].finish.font, (folder_ / "x.ttf").string());
+  EXPECT_EQ(result[1].image.background_image, "/sky.png");
+}
+
 TEST_F(PathFile, MayNameTheOneSnapshotInEachRow) {
   const std::string row = "1 2 3 4 5 6 0 0 1 92\n";
   EXPECT_EQ(frames(row + row).size(), 2U);

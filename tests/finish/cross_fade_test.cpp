@@ -7,6 +7,7 @@
 
 #include "finish/finish_pictures.h"
 #include "io/finish/finish_picture.h"
+#include "io/picture/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/picture.h"
@@ -115,6 +116,33 @@ TEST_F(CrossFadeOfPictures, DrawsOnlyTheSceneThatIsSeen) {
   EXPECT_EQ(drawn, 1);
   EXPECT_EQ(draw(1).at(0, 0)[1], 2.0F);
   EXPECT_EQ(drawn, 2);
+}
+
+// What the frames of a film fade to is read once, and decided by the first.
+TEST_F(CrossFadeOfPictures, ReadsTheOtherSceneOnce) {
+  write("other.toml", "snapshot = 'other'\n[[component]]\ncolor.field = 'U'\n");
+  GenerateSettings settings;
+  settings.particles = 1000;
+  write_gadget2(path("other"), generate_halo(settings));
+  const Scene scene = own(1);
+  OtherScenes others;
+  others.decide(scene);
+  std::filesystem::remove(path("other"));
+  const auto reference_seen_from = [&](double z) {
+    Scene moved = scene;
+    moved.camera->position.a[2] = z;
+    double reference = 0;
+    std::vector<std::string> notes;
+    draw_pictures(
+        moved, empty_frame(40, 30), SnapshotInfo(),
+        [&reference](const Frame& frame) {
+          reference = frame.components.at(0).reference_column;
+          return plain_image(frame.width, frame.height);
+        },
+        notes, others);
+    return reference;
+  };
+  EXPECT_EQ(reference_seen_from(-9), reference_seen_from(-90));
 }
 
 TEST_F(CrossFadeOfPictures, FadesToAColourAfterwards) {

@@ -248,7 +248,7 @@ TEST(LoadFrameSort, ReadsTheFieldThatTheSceneSortsBy) {
   scene.sort.field = "internal_energy";
   EXPECT_EQ(load(scene, gas_row()).components[0].particles.sort_field[2], 100);
   scene.sort.field = "rank";
-  EXPECT_THAT(refusal(scene, gas_row()), HasSubstr("sort.field is \"rank\""));
+  EXPECT_THAT(refusal(scene, gas_row()), HasSubstr("sort.by is \"rank\""));
 }
 
 TEST(LoadFrameIntensity, HasARangeLikeTheColour) {

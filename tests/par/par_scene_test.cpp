@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
@@ -110,6 +111,53 @@ TEST_F(ParScenes, HaveAComponentForEachType) {
   EXPECT_EQ(scene.components[1].types, std::vector<int>{4});
   EXPECT_EQ(scene.components[1].size_fixed, 20);
   EXPECT_EQ(scene.components[1].brightness, 1.5);
+}
+
+TEST_F(ParScenes, HaveTwoEyesThatConverge) {
+  EXPECT_FALSE(read("EyeSeparation=0\n").stereo);
+  const Stereo eyes = *read("EyeSeparation=0.8\n").stereo;
+  EXPECT_EQ(eyes.angle_degrees, 0.8);
+  EXPECT_EQ(eyes.mode, StereoMode::off_axis);
+  EXPECT_EQ(eyes.eyes, StereoEyes::centered);
+  EXPECT_THAT(notes_, IsEmpty());
+  EXPECT_EQ(read("EyeSeparation=0.8\ndome=T\n").stereo->mode, StereoMode::off_axis);
+  EXPECT_EQ(read("EyeSeparation=0.8\nprojection=F\n").stereo->mode, StereoMode::toe_in);
+  EXPECT_THAT(notes_, Contains(HasSubstr("EyeSeparation")));
+}
+
+TEST_F(ParScenes, HaveDomesAndPanoramas) {
+  const Camera dome = *read("dome=T\nfov=30\n").camera;
+  EXPECT_EQ(dome.projection, Projection::fisheye);
+  EXPECT_EQ(field_of_view_degrees(dome), 180);
+  const Camera panorama = *read("panorama=T\nfov=30\nzmax=7\n").camera;
+  EXPECT_EQ(panorama.projection, Projection::cube);
+  EXPECT_EQ(panorama.cube_layout, CubeLayout::files);
+  EXPECT_EQ(panorama.far_limit, 7);
+  EXPECT_THAT(notes_, IsEmpty());
+  EXPECT_THAT(error("dome=T\npanorama=T\n"), HasSubstr("key panorama"));
+  EXPECT_THAT(error("panorama=T\nyres=400\n"), HasSubstr("image.size"));
+}
+
+// The first frame's, with what the file says of the camera beside it.
+TEST_F(ParScenes, HaveTheCameraOfTheirPath) {
+  std::ofstream(folder_ / "x.path") << "camera_x camera_y camera_z lookat_x lookat_y lookat_z\n"
+                                       "7 8 9 0 0 0\n1 1 1 0 0 0\n";
+  const Scene scene = read(
+      "camera_x=\ncamera_y=\ncamera_z=\nlookat_x=\nlookat_y=\nlookat_z=\nfov=30\nzmin=2\n"
+      "scene_file=x.path\n");
+  EXPECT_EQ(scene.camera->position.a[0], 7);
+  EXPECT_EQ(scene.camera->look_at.a[0], 0);
+  EXPECT_EQ(scene.camera->sky.a[2], 1);
+  EXPECT_EQ(scene.camera->field_of_view_degrees, 30);
+  EXPECT_EQ(scene.camera->near_limit, 2);
+  EXPECT_EQ(scene.path.file, path("x.path"));
+}
+
+TEST_F(ParScenes, NameFactorsThatTheirPathsColumnsDoNotHave) {
+  std::ofstream(folder_ / "x.path") << "size_fac0 color_min0\n1 2\n";
+  read("scene_file=x.path\nsmooth_factor0=2\ncolor_fac0=10\n");
+  EXPECT_THAT(notes_, Contains(HasSubstr("smooth_factor0 is not carried over")));
+  EXPECT_THAT(notes_, Contains(HasSubstr("color_fac0 is not carried over")));
 }
 
 TEST_F(ParScenes, AbsorbAsTheFileSays) {

@@ -102,6 +102,40 @@ TEST(Pictures, OfTheSecondEyeAreSeenFromTheRight) {
   EXPECT_NEAR(frames[1].camera.position.a[0], -step, 1e-12);
 }
 
+// Each eye sees the inset with its own eyes: what the inset looks at has no disparity in it.
+TEST(Pictures, OfTwoEyesHaveInsetsOfTwoEyes) {
+  for (const char* projection : {"perspective", "equirectangular"}) {
+    const bool is_wide = std::string(projection) == "equirectangular";
+    std::vector<Frame> frames;
+    Scene scene = scene_with({"stereo.angle=2", "finish.inset.show=true",
+                              "finish.inset.position=[0,0,-7]", "finish.inset.look_at=[0,0,-2]",
+                              "finish.inset.border=0", "finish.inset.size=[0.5,0.5]"});
+    scene.camera->projection = is_wide ? Projection::equirectangular : Projection::perspective;
+    Frame whole;
+    whole.width = 80;
+    whole.height = 40;
+    whole.crop = {0, 0, 80, 40};
+    whole.projection = scene.camera->projection;
+    whole.camera = make_camera_frame(*scene.camera, whole.width, whole.height);
+    std::vector<std::string> notes;
+    draw_pictures(
+        scene, whole, SnapshotInfo(),
+        [&frames](const Frame& frame) {
+          frames.push_back(frame);
+          return Image(frame.width, frame.height);
+        },
+        notes);
+    ASSERT_EQ(frames.size(), 4U);  // each eye's picture and its inset
+    const CameraFrame &left = frames[1].camera, &right = frames[3].camera;
+    EXPECT_EQ(frames[1].projection, Projection::perspective);
+    EXPECT_EQ(left.position.a[2], -7);
+    const double step = 2 * 3.14159265358979323846 / 180 * 5;
+    EXPECT_NEAR(left.position.a[0] - right.position.a[0], step, 1e-12);
+    // x of the inset's look-at point in both.
+    EXPECT_NEAR(left.centre_x, right.centre_x - right.focal_pixels * step / 5, 1e-9);
+  }
+}
+
 TEST(Pictures, OfACubeAreOneSheet) {
   std::vector<Frame> frames;
   const auto pictures = numbered(scene_with({"camera.projection=cube"}), &frames);
@@ -173,6 +207,8 @@ TEST(Pictures, ThatNoCameraCanTakeAreRefusedBeforeAnythingIsRead) {
   expect_refused({"camera.projection=orthographic", "stereo.angle=2"}, "stereo.mode", "toe_in");
   expect_refused({"camera.projection=fisheye", "stereo.mode=toe_in"}, "stereo.mode", "parallel");
   expect_refused({"stereo.angle=0"}, "stereo.angle", "> 0");
+  expect_refused({"finish.scale_bar.show=true", "camera.projection=fisheye"},
+                 "finish.scale_bar.show", "perspective");
 }
 
 }  // namespace

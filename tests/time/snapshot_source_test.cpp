@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "io/sequence/snapshot_list.h"
 #include "io/snapshot_writer.h"
 #include "splotchcl/error.h"
@@ -110,6 +113,30 @@ TEST_F(Sequence, IsTheSameInAnyOrderOfFrames) {
     const auto frame = film.at(scene(index));
     frame->read(0, "density");
     expect_same_snapshot(*frame, *SnapshotSource().at(scene(index)));
+  }
+}
+
+// By particles, wherever they are in either file; and the list is read once for all moments.
+TEST_F(Sequence, SelectsByIdsBetweenSnapshots) {
+  const int gas = 0;
+  const std::uint64_t wanted = file(4)->read_ids(gas).at(1);
+  std::ofstream(folder_ / "ids.txt") << wanted << "\n";
+  Scene selecting = scene(4.5);
+  selecting.components.emplace_back();
+  selecting.components[0].size_fixed = 1;
+  selecting.components[0].select.id_file = (folder_ / "ids.txt").string();
+  SnapshotSource source;
+  std::vector<std::string> notes;
+  for (const double index : {4.5, 4.75, 5.25}) {
+    selecting.time.index = index;
+    const std::shared_ptr<const Snapshot> moment = source.at(selecting);
+    const std::vector<std::uint64_t> ids = moment->read_ids(gas);
+    const auto place = std::find(ids.begin(), ids.end(), wanted) - ids.begin();
+    const Frame frame = load_frame(selecting, *moment, notes);
+    ASSERT_EQ(frame.components[0].particles.count, 1U);
+    EXPECT_EQ(frame.components[0].particles.position[0],
+              moment->read(gas, "position")[3 * static_cast<std::size_t>(place)]);
+    std::filesystem::remove(folder_ / "ids.txt");
   }
 }
 

@@ -67,10 +67,11 @@ void check_finish(const Scene& scene, const SnapshotInfo& snapshot) {
   check_cross_fade(scene);
 }
 
-PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot)
+PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                             std::optional<Eye> eye)
     : settings_(scene.finish), gamma_(scene.image.gamma), crop_(frame.crop) {
   Layout layout(frame.width, frame.height);
-  if (settings_.inset.show) inset_ = make_inset(scene, frame, layout);
+  if (settings_.inset.show) inset_ = make_inset(scene, frame, eye, layout);
   if (!has_text(settings_)) return;
   const TextStyle style(settings_, gamma_, layout.unit());
   for (const NamedText& named : texts_of(settings_)) {

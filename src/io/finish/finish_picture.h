@@ -18,10 +18,12 @@ void check_finish(const Scene& scene, const SnapshotInfo& snapshot);
 // picture is drawn. Nothing is done for a scene that asks for nothing.
 class PictureFinish {
  public:
-  // Throws UsageError.
-  PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
+  // The frame is that of the middle between the eyes where the picture is one eye's. Throws
+  // UsageError.
+  PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                std::optional<Eye> eye = std::nullopt);
 
-  // `image` is the frame's picture; `draw` draws the inset.
+  // `image` is the frame's, or the eye's, picture; `draw` draws the inset.
   void apply(Image& image, const DrawFrame& draw) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
 #include "io/common/nearest_name.h"
@@ -25,7 +26,7 @@ Camera camera_of(const InsetSettings& settings, const Frame& frame) {
   camera.position = settings.position.value_or(own.position);
   camera.look_at =
       settings.look_at.value_or(Vec3(own.position + own.forward * own.look_at_distance));
-  camera.sky = settings.sky.value_or(Vec3(-own.down));
+  camera.sky = settings.sky.value_or(boost::qvm::cross(own.right, own.forward));
   camera.field_of_view_degrees = settings.field_of_view_degrees;
   if (is_wide_angle(frame.projection)) {
     camera.projection = Projection::perspective;
@@ -43,9 +44,14 @@ void keep_components(const std::vector<std::string>& names, std::vector<DrawnCom
   all.erase(std::remove_if(all.begin(), all.end(), is_hidden), all.end());
 }
 
-CameraFrame inset_camera(const InsetSettings& settings, const Frame& frame, int width, int height) {
+// With two eyes, those of the inset are as far apart as suits its own look-at point.
+CameraFrame inset_camera(const Scene& scene, const Frame& frame, std::optional<Eye> eye, int width,
+                         int height) {
   try {
-    return make_camera_frame(camera_of(settings, frame), width, height);
+    const Camera camera = camera_of(scene.finish.inset, frame);
+    CameraFrame seen = make_camera_frame(camera, width, height);
+    if (scene.image.convention == PixelConvention::original) seen = in_original_convention(seen);
+    return eye ? eye_camera(seen, camera.projection, *scene.stereo, *eye) : seen;
   } catch (const UsageError& error) {
     throw UsageError(std::string("finish.inset: ") + error.what());
   }
@@ -66,7 +72,7 @@ void check_inset(const Scene& scene) {
   }
 }
 
-Inset make_inset(const Scene& scene, const Frame& frame, Layout& layout) {
+Inset make_inset(const Scene& scene, const Frame& frame, std::optional<Eye> eye, Layout& layout) {
   const InsetSettings& settings = scene.finish.inset;
   const int width = std::max(1, static_cast<int>(std::lround(settings.size[0] * frame.width)));
   const int height = std::max(1, static_cast<int>(std::lround(settings.size[1] * frame.height)));
@@ -83,7 +89,7 @@ Inset make_inset(const Scene& scene, const Frame& frame, Layout& layout) {
   inset.frame.width = width;
   inset.frame.height = height;
   inset.frame.crop = {0, 0, width, height};
-  inset.frame.camera = inset_camera(settings, frame, width, height);
+  inset.frame.camera = inset_camera(scene, frame, eye, width, height);
   if (is_wide_angle(frame.projection)) inset.frame.projection = Projection::perspective;
   if (frame.background_image) {
     inset.frame.background_image =

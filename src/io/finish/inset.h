@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
+
 #include "io/finish/layout.h"
 #include "io/finish/text_style.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene.h"
+#include "splotchcl/stereo.h"
 
 namespace splotchcl {
 
@@ -19,9 +22,10 @@ struct Inset {
 // Throws UsageError for names that no component has.
 void check_inset(const Scene& scene);
 
-// The frame as the inset's camera sees it, and its place. Throws UsageError where its camera
+// The frame as the inset's camera, or an eye of it, sees it, and its place. The frame has the
+// camera in the middle between or beside the eyes. Throws UsageError where the inset's camera
 // or its size is not possible.
-Inset make_inset(const Scene& scene, const Frame& frame, Layout& layout);
+Inset make_inset(const Scene& scene, const Frame& frame, std::optional<Eye> eye, Layout& layout);
 
 // `picture` is the inset's own, with the picture's exposure, saturation and contrast.
 void put(Canvas& canvas, const Inset& inset, const Image& picture);

@@ -8,8 +8,7 @@
 namespace splotchcl {
 
 // A bar as long as its length at the look-at point appears, with the length above it.
-// Throws UsageError for projections that have no such scale, and for lengths that do not
-// fit.
+// Pictures of wide angles have no such scale. Throws UsageError for lengths that do not fit.
 Overlay make_scale_bar(const ScaleBarSettings& settings, const Frame& frame,
                        const SnapshotInfo& snapshot, const TextStyle& style, Layout& layout);
 

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
 
+#include "scene/reference_column.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/snapshot.h"
 
@@ -9,6 +11,10 @@ namespace splotchcl {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+
+bool is_decided(const FieldMap& map) {
+  return map.field.empty() || (map.minimum && map.maximum);
+}
 
 // A scene without a camera is drawn in perspective by the camera that load_frame chose.
 Camera camera_of(const Frame& frame) {
@@ -26,7 +32,7 @@ Camera camera_of(const Frame& frame) {
 }
 
 void decide(FieldMap& map, const ScalarMap& decided) {
-  if (map.field.empty()) return;
+  if (is_decided(map)) return;
   if (!map.minimum) map.minimum = unscaled(decided.minimum, map.scaling);
   if (!map.maximum) map.maximum = unscaled(decided.maximum, map.scaling);
   map.percentiles.reset();
@@ -40,14 +46,24 @@ Scene decide_scene(const Scene& scene, const Frame& frame) {
   for (std::size_t i = 0; i < decided.components.size(); ++i) {
     Component& component = decided.components[i];
     const DrawnComponent& drawn = frame.components.at(i);
+    if (!component.weight) component.weight = drawn.weight;
+    if (drawn.particles.count == 0) continue;
     decide(component.color, drawn.color);
     decide(component.intensity, drawn.intensity);
-    if (!component.weight) component.weight = drawn.weight;
-    if (!component.reference_column) {
+    if (!component.reference_column && find_reference_column(drawn, frame)) {
       component.reference_column = drawn.reference_column * drawn.particles_per_drawn;
     }
   }
   return decided;
+}
+
+bool is_decided(const Scene& scene) {
+  const bool has_all =
+      std::all_of(scene.components.begin(), scene.components.end(), [](const Component& component) {
+        return component.weight && component.reference_column && is_decided(component.color) &&
+               is_decided(component.intensity);
+      });
+  return scene.camera && has_all;
 }
 
 }  // namespace splotchcl

@@ -165,7 +165,7 @@ DrawnComponent load_component(const Component& component, const Scene& scene,
     drawn.intensity = decide_map(component.intensity, particles.intensity, fields, "intensity");
   }
   if (scene.sort.by == SortOrder::By::field) {
-    particles.sort_field = fields.scalars(scene.sort.field, "sort.field");
+    particles.sort_field = fields.scalars(scene.sort.field, "sort.by");
   }
   return drawn;
 }
@@ -209,12 +209,15 @@ Camera choose_camera(const Scene& scene, const Snapshot& snapshot) {
   return suggest_camera(snapshot, types, scene.image.width, scene.image.height);
 }
 
-// The original's samples lie on whole coordinates, and its rows grow along the sky direction.
-void use_original_convention(CameraFrame& camera) {
-  using namespace boost::qvm;
-  camera.down = -camera.down;
-  camera.centre_x += 0.5;
-  camera.centre_y += 0.5;
+// Read once for all frames of a film.
+std::shared_ptr<const Image> background_image(const ImageSettings& image,
+                                              const Snapshot& snapshot) {
+  if (image.background_image.empty()) return nullptr;
+  const std::string key = fmt::format("background {} {}x{} {}", image.background_image, image.width,
+                                      image.height, image.gamma);
+  return snapshot.memory().get_for_all_times<std::shared_ptr<const Image>>(key, [&image] {
+    return load_background_image(image.background_image, image.width, image.height, image.gamma);
+  });
 }
 
 // The components with their snapshots: whatever can be refused before anything is read.
@@ -269,6 +272,12 @@ class OpenComponents {
 
 }  // namespace
 
+void check_load(const Scene& scene, const Snapshot& snapshot) {
+  check_finish(scene, snapshot.info());
+  std::vector<std::string> ignored;
+  OpenComponents(scene, snapshot, missing_sizes(scene, {}), ignored);
+}
+
 Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
                  const LoadProgress& progress) {
   if (scene.components.empty()) {
@@ -283,15 +292,14 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
   frame.height = scene.image.height;
   frame.crop = {0, 0, frame.width, frame.height};
   frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  if (scene.image.convention == PixelConvention::original) use_original_convention(frame.camera);
+  if (scene.image.convention == PixelConvention::original) {
+    frame.camera = in_original_convention(frame.camera);
+  }
   frame.projection = camera.projection;
   frame.near_limit = camera.near_limit;
   frame.far_limit = camera.far_limit;
   frame.background = scene.image.background;
-  if (!scene.image.background_image.empty()) {
-    frame.background_image = load_background_image(scene.image.background_image, frame.width,
-                                                   frame.height, scene.image.gamma);
-  }
+  frame.background_image = background_image(scene.image, snapshot);
   frame.kernel = scene.kernel;
   frame.sort = scene.sort;
   frame.tolerance = scene.tolerance;

@@ -86,7 +86,7 @@ void ComponentFields::check(const SortOrder& sort) const {
   if (!component_.size_fixed) check_scalars(component_.size_field, "size.field");
   check_scalars(component_.color.field, "color.field");
   check_scalars(component_.intensity.field, "intensity.field");
-  if (sort.by == SortOrder::By::field) check_scalars(sort.field, "sort.field");
+  if (sort.by == SortOrder::By::field) check_scalars(sort.field, "sort.by");
 }
 
 void ComponentFields::select() {

@@ -5,12 +5,17 @@
 namespace splotchcl {
 
 std::shared_ptr<const Snapshot> LoadMemory::companion(const std::string& path) {
-  std::shared_ptr<const Snapshot>& snapshot = (*companions_)[path];
+  std::shared_ptr<const Snapshot>& snapshot = shared_->companions[path];
   if (!snapshot) snapshot = open_snapshot(path);
   return snapshot;
 }
 
 void LoadMemory::begin_load() {
+  own_.begin_load();
+  shared_->values.begin_load();
+}
+
+void LoadMemory::Values::begin_load() {
   constexpr std::uint64_t kept_loads = 2;
   ++load_;
   for (auto value = values_.begin(); value != values_.end();) {
@@ -23,8 +28,8 @@ LoadMemory& Snapshot::memory() const {
   return *memory_;
 }
 
-void Snapshot::share_companions_of(const Snapshot& other) {
-  memory().share_companions_of(other.memory());
+void Snapshot::share_lasting_memory_of(const Snapshot& other) {
+  memory().share_with(other.memory());
 }
 
 }  // namespace splotchcl

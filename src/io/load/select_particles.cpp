@@ -88,8 +88,8 @@ class Membership {
   }
 
   void keep_ids(const std::string& file) {
-    const Ids& wanted =
-        snapshot_.memory().get<Ids>("ids " + file, [&] { return read_id_list(file); });
+    const Ids& wanted = snapshot_.memory().get_for_all_times<Ids>(
+        "ids " + file, [&] { return read_id_list(file); });
     const Ids own = fields_.ids();
     keep_if(
         [&](std::size_t i) { return std::binary_search(wanted.begin(), wanted.end(), own[i]); });
@@ -139,7 +139,8 @@ void check_set(const ParticleSet& set, const std::string& key, const TypeFields&
     }
   }
   if (set.id_file.empty()) return;
-  snapshot.memory().get<Ids>("ids " + set.id_file, [&set] { return read_id_list(set.id_file); });
+  snapshot.memory().get_for_all_times<Ids>("ids " + set.id_file,
+                                           [&set] { return read_id_list(set.id_file); });
   if (find_field(fields.info(), "id") == nullptr) snapshot.read_ids(fields.info().type);
 }
 

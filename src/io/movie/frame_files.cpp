@@ -91,9 +91,26 @@ void FrameFiles::check() const {
   }
 }
 
-void FrameFiles::open(const std::string& manifest) {
+bool FrameFiles::is_begun() const {
   std::error_code error;
-  if (std::filesystem::exists(manifest_, error)) {
+  return std::filesystem::exists(manifest_, error);
+}
+
+bool FrameFiles::is_complete(const std::vector<int>& frames) const {
+  const auto exists = [](const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+  };
+  return !is_begun() &&
+         std::all_of(suffixes_.begin(), suffixes_.end(), [&](const std::string& suffix) {
+           if (is_film_) return exists(film(suffix));
+           return std::all_of(frames.begin(), frames.end(),
+                              [&](int frame) { return exists(picture(frame, suffix)); });
+         });
+}
+
+void FrameFiles::open(const std::string& manifest) {
+  if (is_begun()) {
     const std::string found = read_text_file(manifest_);
     if (found == manifest) return;
     throw UsageError(fmt::format(
@@ -101,6 +118,7 @@ void FrameFiles::open(const std::string& manifest) {
         "another output",
         manifest_.string(), difference(found, manifest), is_film_ ? "the folder" : "this file"));
   }
+  std::error_code error;
   if (is_film_ && !std::filesystem::create_directories(folder_, error) && error) {
     throw DataError(folder_.string() + ": cannot be created: " + error.message());
   }

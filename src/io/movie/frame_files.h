@@ -24,6 +24,10 @@ class FrameFiles {
 
   // Throws DataError where nothing can be written.
   void check() const;
+  // Whether there are frames of a film that is not complete.
+  bool is_begun() const;
+  // Whether all that is written in the end is there.
+  bool is_complete(const std::vector<int>& frames) const;
   // Begins a film, or goes on with one of the same manifest. Throws UsageError where there are
   // frames of another.
   void open(const std::string& manifest);

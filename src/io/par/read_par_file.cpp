@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "io/common/text_file.h"
-#include "io/palette/palette_file.h"
 #include "io/par/par_keys.h"
 #include "io/par/translate.h"
+#include "io/scene_file/file_names.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 
@@ -29,21 +29,12 @@ Scene read_par_file(const fs::path& path, const std::vector<std::string>& settin
 
 Scene with_paths_from(Scene scene, const fs::path& folder) {
   const fs::path from = fs::absolute(folder.empty() ? fs::path(".") : folder).lexically_normal();
-  const auto move = [&from](std::string& path) {
-    if (path.empty() || fs::path(path).is_absolute()) return;
-    path = fs::absolute(path).lexically_normal().lexically_proximate(from).string();
+  const auto seen_from = [&from](const std::string& path) {
+    if (fs::path(path).is_absolute()) return path;
+    return fs::absolute(path).lexically_normal().lexically_proximate(from).string();
   };
-  move(scene.snapshot);
-  for (std::string& snapshot : scene.time.snapshots)
-    move(snapshot);
-  move(scene.time.pattern);
-  move(scene.path.file);
-  for (Component& component : scene.components) {
-    for (std::string* const palette : {&component.palette, &component.absorption_palette}) {
-      if (is_palette_path(*palette)) move(*palette);
-    }
-    move(component.snapshot);
-  }
+  scene_file::change_file_names(scene, seen_from);
+  if (!scene.time.pattern.empty()) scene.time.pattern = seen_from(scene.time.pattern);
   return scene;
 }
 

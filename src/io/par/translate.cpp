@@ -2,29 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "io/scene_file/keys.h"
 
 namespace splotchcl::par {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A key of ours that a version of this program may not have.
-bool has_key(const std::string& key) {
-  return scene_file::find_key(key) != nullptr;
-}
-
-void translate_eyes(Translation& t) {
+void translate_eyes(const std::string& projection, Translation& t) {
   const double separation = t.par.number("EyeSeparation").value_or(0);
   if (separation == 0) return;
-  if (!has_key("stereo.angle")) {
-    t.note("EyeSeparation is not carried over: one picture is drawn");
-    return;
+  const bool is_flat = projection == "orthographic";
+  if (is_flat) {
+    t.note(
+        "EyeSeparation with a flat projection, whose parallel views are the same for both eyes: "
+        "each eye looks at the look-at point instead");
   }
   t.scene.set_number("stereo.angle", separation);
-  t.scene.set_text("stereo.mode", "off_axis");
+  t.scene.set_text("stereo.mode", is_flat ? "toe_in" : "off_axis");
   t.scene.set_text("stereo.eyes", "centered");
 }
 
@@ -46,15 +42,27 @@ std::string projection(Translation& t) {
   const bool is_perspective = t.par.boolean("projection").value_or(true);
   const bool is_dome = t.par.boolean("dome").value_or(false);
   const bool is_panorama = t.par.boolean("panorama").value_or(false);
-  if ((is_dome || is_panorama) && !has_key("camera.cube")) {
-    t.note("dome and panorama are not carried over: a plain picture is drawn");
-  } else if (is_dome) {
-    return "fisheye";
-  } else if (is_panorama) {
-    t.scene.set_text("camera.cube", "files");
-    return "cube";
-  }
+  if (is_dome && is_panorama) t.par.refuse("panorama", "F, since dome is T");
+  if (is_dome) return "fisheye";
+  if (is_panorama) return "cube";
   return is_perspective ? "perspective" : "orthographic";
+}
+
+// x, y and z of "camera", "lookat" or "sky".
+std::vector<std::optional<double>> coordinates(const std::string& name, Translation& t) {
+  std::vector<std::optional<double>> all;
+  for (const char* const axis : {"_x", "_y", "_z"})
+    all.push_back(t.number_at_start(name + axis));
+  return all;
+}
+
+bool has_any(const std::vector<std::optional<double>>& values) {
+  return std::any_of(values.begin(), values.end(), [](const auto& value) { return bool(value); });
+}
+
+void set_vector(const std::string& key, const std::vector<std::optional<double>>& from,
+                double otherwise_z, Translation& t) {
+  t.scene.set_vector(key, from[0].value_or(0), from[1].value_or(0), from[2].value_or(otherwise_z));
 }
 
 }  // namespace
@@ -70,40 +78,41 @@ std::filesystem::path Translation::file(const std::string& name) const {
   return folder / path;
 }
 
+std::optional<double> Translation::number_at_start(const std::string& key) {
+  const std::optional<double> own = par.number(key);
+  const auto of_path = path_row.find(key);
+  return own || of_path == path_row.end() ? own : of_path->second;
+}
+
 void translate_camera(Translation& t) {
   translate_center(t);
-  const auto coordinate = [&t](const std::string& name, double otherwise) {
-    return t.par.number(name).value_or(otherwise);
-  };
-  const bool has_camera = t.par.has("camera_x") || t.par.has("camera_y") || t.par.has("camera_z");
-  if (!has_camera) {
-    t.note("no camera_x, camera_y and camera_z: the camera is chosen from the data or the path");
-  } else {
-    for (const std::string axis : {"x", "y", "z"}) {
-      if (!t.par.has("lookat_" + axis)) t.par.refuse("lookat_" + axis, "a number, beside camera_x");
-    }
-    t.scene.set_vector("camera.position", coordinate("camera_x", 0), coordinate("camera_y", 0),
-                       coordinate("camera_z", 0));
-    t.scene.set_vector("camera.look_at", coordinate("lookat_x", 0), coordinate("lookat_y", 0),
-                       coordinate("lookat_z", 0));
-  }
-  const bool has_sky = t.par.has("sky_x") || t.par.has("sky_y") || t.par.has("sky_z");
-  const double x = coordinate("sky_x", 0), y = coordinate("sky_y", 0);
-  const double z = coordinate("sky_z", has_sky ? 0 : 1);
   const std::string name = projection(t);
-  const double angle = t.par.number("fov").value_or(45);
-  const double near = t.par.number("zmin").value_or(0);
-  const auto far = t.par.number("zmax");
-  translate_eyes(t);
-  if (!has_camera) return;
-  t.scene.set_vector("camera.sky", x, y, z);
+  translate_eyes(name, t);
+  const std::vector<std::optional<double>> place = coordinates("camera", t);
+  const std::vector<std::optional<double>> look_at = coordinates("lookat", t);
+  const std::vector<std::optional<double>> sky = coordinates("sky", t);
+  const auto angle = t.par.number("fov"), near = t.par.number("zmin"), far = t.par.number("zmax");
+  if (!has_any(place)) {
+    t.note(
+        "no camera_x, camera_y and camera_z: the camera is chosen from the data, and what else the "
+        "file says of it is not carried over");
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!look_at[i]) t.par.refuse(std::string("lookat_") + "xyz"[i], "a number, beside camera_x");
+  }
+  set_vector("camera.position", place, 0, t);
+  set_vector("camera.look_at", look_at, 0, t);
+  set_vector("camera.sky", sky, has_any(sky) ? 0 : 1, t);
   t.scene.set_text("camera.projection", name);
   if (name == "fisheye") {
     t.scene.set_number("camera.field_of_view", 180);
-  } else if (name != "cube") {
-    t.scene.set_number("camera.field_of_view", angle);
+  } else if (name == "cube") {
+    t.scene.set_text("camera.cube", "files");
+  } else {
+    t.scene.set_number("camera.field_of_view", angle.value_or(45));
   }
-  t.scene.set_number("camera.near", near);
+  t.scene.set_number("camera.near", near.value_or(0));
   if (far) t.scene.set_number("camera.far", *far);
 }
 
@@ -120,25 +129,15 @@ void translate_picture(Translation& t) {
   if (gamma != 1) t.scene.set_number("image.gamma", 1 / gamma);
   const double contrast = t.par.number("pic_contrast").value_or(1);
   if (!(contrast > 0)) t.par.refuse("pic_contrast", "a number > 0");
-  if (contrast != 1) {
-    // contrast c^gamma = (2^x c)^gamma
-    if (has_key("finish.exposure")) {
-      t.scene.set_number("finish.exposure", std::log2(contrast) / gamma);
-    } else {
-      t.note("pic_contrast is not carried over");
-    }
-  }
+  // contrast c^gamma = (2^x c)^gamma
+  if (contrast != 1) t.scene.set_number("finish.exposure", std::log2(contrast) / gamma);
   if (t.par.number("pic_brightness").value_or(0) != 0) {
     t.note("pic_brightness is not carried over: nothing here adds light to the whole picture");
   }
   if (t.par.boolean("colorbar").value_or(false)) {
-    if (has_key("finish.color_bar.show")) {
-      t.scene.set("finish.color_bar.show", "true");
-      t.scene.set_text("finish.color_bar.at", "bottom");
-      t.note("colorbar: the bars are drawn in this program's own way, with ticks");
-    } else {
-      t.note("colorbar is not carried over");
-    }
+    t.scene.set("finish.color_bar.show", "true");
+    t.scene.set_text("finish.color_bar.at", "bottom");
+    t.note("colorbar: the bars are drawn in this program's own way, with ticks");
   }
 
   // The cloud is exp(-d^2 / sigma^2) with sigma = 0.5 pi^(-1/6) r', r' = sqrt((2 h)^2 + minrad^2).

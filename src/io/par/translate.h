@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,12 @@ struct Translation {
   std::filesystem::path file(const std::string& name) const;
   void note(const std::string& text) { notes.push_back(text); }
 
+  // A number of the file, or else of its path's first frame.
+  std::optional<double> number_at_start(const std::string& key);
+
   ParFile& par;
-  std::filesystem::path folder;  // of the parameter file
+  std::filesystem::path folder;            // of the parameter file
+  std::map<std::string, double> path_row;  // of the path's first frame, by column
   SceneText scene;
   std::vector<std::string> notes;
 };

@@ -38,6 +38,11 @@ class ComponentKeys {
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
     par_.refuse(name(key), expected);
   }
+  // Values in a path stand for themselves, without the factor that the file's own have.
+  void note_column(const std::string& key, const std::string& factor, Translation& t) const {
+    if (t.path_row.count(name(key)) == 0) return;
+    t.note(fmt::format("{} is not carried over to the path's column {}", name(factor), name(key)));
+  }
 
  private:
   ParFile& par_;
@@ -53,6 +58,10 @@ void translate_field(const std::string& from, const std::string& to, ComponentKe
   const double factor = keys.positive(from + "_fac", 1);
   const auto minimum = keys.number(from + "_min"), maximum = keys.number(from + "_max");
   if (!block) return;
+  if (factor != 1) {
+    for (const char* const limit : {"_min", "_max"})
+      keys.note_column(from + limit, from + "_fac", t);
+  }
   const std::string log = keys.name(from + "_log"), asinh = keys.name(from + "_asinh");
   const bool is_asinh_alone = is_asinh && !keys.has(from + "_log");
   const bool uses_log = is_log && !is_asinh_alone;
@@ -98,6 +107,7 @@ void translate_size(ComponentKeys& keys, Translation& t) {
   const auto block = keys.block("size_label");
   const double factor = keys.positive("size_fac", 1);
   const double smooth_factor = keys.positive("smooth_factor", 1);
+  if (smooth_factor != 1) keys.note_column("size_fac", "smooth_factor", t);
   if (fixed < 0) keys.refuse("size_fix", "a number > 0, or 0 to read sizes from the snapshot");
   std::string size = fmt::format("{{ factor = {}", write_number(factor * smooth_factor));
   if (fixed > 0) {

@@ -5,7 +5,7 @@
 
 #include "io/common/text_file.h"
 #include "io/par/translate.h"
-#include "io/scene_file/keys.h"
+#include "io/path/path_words.h"
 #include "io/sequence/snapshot_list.h"
 #include "io/snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
@@ -26,13 +26,11 @@ std::filesystem::path find(const Translation& t, const std::filesystem::path& pa
   return ExistingFiles().have(path) ? path : t.folder / path;
 }
 
-// Whether the rows of a path say which snapshot they show.
-bool moves_in_time(const std::filesystem::path& path) {
+// Files that cannot be read are refused when the path is.
+std::map<std::string, double> first_row_of(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  const std::string text = read_text_file(path);
-  const std::string first = text.substr(0, text.find('\n'));
-  return first.find("fidx") != std::string::npos;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
+  return first_path_row(read_text_file(path));
 }
 
 void translate_velocities(Translation& t) {
@@ -60,11 +58,7 @@ void translate_periodic(Translation& t, const std::filesystem::path& snapshot) {
     // What is wrong with it will be said when it is drawn.
   }
   if (!wanted && !has_box) return;
-  if (scene_file::find_key("periodic.wrap") != nullptr) {
-    t.scene.set("periodic.wrap", "true");
-  } else {
-    t.note("periodic is not carried over: particles are drawn where they are");
-  }
+  t.scene.set("periodic.wrap", "true");
 }
 
 void note_simtype(Translation& t) {
@@ -81,11 +75,14 @@ void translate_snapshot(Translation& t) {
   note_simtype(t);
   const auto infile = t.par.text("infile");
   if (!infile) t.par.refuse("infile", "the snapshot's name without its number");
-  const double index = t.par.number("fidx").value_or(0);
   const int mode = t.par.integer("interpolation_mode", 0, 2).value_or(0);
   const auto scene_path = t.par.text("scene_file"), geometry_path = t.par.text("geometry_file");
   const auto path = scene_path ? scene_path : geometry_path;
-  if (path) t.scene.set_text("path.file", t.file(*path).string());
+  if (path) {
+    t.scene.set_text("path.file", t.file(*path).string());
+    t.path_row = first_row_of(t.file(*path));
+  }
+  const double index = t.number_at_start("fidx").value_or(0);
 
   const std::string numbered = fill_pattern(escaped(*infile) + "%03d", static_cast<int>(index));
   const bool is_numbered = ExistingFiles().have(find(t, numbered));
@@ -93,8 +90,8 @@ void translate_snapshot(Translation& t) {
   const bool ends_in_digit = std::isdigit(static_cast<unsigned char>(infile->back())) != 0;
   const bool is_whole_name = !is_numbered && (ExistingFiles().have(find(t, *infile)) ||
                                               (!t.par.has("fidx") && ends_in_digit));
-  const bool is_sequence = !is_whole_name && (mode > 0 || index != std::floor(index) ||
-                                              (path && moves_in_time(t.file(*path))));
+  const bool is_sequence =
+      !is_whole_name && (mode > 0 || index != std::floor(index) || t.path_row.count("fidx") > 0);
   const std::filesystem::path snapshot = find(t, is_whole_name ? *infile : numbered);
   if (is_sequence) {
     const std::filesystem::path folder = snapshot.parent_path();

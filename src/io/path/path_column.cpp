@@ -141,7 +141,10 @@ PathColumn find_path_column(const std::string& name, const Scene& scene, const s
     throw UsageError(fmt::format("{}: found {}, expected a key that may change within a film",
                                  where, scene_file::write_text(name)));
   }
+  column.path = place->path;
   column.label = place->label;
+  // The original's is of r = 2 h.
+  if (name == "minrad_pix") column.factor = 0.5;
   const std::string last = place->path.substr(place->path.rfind('.') + 1);
   const bool is_range = last == "min" || last == "max";
   if (key != name && is_range) column.undo = scaling_to_undo(*place, scene);

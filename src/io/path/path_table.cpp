@@ -1,6 +1,5 @@
 #include "io/path/path_table.h"
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,8 @@
 #include <utility>
 
 #include "io/common/text_file.h"
+#include "io/path/path_words.h"
+#include "io/scene_file/file_names.h"
 #include "io/scene_file/values.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/error.h"
@@ -22,40 +23,18 @@ using scene_file::one_line;
 using scene_file::write_number;
 using scene_file::write_text;
 
-const std::vector<std::string> columns_without_header = {
-    "camera_x", "camera_y", "camera_z", "lookat_x", "lookat_y",
-    "lookat_z", "sky_x",    "sky_y",    "sky_z",    "fidx"};
-
-// Words between spaces or commas, up to a comment.
-std::vector<std::string> split(std::string line) {
-  line = line.substr(0, line.find('#'));
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream words(line);
-  std::vector<std::string> result;
-  for (std::string word; words >> word;)
-    result.push_back(word);
-  return result;
-}
-
-// Not only finite ones.
-std::optional<double> read_number(const std::string& word) {
-  const char* const end = word.data() + word.size();
-  const char* const begin = word.data() + (word.size() > 1 && word[0] == '+' ? 1 : 0);
-  double value = 0;
-  const auto [next, error] = fast_float::from_chars(begin, end, value);
-  if (error != std::errc() || next != end) return std::nullopt;
-  return value;
-}
-
-bool is_number(const std::string& word) {
-  return read_number(word).has_value();
-}
-
-// A value of the file as TOML. Words are left to the key, which knows what it takes.
-std::optional<std::string> read_value(const std::string& word, const PathColumn& column) {
-  std::optional<double> number = read_number(word);
-  if (!number) return column.axis || column.undo ? std::nullopt : std::optional(word);
+// A value of the file as TOML. Words are left to the key, which knows what it takes, but for
+// names of files, which stand relative to the file.
+std::optional<std::string> read_value(const std::string& word, const PathColumn& column,
+                                      const std::filesystem::path& folder) {
+  std::optional<double> number = path_number(word);
+  if (!number) {
+    if (column.axis || column.undo || column.factor != 1) return std::nullopt;
+    return scene_file::with_file_name(
+        column.path, word, [&folder](const std::string& name) { return (folder / name).string(); });
+  }
   if (column.undo) number = unscaled(*number, *column.undo);
+  *number *= column.factor;
   if (!std::isfinite(*number)) return std::nullopt;
   return write_number(*number);
 }
@@ -71,10 +50,10 @@ void PathTable::read_text(const std::string& text, const Scene& scene) {
   int line = 0;
   for (std::string content; std::getline(lines, content);) {
     ++line;
-    const std::vector<std::string> words = split(content);
+    const std::vector<std::string> words = path_words(content);
     if (words.empty()) continue;
     const bool is_first = columns_.empty();
-    const bool is_header = is_first && !std::all_of(words.begin(), words.end(), is_number);
+    const bool is_header = is_first && is_path_header(words);
     if (is_first)
       read_header(is_header ? words : std::vector<std::string>(words.size()), line, scene);
     if (!is_header) rows_.push_back(read_row(words, line));
@@ -88,14 +67,15 @@ void PathTable::read_text(const std::string& text, const Scene& scene) {
 void PathTable::read_header(const std::vector<std::string>& words, int line, const Scene& scene) {
   std::vector<std::string> names = words;
   if (names.front().empty()) {
-    const std::size_t full = columns_without_header.size();
+    const std::vector<std::string>& expected = path_columns_without_header();
+    const std::size_t full = expected.size();
     if (names.size() != full && names.size() + 1 != full) {
       throw UsageError(fmt::format(
           "{}: found {} columns and no line that names them, expected 9 (x, y and z of camera, "
           "look-at and sky), 10 (and the index of the snapshot), or a first line such as {}",
-          at_line(line), names.size(), fmt::join(columns_without_header, " ")));
+          at_line(line), names.size(), fmt::join(expected, " ")));
     }
-    std::copy_n(columns_without_header.begin(), names.size(), names.begin());
+    std::copy_n(expected.begin(), names.size(), names.begin());
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string where = fmt::format("{}: column {}", at_line(line), i + 1);
@@ -134,7 +114,7 @@ PathTable::Row PathTable::read_row(const std::vector<std::string>& words, int li
   }
   Row row = {line, {}};
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::optional<std::string> value = read_value(words[i], columns_[i]);
+    const std::optional<std::string> value = read_value(words[i], columns_[i], path_.parent_path());
     if (!value) {
       throw UsageError(fmt::format("{}: column {} ({}): found {}, expected a finite number",
                                    at_line(line), i + 1, columns_[i].name,

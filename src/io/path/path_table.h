@@ -14,10 +14,12 @@ namespace splotchcl {
 struct PathColumn {
   std::string name;                 // as the file has it: "camera_x", "camera.position.x"
   std::string key;                  // "camera.position", "component.gas.brightness"
+  std::string path;                 // the same as the list of keys has it, of any component
   std::string label;                // the same with the component's number, as messages have it
   std::optional<std::size_t> axis;  // of a key with three values
   // The original program's ranges are after scaling, a scene's before.
   std::optional<Scaling> undo;
+  double factor = 1;  // from the original program's value to the scene's
 };
 
 // Whether a key, by its path in the list of keys, may have another value in each frame.

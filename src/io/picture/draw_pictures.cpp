@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "io/finish/cross_fade.h"
 #include "io/finish/fade.h"
 #include "io/finish/finish_picture.h"
+#include "io/picture/other_scenes.h"
 #include "io/picture/views.h"
 #include "splotchcl/picture.h"
-#include "splotchcl/sequence.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
@@ -44,9 +43,11 @@ std::vector<Picture> draw_views(const Scene& scene, const Frame& frame,
     pictures.push_back({size.suffix, Image(size.width, size.height)});
   }
   for (const ViewPlace& place : view_places(scene)) {
-    const Frame view = frame_of_view(scene, frame, place);
-    const PictureFinish finish(scene, view, snapshot);
-    Image image = draw(view);
+    ViewPlace between_eyes = place;
+    between_eyes.eye.reset();
+    const PictureFinish finish(scene, frame_of_view(scene, frame, between_eyes), snapshot,
+                               place.eye);
+    Image image = draw(frame_of_view(scene, frame, place));
     finish.apply(image, draw);
     const auto picture = std::find_if(pictures.begin(), pictures.end(),
                                       [&](const Picture& p) { return p.suffix == place.suffix; });
@@ -55,32 +56,31 @@ std::vector<Picture> draw_views(const Scene& scene, const Frame& frame,
   return pictures;
 }
 
-// The pictures of the scene that this one fades to.
-std::vector<Picture> draw_other(const Scene& other, const Rectangle& crop, const DrawFrame& draw,
-                                std::vector<std::string>& notes) {
-  const std::shared_ptr<const Snapshot> snapshot = SnapshotSource().at(other);
-  Frame frame = load_frame(other, *snapshot, notes);
-  frame.crop = crop;
-  return draw_pictures(other, frame, snapshot->info(), draw, notes);
-}
-
 }  // namespace
 
 std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
                                    const SnapshotInfo& snapshot, const DrawFrame& draw,
-                                   std::vector<std::string>& notes) {
+                                   std::vector<std::string>& notes, OtherScenes& other_scenes) {
   const std::optional<Scene> other = cross_fade_scene(scene);
-  const double amount = scene.finish.cross_fade.amount;
-  std::vector<Picture> pictures = other && amount == 1 ? draw_other(*other, frame.crop, draw, notes)
-                                                       : draw_views(scene, frame, snapshot, draw);
+  const auto& [file, amount] = scene.finish.cross_fade;
+  std::vector<Picture> pictures = other && amount == 1
+                                      ? other_scenes.draw(file, *other, frame.crop, draw, notes)
+                                      : draw_views(scene, frame, snapshot, draw);
   if (other && amount < 1) {
-    const std::vector<Picture> others = draw_other(*other, frame.crop, draw, notes);
+    const std::vector<Picture> others = other_scenes.draw(file, *other, frame.crop, draw, notes);
     for (std::size_t i = 0; i < pictures.size(); ++i)
       mix(pictures[i].image, others[i].image, amount);
   }
   for (Picture& picture : pictures)
     fade_to_color(picture.image, scene.finish, scene.image.gamma);
   return pictures;
+}
+
+std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
+                                   const SnapshotInfo& snapshot, const DrawFrame& draw,
+                                   std::vector<std::string>& notes) {
+  OtherScenes others;
+  return draw_pictures(scene, frame, snapshot, draw, notes, others);
 }
 
 std::vector<Picture> draw_pictures(const Scene& scene, const Snapshot& snapshot,

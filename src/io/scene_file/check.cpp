@@ -55,6 +55,14 @@ void check_two_eyes(const Scene& scene, const Origins& origins) {
   check_at(origins, [&] { check_stereo(*scene.stereo, projection); });
 }
 
+void check_scale_bar(const Scene& scene, const Origins& origins) {
+  const bool has_one_scale = !scene.camera || !is_wide_angle(scene.camera->projection);
+  if (!scene.finish.scale_bar.show || has_one_scale) return;
+  refuse(origins.at("finish.scale_bar.show"), "finish.scale_bar.show",
+         "true with a picture of wide angles, in which no length has one size",
+         "camera.projection \"perspective\" or \"orthographic\", or no scale bar");
+}
+
 void check_sort(const SortOrder& sort, const Origins& origins) {
   if (sort.by == SortOrder::By::depth) return;
   if (sort.field.empty() || sort.field == "depth") {
@@ -211,6 +219,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   check_image(scene.image, origins);
   if (scene.camera) check_camera(scene, origins);
   if (scene.stereo) check_two_eyes(scene, origins);
+  check_scale_bar(scene, origins);
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
   check_time(scene, origins);

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "io/common/text_file.h"
-#include "io/image/text.h"
-#include "io/palette/palette_file.h"
 #include "io/scene_file/builder.h"
+#include "io/scene_file/file_names.h"
 
 namespace splotchcl {
 namespace {
@@ -25,24 +24,9 @@ std::string in_folder(const std::filesystem::path& folder, const std::string& pa
 
 // What the file names stands relative to the file; what a setting names does not.
 void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
-  if (!scene.snapshot.empty()) scene.snapshot = (folder / scene.snapshot).string();
-  if (!scene.path.file.empty()) scene.path.file = (folder / scene.path.file).string();
-  for (std::string& snapshot : scene.time.snapshots)
-    snapshot = (folder / snapshot).string();
+  scene_file::change_file_names(
+      scene, [&folder](const std::string& name) { return (folder / name).string(); });
   if (!scene.time.pattern.empty()) scene.time.pattern = in_folder(folder, scene.time.pattern);
-  for (std::string* const path : {&scene.image.background_image, &scene.finish.cross_fade.scene}) {
-    if (!path->empty()) *path = (folder / *path).string();
-  }
-  if (is_font_path(scene.finish.font)) scene.finish.font = (folder / scene.finish.font).string();
-  for (Component& component : scene.components) {
-    for (std::string* file :
-         {&component.snapshot, &component.select.id_file, &component.exclude.id_file}) {
-      if (!file->empty()) *file = (folder / *file).string();
-    }
-    for (std::string* palette : {&component.palette, &component.absorption_palette}) {
-      if (is_palette_path(*palette)) *palette = (folder / *palette).string();
-    }
-  }
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ std::shared_ptr<const Snapshot> SnapshotSource::State::at_moment(const SequenceS
     moment = member(place.snapshot);
   }
   // Snapshots of single components are not opened anew for each frame.
-  if (last_ && last_ != moment) moment->share_companions_of(*last_);
+  if (last_ && last_ != moment) moment->share_lasting_memory_of(*last_);
   last_ = std::move(moment);
   read_ahead(place);
   last_index_ = settings.index;

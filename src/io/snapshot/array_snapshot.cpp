@@ -97,7 +97,7 @@ void ArraySnapshot::set_mass(int type, double mass) {
 
 void ArraySnapshot::changed() const {
   LoadMemory fresh;
-  fresh.share_companions_of(memory());
+  fresh.share_with(memory());
   memory() = fresh;
 }
 
