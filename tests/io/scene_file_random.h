@@ -51,6 +51,9 @@ class RandomScenes {
     if (coin()) scene.movie.codec = static_cast<Codec>(integer(0, 2));
     scene.periodic = {coin(), maybe(positive())};
     if (coin()) scene.finish = finish();
+    if (scene.camera && is_wide_angle(scene.camera->projection)) {
+      scene.finish.scale_bar.show = false;
+    }
     const int components = integer(0, 4);
     for (int i = 0; i < components; ++i)
       scene.components.push_back(component(i));

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "io/memory_snapshot.h"
+#include "io/path/film_path.h"
 #include "original_drawing.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/par_file.h"
@@ -113,21 +114,15 @@ std::string palette_text(const OriginalPicture& p) {
   return text;
 }
 
-class ParPictures : public ::testing::TestWithParam<Case> {};
-
+// The picture as it is written, against what the original draws.
+//
 // 2 of 255 is what is promised. With the oracle, whose arithmetic is double precision too,
 // bytes differ by 1 where rounding carries a value across a step, and by more only where a
 // sample lies on the edge of a cloud; none does here.
-TEST_P(ParPictures, AreThoseOfTheOriginal) {
-  const TemporaryFolder folder("par");
-  const OriginalPicture& picture = GetParam().picture;
-  std::ofstream(folder / "picture.par") << par_text(picture);
-  std::ofstream(folder / "test.pal") << palette_text(picture);
+void expect_as_original(const Scene& scene, const OriginalPicture& picture,
+                        const TemporaryFolder& folder) {
   const std::vector<OriginalParticle> particles = random_particles();
-
   std::vector<std::string> notes;
-  const Scene scene = read_par_file(folder / "picture.par", {}, notes);
-  EXPECT_TRUE(notes.empty()) << notes.front();
   const MemorySnapshot snapshot = snapshot_of(particles);
   const Frame frame = load_frame(scene, snapshot, notes);
   ImageFileOptions options;
@@ -148,6 +143,55 @@ TEST_P(ParPictures, AreThoseOfTheOriginal) {
     }
   }
   EXPECT_GT(brightest, 100) << "a picture that is almost black tests little";
+}
+
+Scene read_par(const OriginalPicture& picture, const std::string& more,
+               const TemporaryFolder& folder) {
+  std::ofstream(folder / "picture.par") << par_text(picture) << more;
+  std::ofstream(folder / "test.pal") << palette_text(picture);
+  std::vector<std::string> notes;
+  const Scene scene = read_par_file(folder / "picture.par", {}, notes);
+  EXPECT_TRUE(notes.empty()) << notes.front();
+  return scene;
+}
+
+class ParPictures : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ParPictures, AreThoseOfTheOriginal) {
+  const TemporaryFolder folder("par");
+  const OriginalPicture& picture = GetParam().picture;
+  expect_as_original(read_par(picture, "", folder), picture, folder);
+}
+
+// A path with a header moves the camera and changes other parameters with each frame.
+TEST(ParFilms, AreThoseOfTheOriginal) {
+  const TemporaryFolder folder("par");
+  OriginalPicture picture = seen_from_afar();
+  std::ofstream path(folder / "flight.path");
+  path << "camera_x camera_y camera_z lookat_x lookat_y lookat_z sky_x sky_y sky_z fov minrad_pix "
+          "brightness0\n";
+  std::vector<OriginalPicture> expected;
+  for (int frame = 0; frame < 3; ++frame) {
+    picture.camera[1] = 4 - 5 * frame;
+    picture.lookat[2] = 0.3 * frame;
+    picture.fov = 30 - 4 * frame;
+    picture.minrad_pix = frame;
+    picture.brightness = 3 - 0.5 * frame;
+    expected.push_back(picture);
+    for (const double* vector : {picture.camera, picture.lookat, picture.sky})
+      path << vector[0] << " " << vector[1] << " " << vector[2] << " ";
+    path << picture.fov << " " << picture.minrad_pix << " " << picture.brightness << "\n";
+  }
+  path.close();
+  const Scene scene = read_par(seen_from_afar(), "scene_file=flight.path\n", folder);
+  std::vector<std::string> notes;
+  const FilmPath film(scene, notes);
+  ASSERT_EQ(film.frame_count(), 3);
+  for (int frame = 0; frame < 3; ++frame) {
+    SCOPED_TRACE(frame);
+    expect_as_original(film.scene_at(scene, frame), expected[static_cast<std::size_t>(frame)],
+                       folder);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ParPictures, ::testing::ValuesIn(cases()),
