@@ -228,6 +228,8 @@ Image draw_path_plot(const PathPlot& plot) {
     shown.include(plot.cameras[i].position);
     shown.include(plot.look_at[i]);
   }
+  for (const Vec3& eye : plot.second_eyes)
+    shown.include(eye);
   const double size = shown.size() > 0 ? 1.16 * shown.size() : 1;
   const std::vector<DenseCell> objects = densest_cells(plot.particles, dense_cells_shown);
   for (std::size_t vertical = 1; vertical < 3; ++vertical) {
