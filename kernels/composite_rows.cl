@@ -3,6 +3,17 @@
 // Rows are padded on the right: a row of eight may start at any column.
 #define ROW (TILE_WIDTH + 8)
 #define TILE_PIXELS (TILE_HEIGHT * ROW)
+// Eight floats at any address in one access: vstore8 may become two, and a processor cannot
+// forward two stores to the load of the next splat's row.
+#ifdef __clang__
+typedef float8 __attribute__((aligned(4))) Eight;
+#define load_eight(p) (*(const Eight*)(p))
+#define store_eight(v, p) (*(Eight*)(p) = (v))
+#else
+#define load_eight(p) vload8(0, p)
+#define store_eight(v, p) vstore8(v, 0, p)
+#endif
+
 #ifdef LIGHT_ORDERED
 #define PLANES 6  // source S, then opacity 1 - exp(-tau)
 #else
@@ -65,18 +76,25 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 #ifdef LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = (1 - opacity) X phi(A X),
 // S grows by E u and opacity by A u. Opacity, not transmittance, is carried: it keeps
-// optical depths of 1e-8.
-#define LAYER_ROWS(PHI)                                                             \
-  for (int k = 0; k < window.rows; ++k, pixel += ROW) {                             \
+// optical depths of 1e-8. Written out for each channel, since compilers leave a loop of
+// three as it is, and then fetch E and A anew for every row.
+#define LAYER_CHANNEL(c, PHI)                                               \
+  {                                                                         \
+    float* const source = pixel + c * TILE_PIXELS;                          \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                   \
+    const float8 o = load_eight(opacity);                                   \
+    const float8 covered = shape * PHI(shape * absorption##c);              \
+    const float8 u = (1.0f - o) * covered;                                  \
+    store_eight(load_eight(source) + u * emission##c, source);              \
+    store_eight(o + u * absorption##c, opacity);                            \
+  }
+
+#define LAYER_ROWS(PHI)                                                                  \
+  for (int k = 0; k < window.rows; ++k, pixel += ROW) {                                  \
     const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    for (int c = 0; c < 3; ++c) {                                                   \
-      float* source = pixel + c * TILE_PIXELS;                                      \
-      float* opacity = pixel + (c + 3) * TILE_PIXELS;                               \
-      const float8 o = vload8(0, opacity);                                          \
-      const float8 u = (1.0f - o) * (shape * PHI(shape * splat->light[c]));         \
-      vstore8(vload8(0, source) + u * splat->emission[c], 0, source);               \
-      vstore8(o + u * splat->light[c], 0, opacity);                                 \
-    }                                                                               \
+    LAYER_CHANNEL(0, PHI)                                                                \
+    LAYER_CHANNEL(1, PHI)                                                                \
+    LAYER_CHANNEL(2, PHI)                                                                \
   }
 #endif
 
@@ -122,6 +140,9 @@ inline void update_window(float* tile, Window window, float8 across, const float
 #endif
   float* pixel = tile + window.y * ROW + window.x;
 #ifdef LIGHT_ORDERED
+  const float8 absorption0 = splat->light[0], emission0 = splat->emission[0];
+  const float8 absorption1 = splat->light[1], emission1 = splat->emission[1];
+  const float8 absorption2 = splat->light[2], emission2 = splat->emission[2];
   if (deepest <= p.phi_short) {
     LAYER_ROWS(phi_short)
   } else if (deepest <= p.phi_series) {
@@ -135,9 +156,9 @@ inline void update_window(float* tile, Window window, float8 across, const float
   const float8 light2 = across * splat->light[2];
   for (int k = 0; k < window.rows; ++k, pixel += ROW) {
     const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
-    vstore8(vload8(0, pixel) + shape * light0, 0, pixel);
-    vstore8(vload8(0, pixel + TILE_PIXELS) + shape * light1, 0, pixel + TILE_PIXELS);
-    vstore8(vload8(0, pixel + 2 * TILE_PIXELS) + shape * light2, 0, pixel + 2 * TILE_PIXELS);
+    store_eight(load_eight(pixel) + shape * light0, pixel);
+    store_eight(load_eight(pixel + TILE_PIXELS) + shape * light1, pixel + TILE_PIXELS);
+    store_eight(load_eight(pixel + 2 * TILE_PIXELS) + shape * light2, pixel + 2 * TILE_PIXELS);
   }
 #endif
 }
