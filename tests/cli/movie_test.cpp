@@ -248,6 +248,32 @@ TEST_F(Movie, TellsWhatToInstallWithoutFfmpeg) {
   EXPECT_THAT(result.err, HasSubstr("apt-get install ffmpeg"));
 }
 
+// One line, exit code 2, and nothing drawn.
+TEST_F(Movie, RefusesWhatCannotBeDrawn) {
+  write("empty.txt", "");
+  write("lacking.txt", "camera_x camera_y\n1 2\n");
+  write("film.toml",
+        "snapshot = 'halo.gadget'\n[camera]\nposition = [60, 0, 10]\nlook_at = [0, 0, 0]\n"
+        "sky = [0, 0, 1]\n[path.orbit]\ndegrees = 90\n[movie]\nframes = 6\n"
+        "[[component]]\nname = 'gas'\n");
+  const std::pair<std::string, std::string> cases[] = {
+      {"path.file=empty.txt", "no row of values"},
+      {"path.file=lacking.txt", "camera.position.z as well"},
+      {"component.gas.color.field=nosuch", "nosuch"},
+      {"camera.look_at=[60,0,10]", "the camera's own position"},
+      {"camera.sky=[-60,0,-10]", "parallel to the view"},
+      {"camera.field_of_view=0", "> 0"},
+      {"camera.field_of_view=180", "less than 180"},
+  };
+  for (const auto& [setting, expected] : cases) {
+    const ProgramResult result = movie("-o f_%d.png --set " + setting);
+    EXPECT_EQ(result.exit_code, 2) << setting;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(expected));
+  }
+  EXPECT_EQ(folder_.count_files(), 4U);
+}
+
 TEST_F(Movie, ChecksItsPathBeforeItDraws) {
   write("path.txt", "fov\n30\n180\n");
   const ProgramResult result = splotchcl_in(

@@ -64,6 +64,17 @@ TEST_F(CrossFadeTest, TakesThisScenesCameraWhereTheOtherHasNone) {
   EXPECT_EQ(cross_fade_scene(own(0.5))->camera->position.a[2], 7);
 }
 
+TEST_F(CrossFadeTest, TakesThisScenesMomentWhereTheRunIsTheSame) {
+  const std::string time = "[time]\nsnapshots = 'run_%03d'\nindex = ";
+  Scene scene = own(0.5);
+  scene.time.pattern = path("run_%03d");
+  scene.time.index = 4.25;
+  write("other.toml", time + "1\n[[component]]\n");
+  EXPECT_EQ(cross_fade_scene(scene)->time.index, 4.25);
+  scene.time.pattern = path("another_run_%03d");
+  EXPECT_EQ(cross_fade_scene(scene)->time.index, 1);
+}
+
 TEST_F(CrossFadeTest, NeedsNoOtherSceneWhereNothingOfItIsSeen) {
   write("other.toml", "snapshot = 'b'\n[[component]]\n");
   EXPECT_FALSE(cross_fade_scene(own(0)).has_value());

@@ -9,6 +9,14 @@
 
 namespace splotchcl {
 
+namespace {
+
+bool is_same_run(const SequenceSettings& a, const SequenceSettings& b) {
+  return a.is_set() && a.snapshots == b.snapshots && a.pattern == b.pattern;
+}
+
+}  // namespace
+
 std::optional<Scene> cross_fade_scene(const Scene& scene) {
   const CrossFade& fade = scene.finish.cross_fade;
   if (fade.scene.empty() || fade.amount == 0) return std::nullopt;
@@ -21,6 +29,7 @@ std::optional<Scene> cross_fade_scene(const Scene& scene) {
   other.image.height = scene.image.height;
   other.image.gamma = scene.image.gamma;
   if (!other.camera) other.camera = scene.camera;
+  if (is_same_run(other.time, scene.time)) other.time.index = scene.time.index;
   if (!other.finish.frame) other.finish.frame = scene.finish.frame;
   const std::vector<PictureSize> own = picture_sizes(scene, scene.image.width, scene.image.height);
   const std::vector<PictureSize> others =
