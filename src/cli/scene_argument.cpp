@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <iterator>
 
+#include "io/common/words.h"
 #include "io/snapshot/snapshot_format.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl::cli {
 namespace {
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 // How the settings say that a snapshot is read: it must be open before there is a scene to which
 // all of them apply.

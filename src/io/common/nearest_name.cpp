@@ -1,22 +1,17 @@
 #include "io/common/nearest_name.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <limits>
 #include <utility>
+
+#include "io/common/words.h"
 
 namespace splotchcl {
 namespace {
 
 // Beyond this nobody mistypes a name; it also bounds the work for hostile input.
 constexpr std::size_t longest_name = 200;
-
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // Insertions, deletions, changes and swaps of neighbours that turn a into b.
 std::size_t edit_distance(const std::string& a, const std::string& b) {

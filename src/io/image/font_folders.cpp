@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <optional>
 #include <vector>
 
+#include "io/common/words.h"
 #include "io/image/text.h"
 #include "splotchcl/error.h"
 
@@ -17,14 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 3> endings = {".ttf", ".otf", ".ttc"};
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_font_ending(const std::string& ending) {
-  return std::find(endings.begin(), endings.end(), lower(ending)) != endings.end();
+  return std::find(endings.begin(), endings.end(), lower_case(ending)) != endings.end();
 }
 
 std::vector<fs::path> font_folders() {
@@ -49,8 +43,8 @@ std::optional<fs::path> find_in(const fs::path& folder, const std::string& name)
   for (fs::recursive_directory_iterator entry(folder, options, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path& file = entry->path();
-    const bool fits =
-        is_font_ending(file.extension().string()) && lower(file.stem().string()) == lower(name);
+    const bool fits = is_font_ending(file.extension().string()) &&
+                      lower_case(file.stem().string()) == lower_case(name);
     if (fits && (!found || file < *found)) found = file;
   }
   return found;

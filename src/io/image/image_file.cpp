@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "io/common/unfinished_file.h"
+#include "io/common/words.h"
 #include "io/image/image_library.h"
 #include "io/image/png_file.h"
 #include "splotchcl/error.h"
@@ -50,9 +50,7 @@ std::string endings() {
 }
 
 const Format& format_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_ending(path);
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
     return ending == std::string(".") + format.ending;
   });

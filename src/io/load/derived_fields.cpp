@@ -1,10 +1,9 @@
 #include "io/load/derived_fields.h"
 
-#include <fast_float/fast_float.h>
-
 #include <cmath>
 #include <sstream>
 
+#include "io/common/words.h"
 #include "io/snapshot/field_names.h"
 
 namespace splotchcl {
@@ -13,14 +12,6 @@ namespace {
 constexpr double proton_mass_g = 1.67262192369e-24;
 constexpr double boltzmann_erg_per_kelvin = 1.380649e-16;
 constexpr double adiabatic_index = 5.0 / 3;
-
-std::optional<double> parse_number(const std::string& text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = fast_float::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return number;
-}
 
 // "(km/s)^2" or "(2.998e+10 cm/s)^2", as unit_name() writes squares of velocities.
 std::optional<double> squared_velocity(const std::string& text) {

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
@@ -18,6 +17,7 @@
 #include <system_error>
 
 #include "io/common/text_file.h"
+#include "io/common/words.h"
 #include "splotchcl/error.h"
 
 extern char** environ;
@@ -28,13 +28,6 @@ namespace {
 // ffmpeg's name of the container, by a file's ending.
 const std::map<std::string, std::string> containers = {
     {".mp4", "mp4"}, {".mov", "mov"}, {".mkv", "matroska"}, {".webm", "webm"}};
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 Codec codec_of(const std::filesystem::path& path, const MovieSettings& settings) {
   return settings.codec.value_or(lower_ending(path) == ".webm" ? Codec::vp9 : Codec::h264);

@@ -1,36 +1,15 @@
 #include "io/par/par_file.h"
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "io/common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::par {
-namespace {
-
-std::string trimmed(const std::string& text) {
-  const char* const blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::optional<double> parse_number(const std::string& text) {
-  double value = 0;
-  const char* first = text.data();
-  const char* const last = first + text.size();
-  if (first != last && *first == '+') ++first;
-  const auto [end, error] = fast_float::from_chars(first, last, value);
-  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
 ParFile::ParFile(const std::string& text, std::string name_for_messages)
     : name_(std::move(name_for_messages)) {
   std::istringstream lines(text);
@@ -70,7 +49,7 @@ std::optional<double> ParFile::number(const std::string& key) {
   if (!value) return std::nullopt;
   // "30   (default: 4)": a remark without its mark.
   const auto number = parse_number(value->substr(0, value->find_first_of(" \t")));
-  if (!number) refuse(key, "a finite number");
+  if (!number || !std::isfinite(*number)) refuse(key, "a finite number");
   return number;
 }
 
@@ -86,9 +65,7 @@ std::optional<int> ParFile::integer(const std::string& key, int lowest, int high
 std::optional<bool> ParFile::boolean(const std::string& key) {
   const auto value = text(key);
   if (!value) return std::nullopt;
-  std::string word = value->substr(0, value->find_first_of(" \t"));
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string word = lower_case(value->substr(0, value->find_first_of(" \t")));
   if (word == "t" || word == "true" || word == "1") return true;
   if (word == "f" || word == "false" || word == "0") return false;
   refuse(key, "T or F");

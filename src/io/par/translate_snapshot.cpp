@@ -14,13 +14,6 @@
 namespace splotchcl::par {
 namespace {
 
-std::string escaped(const std::string& path) {
-  std::string pattern;
-  for (const char c : path)
-    pattern += c == '%' ? "%%" : std::string(1, c);
-  return pattern;
-}
-
 std::filesystem::path find(const Translation& t, const std::filesystem::path& path) {
   if (path.is_absolute() || ExistingFiles().have(t.folder / path)) return t.folder / path;
   return ExistingFiles().have(path) ? path : t.folder / path;
@@ -84,7 +77,7 @@ void translate_snapshot(Translation& t) {
   }
   const double index = t.number_at_start("fidx").value_or(0);
 
-  const std::string numbered = fill_pattern(escaped(*infile) + "%03d", static_cast<int>(index));
+  const std::string numbered = fill_pattern(as_pattern(*infile) + "%03d", static_cast<int>(index));
   const bool is_numbered = ExistingFiles().have(find(t, numbered));
   // Older files of the original name the snapshot with its number.
   const bool ends_in_digit = std::isdigit(static_cast<unsigned char>(infile->back())) != 0;
@@ -96,8 +89,8 @@ void translate_snapshot(Translation& t) {
   if (is_sequence) {
     const std::filesystem::path folder = snapshot.parent_path();
     const std::string name = std::filesystem::path(*infile + "x").filename().string();
-    const std::string pattern = escaped(name.substr(0, name.size() - 1)) + "%03d";
-    t.scene.set_text("time.snapshots", escaped((folder / "").string()) + pattern);
+    const std::string pattern = as_pattern(name.substr(0, name.size() - 1)) + "%03d";
+    t.scene.set_text("time.snapshots", as_pattern((folder / "").string()) + pattern);
     t.scene.set_number("time.index", index);
     constexpr const char* modes[] = {"none", "linear", "hermite"};
     t.scene.set_text("time.interpolation", modes[mode]);

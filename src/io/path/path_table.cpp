@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/common/text_file.h"
+#include "io/common/words.h"
 #include "io/path/path_words.h"
 #include "io/scene_file/file_names.h"
 #include "io/scene_file/values.h"
@@ -27,7 +28,7 @@ using scene_file::write_text;
 // names of files, which stand relative to the file.
 std::optional<std::string> read_value(const std::string& word, const PathColumn& column,
                                       const std::filesystem::path& folder) {
-  std::optional<double> number = path_number(word);
+  std::optional<double> number = parse_number(word);
   if (!number) {
     if (column.axis || column.undo || column.factor != 1) return std::nullopt;
     return scene_file::with_file_name(

@@ -1,10 +1,11 @@
 #include "io/path/path_words.h"
 
-#include <fast_float/fast_float.h>
-
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <sstream>
+
+#include "io/common/words.h"
 
 namespace splotchcl {
 
@@ -18,18 +19,9 @@ std::vector<std::string> path_words(std::string line) {
   return result;
 }
 
-std::optional<double> path_number(const std::string& word) {
-  const char* const end = word.data() + word.size();
-  const char* const begin = word.data() + (word.size() > 1 && word[0] == '+' ? 1 : 0);
-  double value = 0;
-  const auto [next, error] = fast_float::from_chars(begin, end, value);
-  if (error != std::errc() || next != end) return std::nullopt;
-  return value;
-}
-
 bool is_path_header(const std::vector<std::string>& words) {
   return !std::all_of(words.begin(), words.end(),
-                      [](const std::string& word) { return path_number(word).has_value(); });
+                      [](const std::string& word) { return parse_number(word).has_value(); });
 }
 
 const std::vector<std::string>& path_columns_without_header() {
@@ -52,7 +44,7 @@ std::map<std::string, double> first_path_row(const std::string& text) {
     if (names.empty()) names = path_columns_without_header();
     std::map<std::string, double> row;
     for (std::size_t i = 0; i < std::min(names.size(), words.size()); ++i) {
-      if (const std::optional<double> value = path_number(words[i])) row[names[i]] = *value;
+      if (const std::optional<double> value = parse_number(words[i])) row[names[i]] = *value;
     }
     return row;
   }

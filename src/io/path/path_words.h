@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +8,6 @@ namespace splotchcl {
 
 // The words of a line of a path file, between blanks or commas and up to a comment.
 std::vector<std::string> path_words(std::string line);
-
-// Nothing for a word that is no number; not only finite ones.
-std::optional<double> path_number(const std::string& word);
 
 // Whether a line names the columns.
 bool is_path_header(const std::vector<std::string>& words);

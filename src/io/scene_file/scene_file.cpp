@@ -7,19 +7,16 @@
 #include "io/common/text_file.h"
 #include "io/scene_file/builder.h"
 #include "io/scene_file/file_names.h"
+#include "io/sequence/snapshot_list.h"
 
 namespace splotchcl {
 namespace {
 
 using scene_file::SceneBuilder;
 
-// A folder's own percent signs are no conversions.
 std::string in_folder(const std::filesystem::path& folder, const std::string& pattern) {
   if (std::filesystem::path(pattern).is_absolute()) return pattern;
-  std::string escaped;
-  for (const char c : (folder / "").string())
-    escaped += c == '%' ? "%%" : std::string(1, c);
-  return escaped + pattern;
+  return as_pattern((folder / "").string()) + pattern;
 }
 
 // What the file names stands relative to the file; what a setting names does not.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/common/nearest_name.h"
+#include "io/common/words.h"
 #include "io/scene_file/check.h"
 #include "io/scene_file/values.h"
 #include "splotchcl/error.h"
@@ -15,13 +16,6 @@ namespace splotchcl::scene_file {
 namespace {
 
 const std::string component_prefix = "component.";
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* spaces = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(spaces);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(spaces) - begin + 1);
-}
 
 // "gas" and "gas.size" address the component "gas"; the names may hold dots themselves.
 bool addresses(const std::string& address, const std::string& name) {

@@ -1,11 +1,11 @@
 #include "io/select/condition.h"
 
-#include <fast_float/fast_float.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "io/common/words.h"
 
 namespace splotchcl {
 namespace {
@@ -24,21 +24,6 @@ constexpr std::array<std::pair<const char*, Operator>, 6> operators = {{
 
 constexpr const char* operator_characters = "<>=!";
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::optional<double> parse_number(const std::string& text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = fast_float::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
 std::optional<Comparison> parse_comparison(const std::string& text) {
   const std::size_t place = text.find_first_of(operator_characters);
   if (place == std::string::npos) return std::nullopt;
@@ -50,7 +35,7 @@ std::optional<Comparison> parse_comparison(const std::string& text) {
     const std::string spelled = symbol;
     if (text.compare(place, spelled.size(), spelled) != 0) continue;
     const auto number = parse_number(trimmed(text.substr(place + spelled.size())));
-    if (!number) return std::nullopt;
+    if (!number || !std::isfinite(*number)) return std::nullopt;
     comparison.op = op;
     comparison.number = *number;
     return comparison;

@@ -8,19 +8,11 @@
 #include <fstream>
 #include <string>
 
+#include "io/common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-// What counts of a line.
-std::string content(const std::string& line) {
-  constexpr const char* blanks = " \t\r";
-  const std::string text = line.substr(0, line.find('#'));
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::uint64_t parse_id(const std::string& text, const std::filesystem::path& path,
                        std::size_t line) {
@@ -48,7 +40,7 @@ std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   std::vector<std::uint64_t> ids;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
-    const std::string text = content(line);
+    const std::string text = trimmed(line.substr(0, line.find('#')));
     if (!text.empty()) ids.push_back(parse_id(text, path, number));
   }
   if (file.bad()) throw DataError(path.string() + ": reading failed; check the file");

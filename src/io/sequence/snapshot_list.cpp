@@ -92,6 +92,13 @@ std::string fill_pattern(const std::string& pattern, int number) {
   return text;
 }
 
+std::string as_pattern(const std::string& path) {
+  std::string pattern;
+  for (const char c : path)
+    pattern += c == '%' ? "%%" : std::string(1, c);
+  return pattern;
+}
+
 std::vector<ListedSnapshot> list_snapshots(const SequenceSettings& settings) {
   if (!settings.pattern.empty()) return numbered_snapshots(settings);
   ExistingFiles existing;

@@ -30,5 +30,7 @@ SequencePlace find_place(const std::vector<ListedSnapshot>& list, double index);
 // A pattern has %d, %3d or %03d once or more, and no other conversion; %% is a percent sign.
 bool is_snapshot_pattern(const std::string& text);
 std::string fill_pattern(const std::string& pattern, int number);
+// A path as part of a pattern: its own percent signs are no conversions.
+std::string as_pattern(const std::string& path);
 
 }  // namespace splotchcl
