@@ -17,10 +17,17 @@ std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  return printable(std::move(text));
 }
 
 }  // namespace
+
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 32 || c == '\x7f'; }, '?');
+  return text;
+}
 
 struct Console::Log {
   spdlog::logger logger{"splotchcl", std::make_shared<spdlog::sinks::stderr_sink_st>()};

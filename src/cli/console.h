@@ -6,6 +6,10 @@
 
 namespace splotchcl::cli {
 
+// The text with a question mark for each control character: names in a file may hold any, and
+// a terminal obeys them.
+std::string printable(std::string text);
+
 // What goes to standard error: notes and errors, a line each, and on a terminal a status
 // line that is overwritten and finally removed. In a pipe there is no status.
 class Console {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -48,7 +49,7 @@ std::vector<FieldRow> read_rows(const Snapshot& snapshot, int type, const FieldI
 
 // As the user may know it from the file, where that differs.
 std::string label(const FieldInfo& field) {
-  return field.file_name.empty() || field.file_name == field.name ? "" : field.file_name;
+  return field.file_name.empty() || field.file_name == field.name ? "" : printable(field.file_name);
 }
 
 std::string header_text(const SnapshotInfo& info) {
@@ -63,10 +64,26 @@ std::string header_text(const SnapshotInfo& info) {
   return text;
 }
 
-std::string row_text(const FieldRow& row, const FieldInfo& field) {
+// What the columns of names need.
+struct Widths {
+  std::size_t name, label;
+};
+
+Widths widths_of(const ParticleTypeInfo& type) {
+  Widths widths = {20, 12};
+  for (const FieldInfo& field : type.fields) {
+    const std::size_t axis = field.values_per_particle == 3 ? 2 : 0;
+    widths.name = std::max(widths.name, field.name.size() + axis);
+    widths.label = std::max(widths.label, label(field).size());
+  }
+  return widths;
+}
+
+std::string row_text(const FieldRow& row, const FieldInfo& field, const Widths& widths) {
   const FieldStatistics& s = row.statistics;
-  return fmt::format("  {:20} {:12} {:>13.6g} {:>13.6g} {:>13.6g} {:>8} {}\n", row.name,
-                     label(field), s.minimum, s.maximum, s.mean, s.bad, field.unit);
+  return fmt::format("  {:{}} {:{}} {:>13.6g} {:>13.6g} {:>13.6g} {:>8} {}\n", printable(row.name),
+                     widths.name, label(field), widths.label, s.minimum, s.maximum, s.mean, s.bad,
+                     field.unit);
 }
 
 // What the header tells of a type.
@@ -79,25 +96,27 @@ std::string type_header_text(const ParticleTypeInfo& type) {
 }
 
 std::string field_list_text(const ParticleTypeInfo& type) {
-  std::string text =
-      fmt::format("  {:26} {:20} {:>6} {}\n", "field", "in the file", "values", "unit");
+  const Widths widths = widths_of(type);
+  std::string text = fmt::format("  {:{}} {:{}} {:>6} {}\n", "field", widths.name, "in the file",
+                                 widths.label, "values", "unit");
   for (const FieldInfo& field : type.fields) {
-    text += fmt::format("  {:26} {:20} {:>6} {}\n", field.name, label(field),
-                        field.values_per_particle, field.unit);
+    text += fmt::format("  {:{}} {:{}} {:>6} {}\n", printable(field.name), widths.name,
+                        label(field), widths.label, field.values_per_particle, field.unit);
   }
   return text;
 }
 
 std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Console& console) {
+  const Widths widths = widths_of(type);
   std::string text = type_header_text(type);
-  text += fmt::format("  {:20} {:12} {:>13} {:>13} {:>13} {:>8} {}\n", "field", "in the file",
-                      "minimum", "maximum", "mean", "bad", "unit");
+  text += fmt::format("  {:{}} {:{}} {:>13} {:>13} {:>13} {:>8} {}\n", "field", widths.name,
+                      "in the file", widths.label, "minimum", "maximum", "mean", "bad", "unit");
   for (const FieldInfo& field : type.fields) {
     console.status("reading " + field.name);
     for (const FieldRow& row : read_rows(snapshot, type.type, field))
-      text += row_text(row, field);
+      text += row_text(row, field, widths);
   }
-  text += fmt::format("  derived: {}\n", fmt::join(derivable_fields(type), ", "));
+  text += printable(fmt::format("  derived: {}", fmt::join(derivable_fields(type), ", "))) + "\n";
   return text;
 }
 
@@ -161,7 +180,7 @@ void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
   const SnapshotInfo& info = snapshot.info();
   std::string text = header_text(info);
   for (const std::string& note : info.notes)
-    text += fmt::format("note      {}\n", note);
+    text += fmt::format("note      {}\n", printable(note));
   for (const ParticleTypeInfo& type : info.types)
     text += header_only ? type_header_text(type) + field_list_text(type)
                         : type_text(snapshot, type, console);
@@ -175,7 +194,10 @@ void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
 int run_info(const InfoOptions& options, Console& console) {
   const auto snapshot = open_snapshot(options.snapshot, {options.columns});
   if (options.json) {
-    std::cout << to_json(*snapshot, options.header, console).dump(2) << "\n";
+    // Names in the file need not be UTF-8, which JSON is.
+    std::cout << to_json(*snapshot, options.header, console)
+                     .dump(2, ' ', false, Json::error_handler_t::replace)
+              << "\n";
   } else {
     print_text(*snapshot, options.header, console);
   }

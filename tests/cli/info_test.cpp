@@ -57,6 +57,18 @@ TEST(Info, CountsBadValues) {
   }
 }
 
+TEST(Info, WritesJsonAndNoControlCharactersWhateverFieldsAreCalled) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << "x,y,z,caf\xe9\x1b[31m\n1,2,3,4\n2,3,4,5\n";
+  for (const std::string options : {"--json", "--json --header"}) {
+    const ProgramResult result = splotchcl_in(folder, "info table.csv " + options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
+  }
+  EXPECT_THAT(splotchcl_in(folder, "info table.csv").out,
+              AllOf(HasSubstr("?[31m"), ::testing::Not(HasSubstr("\x1b"))));
+}
+
 TEST(Info, NamesAFileThatIsNoSnapshot) {
   const TemporaryFolder folder;
   std::ofstream(folder / "text") << "neither snapshot nor scene, but long enough for a header\n";

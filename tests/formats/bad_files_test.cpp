@@ -39,7 +39,7 @@ TEST_F(BadFiles, AnEmptyFileIsRefused) {
 TEST_F(BadFiles, ImagesAndArchivesAreNamed) {
   using std::string;
   EXPECT_THAT(refusal_of("\x89PNG\r\n\x1a\n and so on"), HasSubstr("a PNG image"));
-  EXPECT_THAT(refusal_of("\xff\xd8\xff\xe0 and so on"), HasSubstr("a JPEG image"));
+  EXPECT_THAT(refusal_of("\xff\xd8\xff\xe0 and so on"), HasSubstr("a JPEG image; expected"));
   EXPECT_THAT(refusal_of(string("\x1f\x8b\x08\0", 4) + " and so on"),
               HasSubstr("a gzip archive; unpack it first"));
   EXPECT_THAT(refusal_of(string("\xfd\x37zXZ\0", 6) + " and so on"), HasSubstr("an xz archive"));

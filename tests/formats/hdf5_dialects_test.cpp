@@ -132,6 +132,24 @@ TEST_F(Hdf5Dialects, AHeaderOfArraysOfAnyLengthIsRead) {
   }
 }
 
+TEST_F(Hdf5Dialects, FieldsThatTheHeaderDoesNotCountAndNoCoordinatesAreRefused) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType3/Masses", {1, 2});
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("counts 0 particles of PartType3, which has only Masses"));
+}
+
+TEST_F(Hdf5Dialects, CoordinatesOfOtherWidthsAreRefusedWithTheirs) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", {2});
+    write_values(file, "PartType0/Coordinates", {1, 2, 3, 4}, 2);
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("only Coordinates of 2 columns"));
+}
+
 TEST_F(Hdf5Dialects, WithoutCoordinatesIsRefused) {
   {
     const Hdf5Output file = create_hdf5(path_);

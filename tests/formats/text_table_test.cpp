@@ -51,6 +51,11 @@ TEST_F(TextTable, CommasWithAHeaderAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(7, 8));
 }
 
+TEST_F(TextTable, AByteOrderMarkIsNoPartOfTheFirstName) {
+  const auto snapshot = open("\xef\xbb\xbfx,y,z\n1,2,3\n");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3));
+}
+
 TEST_F(TextTable, WhiteSpaceWithAHeaderInAnyStyleIsRead) {
   for (const char* header : {"x y z rho\n", "# x y z rho\n", "# a comment\n#x\ty\tz\trho\n",
                              "  x   y z\trho  \n", "// x y z rho\n", "# x, y, z, rho\n"}) {

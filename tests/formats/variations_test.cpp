@@ -81,6 +81,65 @@ TEST(GadgetVariations, AHeaderThatCountsNothingIsMadeUpForByTheBlocks) {
   }
 }
 
+// Gas alone: every block of a value for each particle has the same length.
+TestSnapshot gas(const std::vector<std::string>& labels) {
+  TestSnapshot written;
+  written.counts = {40, 0, 0, 0, 0, 0};
+  for (const std::string& label : labels)
+    add_block(written, label, 1U, label == "POS" || label == "VEL" ? 3 : 1);
+  for (TestBlock& block : written.blocks) {
+    if (block.label == "ID") block.kind = ValueKind::uint32;
+  }
+  return written;
+}
+
+void expect_field(const Snapshot& snapshot, const std::string& field, TestSnapshot& written,
+                  const std::string& label) {
+  EXPECT_EQ(values_of(snapshot.read(0, field)), as_floats(written.block(label).values[0])) << field;
+}
+
+TEST(GadgetVariations, Format1HasNoMassesWhereTheTableHasThemAll) {
+  const TemporaryFolder folder;
+  TestSnapshot written = gas({"POS", "VEL", "ID", "U", "RHO", "HSML"});
+  written.table_masses[0] = 2;
+  write_gadget(folder / "snap", written, 1);
+  const auto snapshot = open_snapshot(folder / "snap");
+  EXPECT_EQ(snapshot->info().find_type(0)->table_mass, 2);
+  expect_field(*snapshot, "internal_energy", written, "U");
+  expect_field(*snapshot, "smoothing_length", written, "HSML");
+  EXPECT_THAT(snapshot->info().notes, ::testing::IsEmpty());
+}
+
+TEST(GadgetVariations, Format1WithoutIdentifiersIsToldByTheValues) {
+  for (const bool is_swapped : {false, true}) {
+    const TemporaryFolder folder;
+    TestSnapshot written = gas({"POS", "VEL", "MASS", "U", "RHO", "HSML"});
+    write_gadget(folder / "snap", written, 1, is_swapped);
+    const auto snapshot = open_snapshot(folder / "snap");
+    EXPECT_FALSE(has_field(*snapshot, 0, "id"));
+    expect_field(*snapshot, "mass", written, "MASS");
+    expect_field(*snapshot, "smoothing_length", written, "HSML");
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("ID is missing")));
+  }
+}
+
+TEST(GadgetVariations, Format1SaysWhatItsBlocksAreTakenForWhereTheLastAreMissing) {
+  const TemporaryFolder folder;
+  TestSnapshot written = gas({"POS", "VEL", "ID", "MASS", "U"});
+  write_gadget(folder / "snap", written, 1);
+  const auto snapshot = open_snapshot(folder / "snap");
+  expect_field(*snapshot, "internal_energy", written, "U");
+  EXPECT_THAT(snapshot->info().notes,
+              Contains(HasSubstr("POS, VEL, ID, MASS, U, and RHO, HSML are missing")));
+}
+
+TEST(GadgetVariations, ATailOfZerosIsRefusedBeforeItFillsMemory) {
+  const TemporaryFolder folder;
+  write_gadget(folder / "snap", gas({"POS"}), 1);
+  std::filesystem::resize_file(folder / "snap", 1U << 24);
+  EXPECT_THAT(refusal(folder / "snap"), HasSubstr("more than 10000 blocks"));
+}
+
 TEST(GadgetVariations, CountsThatOverflowAreRefused) {
   const TemporaryFolder folder;
   std::string bytes;

@@ -1,8 +1,8 @@
 #include "io/finish/labels.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
-#include <regex>
 
 #include "io/finish/ticks.h"
 #include "io/snapshot/field_names.h"
@@ -10,16 +10,42 @@
 namespace splotchcl {
 namespace {
 
-// Whole exponents that follow a mark: "^-3" or the "e10" of "1e10".
-std::string with_raised(const std::string& text, const std::regex& power,
-                        const std::string& before) {
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+// How long the whole number at a place is; 0 where there is none, or one with decimals.
+std::size_t length_of_whole(const std::string& text, std::size_t at) {
+  std::size_t end = at;
+  if (end < text.size() && text[end] == '-') ++end;
+  const std::size_t digits = end;
+  while (end < text.size() && is_digit(text[end]))
+    ++end;
+  const bool has_decimals = end < text.size() && text[end] == '.';
+  return end == digits || has_decimals ? 0 : end - at;
+}
+
+// The whole exponents that follow a mark, "^-3" or the "1e10" of which "1e" is the mark. A mark
+// that begins with a digit begins a number.
+std::string with_raised(const std::string& text, const std::string& mark,
+                        const std::string& instead) {
   std::string result;
-  std::string rest = text;
-  for (std::smatch found; std::regex_search(rest, found, power);) {
-    result += found.prefix().str() + before + raised(std::atoi(found[1].str().c_str()));
-    rest = found.suffix().str();
+  for (std::size_t i = 0; i < text.size();) {
+    const bool is_inside_number = is_digit(mark.front()) && i > 0 &&
+                                  (std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0 ||
+                                   text[i - 1] == '.' || text[i - 1] == '_');
+    std::size_t first = i + mark.size();
+    const bool is_mark = text.compare(i, mark.size(), mark) == 0 && !is_inside_number;
+    if (is_mark && is_digit(mark.front()) && first < text.size() && text[first] == '+') ++first;
+    const std::size_t length = is_mark ? length_of_whole(text, first) : 0;
+    if (length == 0) {
+      result += text[i++];
+      continue;
+    }
+    result += instead + raised(std::atoi(text.substr(first, length).c_str()));
+    i = first + length;
   }
-  return result + rest;
+  return result;
 }
 
 std::string replaced(const std::string& text, const std::string& what, const std::string& with) {
@@ -35,10 +61,7 @@ std::string replaced(const std::string& text, const std::string& what, const std
 
 std::string readable_unit(const std::string& unit, bool superscripts) {
   if (!superscripts) return unit;
-  static const std::regex caret(R"(\^(-?[0-9]+)(?![.0-9]))");
-  static const std::regex power_of_ten(R"(\b1e\+?(-?[0-9]+)\b)");
-  std::string text = with_raised(unit, power_of_ten, "10");
-  text = with_raised(text, caret, "");
+  const std::string text = with_raised(with_raised(unit, "1e", "10"), "^", "");
   return replaced(text, "_sun", "☉");
 }
 

@@ -160,6 +160,16 @@ void check_header_record(const MappedFile& file, int format, const GadgetRecord&
                   file.path().string(), record.label, record.bytes, header_bytes, format));
 }
 
+// A tail of zeros reads as empty records without end.
+constexpr std::size_t most_blocks = 10000;
+
+[[noreturn]] void throw_too_many_blocks(const MappedFile& file) {
+  throw DataError(fmt::format(
+      "{}: more than {} blocks, of which a snapshot has some dozens; the file is damaged, or was "
+      "not completely written: copy or write it again",
+      file.path().string(), most_blocks));
+}
+
 }  // namespace
 
 bool is_gadget_binary(const MappedFile& file) {
@@ -188,8 +198,10 @@ GadgetBinaryFile read_gadget_records(std::shared_ptr<const MappedFile> file) {
   const GadgetRecord header = next_block();
   check_header_record(*file, recognised->format, header);
   result.header = read_header(header, numbers);
-  while (!walker.is_at_end())
+  while (!walker.is_at_end()) {
     result.records.push_back(next_block());
+    if (result.records.size() > most_blocks) throw_too_many_blocks(*file);
+  }
   result.file = std::move(file);
   return result;
 }

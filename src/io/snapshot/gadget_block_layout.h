@@ -45,8 +45,12 @@ class BlockLayouts {
   // Any set of types and shape that fits. `is_ambiguous` tells that others fit as well.
   std::optional<BlockLayout> fit_any(std::uint64_t bytes, bool& is_ambiguous) const;
 
- private:
+  // Whether some type has no mass in the header's table.
+  bool needs_masses() const { return without_table_mass_ != 0; }
+
   std::uint64_t particles_in(TypeSet types) const;
+
+ private:
   std::optional<BlockLayout> fit(std::uint64_t bytes, TypeSet types, int values,
                                  bool is_integer) const;
   std::vector<TypeSet> candidate_sets() const;

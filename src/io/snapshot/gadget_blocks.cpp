@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/snapshot/gadget_block_order.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -144,71 +145,15 @@ std::vector<GadgetBlock> understand_labelled(const GadgetBinaryFile& file,
   return blocks;
 }
 
-// The order of blocks that format 1 agrees on.
-std::vector<std::string> standard_order(const GadgetHeader& header, bool has_abundances) {
-  std::vector<std::string> order = {"POS", "VEL", "ID", "MASS"};
-  if (header.counts[0] > 0) {
-    order.insert(order.end(), {"U", "RHO"});
-    if (has_abundances) order.insert(order.end(), {"NE", "NH"});
-    order.push_back("HSML");
-    if (has_abundances && header.has_star_formation) order.push_back("SFR");
-  }
-  if (has_abundances && header.has_stellar_age) order.push_back("AGE");
-  if (has_abundances && header.has_metals) order.push_back("Z");
-  return order;
-}
-
-struct OrderedBlocks {
-  std::vector<GadgetBlock> standard;
-  std::vector<std::size_t> others;   // records that are none of the standard blocks
-  std::vector<std::string> skipped;  // expected, but the next record is something else
-};
-
-// Takes each record for the next block of the order that its length fits.
-OrderedBlocks assign_in_order(const GadgetBinaryFile& file, const BlockLayouts& layouts,
-                              const std::vector<std::string>& order) {
-  OrderedBlocks result;
-  auto next = order.begin();
-  for (std::size_t i = 0; i < file.records.size(); ++i) {
-    const GadgetRecord& record = file.records[i];
-    if (record.bytes == 0) continue;
-    const auto found = std::find_if(next, order.end(), [&](const std::string& label) {
-      return layouts.fit_standard(label, record.bytes).has_value();
-    });
-    if (found == order.end()) {
-      result.others.push_back(i);
-      continue;
-    }
-    // Masses are absent where the mass table has them all, so skipping them is no oddity.
-    std::copy_if(next, found, std::back_inserter(result.skipped),
-                 [](const std::string& label) { return label != "MASS"; });
-    result.standard.push_back({*found, record.offset, *layouts.fit_standard(*found, record.bytes)});
-    next = found + 1;
-  }
-  return result;
-}
-
-bool has_block(const std::vector<GadgetBlock>& blocks, std::string_view label) {
-  return std::any_of(blocks.begin(), blocks.end(),
-                     [label](const GadgetBlock& block) { return block.label == label; });
-}
-
 std::vector<GadgetBlock> understand_unlabelled(const GadgetBinaryFile& file,
                                                const BlockLayouts& layouts, Notes& notes) {
-  const GadgetHeader& header = file.header;
-  OrderedBlocks found = assign_in_order(file, layouts, standard_order(header, header.has_cooling));
-  if (header.has_cooling && !has_block(found.standard, "HSML")) {
-    // Some codes set the flag without writing the abundances.
-    found = assign_in_order(file, layouts, standard_order(header, false));
-  }
-  if (!has_block(found.standard, "POS")) {
+  OrderedBlocks found = order_blocks(file, layouts);
+  const bool has_positions = !found.standard.empty() && found.standard.front().label == "POS";
+  if (!has_positions) {
     throw_bad_length(file, "POS (the first of the file)", file.records.front().bytes);
   }
-  if (!found.skipped.empty()) {
-    notes.push_back(fmt::format(
-        "format 1 has no labels and {} {} missing: the other blocks were told by their lengths",
-        fmt::join(found.skipped, ", "), found.skipped.size() == 1 ? "is" : "are"));
-  }
+  std::string order = describe_order(found, layouts);
+  if (!order.empty()) notes.push_back(std::move(order));
   std::vector<GadgetBlock> blocks = std::move(found.standard);
   const std::size_t known = blocks.size();
   for (const std::size_t i : found.others) {

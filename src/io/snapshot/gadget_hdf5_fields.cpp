@@ -14,15 +14,24 @@ std::string group_name(std::size_t type) {
   return fmt::format("PartType{}", type);
 }
 
+const char* columns_of(const Hdf5Dataset& dataset) {
+  if (dataset.kind == Hdf5Dataset::Kind::other) return "columns that are no numbers";
+  return dataset.values_per_row() == 1 ? "column" : "columns";
+}
+
 [[noreturn]] void throw_no_positions(const Hdf5File& file, const std::string& group,
                                      std::uint64_t count,
                                      const std::vector<Hdf5Dataset>& datasets) {
   std::vector<std::string> labels;
-  for (const Hdf5Dataset& dataset : datasets)
-    labels.push_back(dataset.label());
+  for (const Hdf5Dataset& dataset : datasets) {
+    const bool are_positions = canonical_field_name(dataset.label()) == "position";
+    labels.push_back(are_positions ? fmt::format("{} of {} {}", dataset.label(),
+                                                 dataset.values_per_row(), columns_of(dataset))
+                                   : dataset.label());
+  }
   throw DataError(fmt::format(
-      "{}: no positions: the header counts {} particles of {}, which has {}; expected "
-      "a dataset Coordinates with three columns",
+      "{}: no positions: the header counts {} particles of {}, which has {}; expected a dataset "
+      "Coordinates with three columns of numbers: the file is incomplete, or no snapshot",
       file.path().string(), count, group,
       labels.empty() ? "no datasets" : fmt::format("only {}", fmt::join(labels, ", "))));
 }
@@ -111,9 +120,17 @@ void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header) {
     const bool is_counted = type < header.counts.size() && header.counts[type] > 0;
     const bool are_tracers = file.has(group_name(type) + "/TracerID");
     if (is_counted || are_tracers || !file.has(group_name(type))) continue;
-    for (const Hdf5Dataset& dataset : file.datasets(group_name(type))) {
+    const std::vector<Hdf5Dataset> datasets = file.datasets(group_name(type));
+    const bool has_rows = std::any_of(datasets.begin(), datasets.end(), [](const Hdf5Dataset& d) {
+      return !d.shape.empty() && d.rows() > 0;
+    });
+    const bool has_positions =
+        std::any_of(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
+          return canonical_field_name(dataset.label()) == "position";
+        });
+    if (has_rows && !has_positions) throw_no_positions(file, group_name(type), 0, datasets);
+    for (const Hdf5Dataset& dataset : datasets)
       check_rows(file, dataset, 0, type);
-    }
   }
 }
 

@@ -44,27 +44,6 @@ std::vector<hsize_t> shape_of(hid_t space) {
   return shape;
 }
 
-// Where HDF5 looks for a file that a virtual dataset names; a place that does not exist
-// where it finds none.
-std::filesystem::path find_source(const std::filesystem::path& virtual_file,
-                                  const std::filesystem::path& name) {
-  const std::filesystem::path folder = virtual_file.parent_path();
-  std::error_code ignored;
-  for (const auto& place : {folder / name, folder / name.filename(), name}) {
-    if (std::filesystem::exists(place, ignored)) return place;
-  }
-  return folder / name;
-}
-
-// A name of a source, by either of HDF5's functions for them.
-template <typename Get>
-std::string source_name(Get&& get, hid_t properties, std::size_t source) {
-  const ssize_t length = get(properties, source, nullptr, 0);
-  std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
-  get(properties, source, name.data(), name.size() + 1);
-  return name;
-}
-
 std::string child_path(const std::string& group, const std::string& name) {
   return group == "/" ? group + name : group + "/" + name;
 }
@@ -224,58 +203,6 @@ std::optional<std::string> Hdf5File::text(const std::string& object,
   std::string value(H5Tget_size(type.id()), '\0');
   if (H5Aread(attribute.id(), type.id(), value.data()) < 0) return std::nullopt;
   return std::string(value.c_str());
-}
-
-// HDF5 reads zeros where what a virtual dataset points to is missing.
-void Hdf5File::check_sources(hid_t properties, const std::string& dataset) const {
-  std::size_t sources = 0;
-  H5Pget_virtual_count(properties, &sources);
-  for (std::size_t i = 0; i < sources; ++i) {
-    const std::string file = source_name(H5Pget_virtual_filename, properties, i);
-    const std::string source = source_name(H5Pget_virtual_dsetname, properties, i);
-    // A pattern for as many files as there are: the shape follows from those.
-    if (file.find('%') != std::string::npos) continue;
-    const std::filesystem::path place = file == "." ? path_ : find_source(path_, file);
-    std::error_code ignored;
-    if (std::filesystem::exists(place, ignored) && Hdf5File(place).has(source)) continue;
-    throw DataError(
-        fmt::format("{}: dataset {} is made of {} in {}, which is missing; put all files of the "
-                    "snapshot into the same folder",
-                    path_.string(), dataset, source, place.string()));
-  }
-}
-
-void Hdf5File::check_complete(const Hdf5Dataset& dataset) const {
-  const Hdf5Silence silence;
-  const Dataset handle = open_dataset(dataset.path);
-  const PropertyList properties(H5Dget_create_plist(handle.id()));
-  const H5D_layout_t layout = H5Pget_layout(properties.id());
-  bool is_complete = true;
-  if (layout == H5D_CONTIGUOUS && H5Pget_external_count(properties.id()) <= 0) {
-    hsize_t size = 0;
-    H5Fget_filesize(file_.id(), &size);
-    const std::uint64_t row_bytes = dataset.values_per_row() * dataset.bytes_per_value;
-    is_complete = row_bytes != 0 && dataset.rows() <= size / row_bytes &&
-                  H5Dget_storage_size(handle.id()) == dataset.rows() * row_bytes;
-  } else if (layout == H5D_CHUNKED) {
-    std::vector<hsize_t> chunk(dataset.shape.size());
-    H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
-    const Space space(H5Dget_space(handle.id()));
-    hsize_t stored = 0;
-    H5Dget_num_chunks(handle.id(), space.id(), &stored);
-    hsize_t needed = 1;
-    for (std::size_t i = 0; i < chunk.size() && needed <= stored; ++i) {
-      needed *= (dataset.shape[i] + chunk[i] - 1) / chunk[i];
-    }
-    is_complete = needed <= stored;
-  } else if (layout == H5D_VIRTUAL) {
-    check_sources(properties.id(), dataset.path);
-  }
-  if (is_complete) return;
-  throw DataError(
-      fmt::format("{}: dataset {} should hold {} rows, but they are not all in the file; it was "
-                  "not completely written, or is damaged",
-                  path_.string(), dataset.path, dataset.rows()));
 }
 
 void Hdf5File::read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,

@@ -82,8 +82,8 @@ class Hdf5File {
   std::optional<std::string> text(const std::string& object, const std::string& attribute) const;
 
   // Refuses a dataset that the file does not hold completely, so that no memory is
-  // claimed for values that are not there.
-  void check_complete(const Hdf5Dataset& dataset) const;
+  // claimed for values that are not there, and one that HDF5 cannot unpack here.
+  void check_complete(const Hdf5Dataset& dataset) const { check_complete(dataset, 0); }
 
   // Rows [first, first + rows), converted by HDF5. `out` has rows * values_per_row places.
   void read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
@@ -107,7 +107,14 @@ class Hdf5File {
   std::vector<std::string> children(const std::string& group, H5I_type_t wanted) const;
   Attribute open_attribute(const std::string& object, const std::string& name) const;
   Dataset open_dataset(const std::string& path) const;
-  void check_sources(hid_t properties, const std::string& dataset) const;
+  // `depth`: how many virtual datasets it is a source of.
+  void check_complete(const Hdf5Dataset& dataset, int depth) const;
+  bool has_all_bytes(const Hdf5Dataset& dataset, hid_t handle) const;
+  bool has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t properties) const;
+  bool check_sources(const Hdf5Dataset& dataset, hid_t properties, int depth) const;
+  void check_source(const std::string& dataset, const std::filesystem::path& file,
+                    const std::string& source, int depth) const;
+  void check_filters(const std::string& dataset, hid_t properties) const;
   void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
             void* out) const;
   [[noreturn]] void fail(const std::string& what) const;

@@ -14,6 +14,11 @@ namespace splotchcl {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* what_is_expected =
+    "expected Gadget format 1 or 2, HDF5 of Gadget, SWIFT, Phantom and the like, Tipsy, NumPy, or "
+    "a "
+    "table as text";
+
 struct FamiliarFile {
   std::string_view start;
   const char* what;
@@ -87,17 +92,17 @@ std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions&
     return snapshot;
   }
   if (fs::file_size(path) == 0) {
-    throw DataError(fmt::format("{}: the file is empty; expected a snapshot", path.string()));
+    throw DataError(fmt::format(
+        "{}: the file is empty; expected a snapshot: copy or write it again", path.string()));
   }
   const std::string other = describe_other(path);
   if (!other.empty()) {
-    throw DataError(fmt::format("{}: not a snapshot: it is {}", path.string(), other));
+    const bool says_what_to_do = other.find(';') != std::string::npos;
+    throw DataError(fmt::format("{}: not a snapshot: it is {}{}", path.string(), other,
+                                says_what_to_do ? "" : fmt::format("; {}", what_is_expected)));
   }
-  throw DataError(
-      fmt::format("{}: not a known snapshot format (it starts with the bytes {}); expected Gadget "
-                  "format 1 or 2, HDF5 of Gadget, SWIFT, Phantom and the like, Tipsy, NumPy, or a "
-                  "table as text",
-                  path.string(), first_bytes(path)));
+  throw DataError(fmt::format("{}: not a known snapshot format (it starts with the bytes {}); {}",
+                              path.string(), first_bytes(path), what_is_expected));
 }
 
 // The snapshots of a folder: files by the name that they share. Tables of text do not count:

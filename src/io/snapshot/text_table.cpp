@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 constexpr std::size_t most_columns = 4096;
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
 
 std::string_view trim(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
@@ -40,7 +41,12 @@ class Lines {
       : data_(reinterpret_cast<const char*>(file.data())),
         size_(file.size()),
         offset_(offset),
-        number_(number) {}
+        number_(number) {
+    if (offset_ == 0 &&
+        std::string_view(data_, size_).substr(0, byte_order_mark.size()) == byte_order_mark) {
+      offset_ = byte_order_mark.size();
+    }
+  }
 
   bool next() {
     while (offset_ < size_) {

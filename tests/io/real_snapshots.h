@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splotchcl::testing {
+
+// Every file of the test data that is a snapshot; none where there are no test data.
+inline std::vector<std::string> real_snapshots() {
+  namespace fs = std::filesystem;
+  const fs::path data = SPLOTCHCL_TEST_DATA;
+  std::vector<std::string> names;
+  if (!fs::exists(data)) return names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data)) {
+    const fs::path name = fs::relative(entry.path(), data);
+    const std::string folder = name.begin()->string();
+    const bool has_snapshots = folder != "broken" && folder != "images" && folder != "camera" &&
+                               folder != "splotch_par" && folder != "README.md";
+    if (entry.is_regular_file() && has_snapshots) names.push_back(name.string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace splotchcl::testing
