@@ -268,6 +268,29 @@ TEST(Inset, HasThePicturesCameraWhereItSaysNothingElse) {
   EXPECT_NEAR(seen.camera.focal_pixels, 100 / std::tan(10 * pi / 180), 1e-9);
 }
 
+// Rows that grow along the sky do so in the inset, too, and left stays left.
+TEST(Inset, HasThePicturesConvention) {
+  FinishScene scene;
+  Camera camera;
+  camera.position = {{1, 2, 3}};
+  camera.look_at = {{4, 6, 3}};
+  camera.sky = {{0, 0, 1}};
+  camera.projection = Projection::orthographic;
+  scene.frame.camera = in_original_convention(make_camera_frame(camera, 400, 300));
+  scene.scene.image.convention = PixelConvention::original;
+  scene.scene.finish.inset.show = true;
+  Frame seen;
+  scene.finish({0, 0, 0}, [&seen](const Frame& frame) {
+    seen = frame;
+    return plain_image(frame.width, frame.height);
+  });
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(seen.camera.right.a[i], scene.frame.camera.right.a[i], 1e-12);
+    EXPECT_NEAR(seen.camera.down.a[i], scene.frame.camera.down.a[i], 1e-12);
+  }
+  EXPECT_EQ(seen.camera.centre_x, 0.5 * seen.width + 0.5);
+}
+
 TEST(Inset, ShowsTheComponentsThatAreNamed) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
