@@ -1,4 +1,4 @@
-#include "cli/film_inputs.h"
+#include "cli/film_manifest.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <vector>
 
 #include "io/scene_file/file_names.h"
 #include "io/sequence/snapshot_list.h"
@@ -65,14 +66,27 @@ class Inputs {
   std::set<std::string> others_;
 };
 
-}  // namespace
-
-std::vector<std::string> film_inputs(const Scene& scene, const FilmPath& path) {
+std::vector<std::string> inputs_of(const Scene& scene, const FilmPath& path) {
   Inputs inputs;
   inputs.add_snapshots(scene);
   for (int frame = 0; frame < path.frame_count(); ++frame)
     inputs.add_named_files(path.scene_at(scene, frame));
   return inputs.lines();
+}
+
+}  // namespace
+
+std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference) {
+  std::string text =
+      fmt::format("splotchcl {}, {}\n", SPLOTCHCL_VERSION, by_reference ? "reference" : "device");
+  for (const std::string& input : inputs_of(scene, path))
+    text += "input " + input + "\n";
+  scene.movie = {};
+  scene.path = {};
+  text += format_scene(scene);
+  for (int frame = 0; frame < path.frame_count(); ++frame)
+    text += fmt::format("frame {}: {}\n", frame, fmt::join(path.settings(frame), "; "));
+  return text;
 }
 
 }  // namespace splotchcl::cli
