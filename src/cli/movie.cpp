@@ -130,7 +130,11 @@ int run_movie(const MovieOptions& options, Console& console) {
   console.status("reading");
   film.decide();
   files.open(film_manifest(film.scene(), film.path(), options.reference));
-  if (!options.join) FrameLoop(options, film, files, console).draw(missing(part, files));
+  if (!options.join) {
+    const std::vector<int> to_draw = missing(part, files);
+    files.remove_leftovers(to_draw);
+    FrameLoop(options, film, files, console).draw(to_draw);
+  }
   complete(options, frames, start, files, console);
   return 0;
 }

@@ -113,6 +113,7 @@ TEST_F(Movie, OfImagesIsTheSameWhenItWasKilledAndContinued) {
   run_in(folder_,
          "\"$splotchcl\" movie film.toml --reference -o killed_%d.png & film=$!; "
          "until [ -e killed_1.png ]; do sleep 0.002; done; kill -KILL $film; wait $film");
+  write(".killed_5.png.999999999-7.part", "what a killed process had written");
   ASSERT_EQ(movie("-o killed_%d.png").exit_code, 0);
   for (const char frame : {'0', '1', '2', '3', '4', '5'})
     EXPECT_EQ(content(std::string("killed_") + frame + ".png"),

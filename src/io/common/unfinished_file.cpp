@@ -1,12 +1,15 @@
 #include "io/common/unfinished_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <optional>
 #include <random>
-#include <string>
 #include <system_error>
+#include <vector>
 
 #include "splotchcl/error.h"
 
@@ -49,7 +52,43 @@ void check_folder(const std::filesystem::path& path, const std::filesystem::path
   }
 }
 
+// The reverse of temporary_name().
+struct Leftover {
+  std::string target;
+  pid_t process;
+};
+std::optional<Leftover> read_temporary_name(const std::string& name) {
+  const std::string end = ".part";
+  const std::size_t dash = name.rfind('-');
+  const bool is_one = name.size() > end.size() && name.front() == '.' &&
+                      name.compare(name.size() - end.size(), end.size(), end) == 0;
+  if (!is_one || dash == std::string::npos) return std::nullopt;
+  const std::size_t dot = name.rfind('.', dash);
+  pid_t process = 0;
+  const char* const last = name.data() + dash;
+  const auto [next, error] = std::from_chars(name.data() + dot + 1, last, process);
+  if (dot == 0 || error != std::errc() || next != last || process <= 0) return std::nullopt;
+  return Leftover{name.substr(1, dot - 1), process};
+}
+
+bool is_running(pid_t process) {
+  return ::kill(process, 0) == 0 || errno != ESRCH;
+}
+
 }  // namespace
+
+void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names) {
+  std::error_code error;
+  std::vector<std::filesystem::path> leftovers;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto leftover = read_temporary_name(entry.path().filename().string());
+    if (leftover && names.count(leftover->target) > 0 && !is_running(leftover->process)) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const std::filesystem::path& path : leftovers)
+    std::filesystem::remove(path, error);
+}
 
 void check_output_path(const std::filesystem::path& path) {
   const UnfinishedFile file(path);

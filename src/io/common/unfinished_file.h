@@ -2,12 +2,18 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
+#include <string>
 
 namespace splotchcl {
 
 // Creates a file beside `path` and removes it. Throws DataError when that fails: the folder
 // is missing or not writable, or `path` is itself a folder.
 void check_output_path(const std::filesystem::path& path);
+
+// Removes what processes that were killed have left of files with these names in a folder. Only
+// of such as do not run here any more.
+void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names);
 
 // A file that appears under its name only when it is complete. Until finish() it has a
 // temporary name in the same folder, and is removed when it is abandoned. A symbolic link

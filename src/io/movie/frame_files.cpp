@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -137,6 +138,15 @@ bool FrameFiles::has(int frame) const {
     return std::filesystem::last_write_time(path, error) >=
            std::filesystem::last_write_time(manifest_, error);
   });
+}
+
+void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
+  std::set<std::string> names;
+  for (const int frame : frames) {
+    for (const std::string& suffix : suffixes_)
+      names.insert(picture(frame, suffix).filename().string());
+  }
+  splotchcl::remove_leftovers(folder_, names);
 }
 
 void FrameFiles::close() {

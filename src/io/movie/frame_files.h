@@ -32,6 +32,8 @@ class FrameFiles {
   // frames of another.
   void open(const std::string& manifest);
   bool has(int frame) const;
+  // Removes what is left of these frames where a process was killed while it wrote them.
+  void remove_leftovers(const std::vector<int>& frames) const;
   // The frames are where they belong: removes manifest and folder.
   void close();
 
