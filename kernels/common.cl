@@ -25,7 +25,7 @@ typedef struct TileSplat {
 #else
 typedef struct TileSplat {
   float x, y;
-  float sigma, radius;
+  float sigma, radius;  // sigma as in Splat
 #ifdef ELLIPSES
   float sigma_x, radius_x;  // along x, where the others are along y
 #endif

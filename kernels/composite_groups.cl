@@ -10,6 +10,7 @@
 
 // One axis of the separable shape at distance d of a pixel's centre.
 inline float axis_shape(float d, float sigma, float inverse, float mean_sigma) {
+  if (sigma < 0.0f) return bright_mean(d, -sigma);
   if (sigma >= mean_sigma) return gaussian(d, inverse);
   const float per_sigma = 1.0f / sigma;
   return PIXEL_MEAN_SCALE * sigma *
@@ -47,10 +48,13 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
   for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
     const float tau = shape * splat.light[c];
-    const float phi = tau <= phi_series_limit ? phi_series(tau) : phi_full(tau);
-    const float u = (1.0f - pixel[c + 3]) * (shape * phi);
+    const int by_series = tau <= phi_series_limit;
+    const float phi = by_series ? phi_series(tau) : phi_full(tau);
+    const float passed = by_series ? passed_by_series(tau, phi) : passed_in_full(tau, phi);
+    const float t = transmittance_of(pixel[c + 3]);
+    const float u = t * (shape * phi);
     pixel[c] += u * splat.emission[c];
-    pixel[c + 3] += u * splat.light[c];
+    pixel[c + 3] = carry(pixel[c + 3], u * splat.light[c], t * passed);
 #else
     pixel[c] += shape * splat.light[c];
 #endif

@@ -15,7 +15,7 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #endif
 
 #ifdef LIGHT_ORDERED
-#define PLANES 6  // source S, then opacity 1 - exp(-tau)
+#define PLANES 6  // source S, then opacity 1 - exp(-tau) as opacity.cl carries it
 #else
 #define PLANES 3
 #endif
@@ -74,27 +74,27 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 #endif
 
 #ifdef LIGHT_ORDERED
-// The splat's layer behind what is already there: with u = (1 - opacity) X phi(A X),
-// S grows by E u and opacity by A u. Opacity, not transmittance, is carried: it keeps
-// optical depths of 1e-8. Written out for each channel, since compilers leave a loop of
-// three as it is, and then fetch E and A anew for every row.
-#define LAYER_CHANNEL(c, PHI)                                               \
-  {                                                                         \
-    float* const source = pixel + c * TILE_PIXELS;                          \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                   \
-    const float8 o = load_eight(opacity);                                   \
-    const float8 covered = shape * PHI(shape * absorption##c);              \
-    const float8 u = (1.0f - o) * covered;                                  \
-    store_eight(load_eight(source) + u * emission##c, source);              \
-    store_eight(o + u * absorption##c, opacity);                            \
+// The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
+// by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
+// since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
+#define LAYER_CHANNEL(c, PHI, PASSED)                                         \
+  {                                                                           \
+    float* const source = pixel + c * TILE_PIXELS;                            \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                     \
+    const float8 o = load_eight(opacity), t = transmittance_of(o);            \
+    const float8 depth = shape * absorption##c, phi = PHI(depth);             \
+    const float8 covered = shape * phi;                                       \
+    const float8 u = t * covered;                                             \
+    store_eight(load_eight(source) + u * emission##c, source);                \
+    store_eight(carry(o, u * absorption##c, t * PASSED(depth, phi)), opacity); \
   }
 
-#define LAYER_ROWS(PHI)                                                                  \
+#define LAYER_ROWS(PHI, PASSED)                                                          \
   for (int k = 0; k < window.rows; ++k, pixel += ROW) {                                  \
     const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    LAYER_CHANNEL(0, PHI)                                                                \
-    LAYER_CHANNEL(1, PHI)                                                                \
-    LAYER_CHANNEL(2, PHI)                                                                \
+    LAYER_CHANNEL(0, PHI, PASSED)                                                        \
+    LAYER_CHANNEL(1, PHI, PASSED)                                                        \
+    LAYER_CHANNEL(2, PHI, PASSED)                                                        \
   }
 #endif
 
@@ -103,6 +103,12 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 inline void fill_axis(float* values, float first, int count, float sigma, float inverse,
                       float mean_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma < 0.0f) {
+    for (int k = 0; k < count; k += 8) {
+      vstore8(bright_mean(first + (float)k + ramp, -sigma), 0, values + k);
+    }
+    return;
+  }
   if (sigma >= mean_sigma) {
     for (int k = 0; k < count; k += 8) {
       vstore8(gaussian(first + (float)k + ramp, inverse), 0, values + k);
@@ -144,11 +150,11 @@ inline void update_window(float* tile, Window window, float8 across, const float
   const float8 absorption1 = splat->light[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->light[2], emission2 = splat->emission[2];
   if (deepest <= p.phi_short) {
-    LAYER_ROWS(phi_short)
+    LAYER_ROWS(phi_short, passed_by_series)
   } else if (deepest <= p.phi_series) {
-    LAYER_ROWS(phi_series)
+    LAYER_ROWS(phi_series, passed_by_series)
   } else {
-    LAYER_ROWS(phi_full)
+    LAYER_ROWS(phi_full, passed_in_full)
   }
 #else
   const float8 light0 = across * splat->light[0];
@@ -178,12 +184,13 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
   float deepest = 0.0f;
 #ifdef LIGHT_ORDERED
   deepest = max(splat->light[0], max(splat->light[1], splat->light[2])) *
-            (sigma < mean_sigma ? min(1.0f, 3.15f * sigma * sigma_x) : 1.0f);
+            (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+  const int bright = min(sigma, sigma_x) < 0.0f;
 #ifndef ELLIPSES
-  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
+  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma && !bright) {
     // A grain: the edges of its pixels along both axes fit one call.
     window.rows = 3;
     window.x = columns.x;
@@ -205,7 +212,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
 #else
   const float inverse_x = inverse;
 #endif
-  if (columns_count <= 7 && rows_count <= 7) {
+  if (columns_count <= 7 && rows_count <= 7 && !bright) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
     // Rows beside the splat take its tails, which is no less exact.
     window.rows = rows_count <= 4 ? 4 : 7;
@@ -262,7 +269,7 @@ inline int is_opaque(const float* tile, float opaque) {
   for (int c = 3; c < 6; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        least = min(least, vload8(0, tile + c * TILE_PIXELS + y * ROW + x));
+        least = min(least, opacity_of(vload8(0, tile + c * TILE_PIXELS + y * ROW + x)));
       }
     }
   }

@@ -12,9 +12,11 @@ inline void join_pixel(__global float* planes, size_t plane, __global const floa
   for (int c = 0; c < 3; ++c) {
     __global float* source = planes + (size_t)c * plane;
     __global float* opacity = planes + (size_t)(c + 3) * plane;
-    const float transmittance = 1.0f - *opacity;
+    const float transmittance = transmittance_of(*opacity);
+    const float behind = partial[(size_t)(c + 3) * TILE_WIDTH * TILE_HEIGHT + pixel];
     *source += transmittance * partial[(size_t)c * TILE_WIDTH * TILE_HEIGHT + pixel];
-    *opacity += transmittance * partial[(size_t)(c + 3) * TILE_WIDTH * TILE_HEIGHT + pixel];
+    *opacity = carry(*opacity, transmittance * opacity_of(behind),
+                     transmittance * transmittance_of(behind));
   }
 #else
   for (int c = 0; c < 3; ++c) {

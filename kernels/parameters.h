@@ -51,6 +51,8 @@ struct ProjectParameters {
   float min_radius;    // pixels
   float widening;      // sigma'^2 = sigma^2 + widening, in pixels
   float mean_sigma;    // below: the pixel mean by erf, not the widened centre value
+  float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
+  float crowd;         // so many splats may lie on one another: their peaks add up
 
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
@@ -86,7 +88,8 @@ struct ProjectParameters {
 // A projected particle, positions and widths in pixels of its grid.
 struct Splat {
   float x, y;
-  float sigma;                      // widened, unless the pixel mean is taken by erf
+  float sigma;                      // widened, unless pixel means are taken; negative: of a
+                                    // bright splat, whose means keep more digits (shape.cl)
   float radius;                     // drawn up to here
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]

@@ -91,7 +91,8 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
     const float8 transmittance = precise_exp_negative(sum, low);
     const float8 own = p.source[c] * opacity;
 #elif defined(LIGHT_ORDERED)
-    const float8 transmittance = 1.0f - vload8(0, pixels + (size_t)(c + 3) * grid.plane_size);
+    const float8 transmittance =
+        transmittance_of(vload8(0, pixels + (size_t)(c + 3) * grid.plane_size));
     const float8 own = sum;
 #elif defined(LIGHT_EMISSION)
     const float8 transmittance = (float8)(1.0f);
@@ -99,8 +100,9 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
 #else
     // Coarse grids ring by a part of the tolerance: a sum may be slightly negative.
     const float8 depth = max(sum, (float8)(0.0f));
-    const float8 opacity = depth * phi_full(depth);
-    const float8 transmittance = 1.0f - opacity;
+    const float8 phi = phi_full(depth), opacity = depth * phi;
+    // What is behind may be so bright that it shows through an opacity close to 1.
+    const float8 transmittance = choose(1.0f - opacity, passed_in_full(depth, phi), depth > 0.5f);
     const float8 own = p.source[c] * opacity;
 #endif
     vstore8(own + transmittance * BACKGROUND(c, x, y), 0, light[c]);

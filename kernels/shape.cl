@@ -70,6 +70,16 @@ inline VALUE error_function(VALUE x) {
 // difference of the error function at its two edges, in units of sigma.
 #define PIXEL_MEAN_SCALE 0.88622693f
 
+// Splats whose light or depth is well above 1 carry their sigma with a minus where they are
+// taken as means. What errors of their peak would show beside them, so that these means are
+// differences of 1 - erf, which keep their digits far out.
+inline VALUE bright_mean(VALUE d, float sigma) {
+  const VALUE far = (fabs(d) + 0.5f) / sigma, near = (fabs(d) - 0.5f) / sigma;
+  const VALUE beyond = erfc(far), short_of = erfc(fabs(near));
+  return PIXEL_MEAN_SCALE * sigma *
+         (choose(short_of, 2.0f - short_of, near < 0.0f) - beyond);
+}
+
 // phi(y) = (1 - exp(-y)) / y by two terms of its series (error y^2 / 6) ...
 inline VALUE phi_short(VALUE y) { return 1.0f - 0.5f * y; }
 
@@ -77,6 +87,10 @@ inline VALUE phi_short(VALUE y) { return 1.0f - 0.5f * y; }
 inline VALUE phi_series(VALUE y) {
   return 1.0f - y * (0.5f - y * (0.166666667f - y * 0.0416666667f));
 }
+
+// exp(-y) = 1 - y phi(y), where phi is taken by its series.
+inline VALUE passed_by_series(VALUE y, VALUE phi) { return 1.0f - y * phi; }
+inline VALUE passed_in_full(VALUE y, VALUE phi) { return exp2_negative(y * -1.44269504f); }
 
 // ... and for any y >= 0: the series below 0.1, where 1 - exp(-y) would cancel.
 inline VALUE phi_full(VALUE y) {

@@ -31,9 +31,16 @@ struct Plan {
   double pixel_mean_share = 0;  // centre values in place of means over pixels
   double phi_share = 0;         // exp and (1 - exp(-y)) / y
   double stop_share = 0;        // what an early stop leaves out (ordered only)
+
+  // So many clouds may lie upon one another (docs/accuracy.md); from the particles, so that
+  // make_plan leaves it at 1.
+  double crowd = 1;
 };
 
 Plan make_plan(const Frame& frame);
+
+// The same with what the positions and widths of the particles tell: a millisecond or two.
+Plan make_plan_from_particles(const Frame& frame);
 
 // Lines for --explain: the plan, why it is exact, and how the tolerance is spent.
 std::string explain(const Plan& plan, const Frame& frame);

@@ -18,10 +18,10 @@ Compositor::Compositor(DeviceContext& device, const FrameLayout& layout, const F
                              "composite_exact.cl"});
     return;
   }
-  program_ = device.programs.get(
-      defines + (rows ? "#define LANES_8\n" : ""),
-      {"common.cl", "lanes.cl", "shape.cl", rows ? "composite_rows.cl" : "composite_groups.cl"});
-  join_program_ = device.programs.get(defines, {"common.cl", "join.cl"});
+  program_ = device.programs.get(defines + (rows ? "#define LANES_8\n" : ""),
+                                 {"common.cl", "lanes.cl", "shape.cl", "opacity.cl",
+                                  rows ? "composite_rows.cl" : "composite_groups.cl"});
+  join_program_ = device.programs.get(defines, {"common.cl", "lanes.cl", "opacity.cl", "join.cl"});
 }
 
 void Compositor::clear() {

@@ -119,8 +119,7 @@ double brightest_quotient(const Palette& palette) {
   return largest;
 }
 
-// Largest E / A of the component: what shines through an opacity o is at most
-// (1 - o) times this.
+// Largest E / A of the component.
 double brightest_source(const DrawnComponent& component) {
   using Kind = Absorption::Kind;
   if (component.absorption.kind == Kind::none) return std::numeric_limits<double>::infinity();
@@ -159,11 +158,16 @@ double response(const Frame& frame, double background) {
   return std::min(1.0, depth_to_light * brightest);
 }
 
-float opaque_limit(const Frame& frame, double background, double share) {
+// What shines through an opacity o is at most (1 - o) times this.
+double brightest_behind(const Frame& frame, double background) {
   double brightest = background;
   for (const DrawnComponent& component : frame.components) {
     brightest = std::max(brightest, brightest_source(component));
   }
+  return brightest;
+}
+
+float opaque_limit(double brightest, double share) {
   constexpr float never = 2;
   if (!std::isfinite(brightest) || share <= 0) return never;
   return brightest > 0 ? static_cast<float>(1 - share / brightest) : 0.0f;
@@ -225,7 +229,8 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   layout.ellipses = frame.projection == Projection::equirectangular;
   if (layout.ellipses) layout.splats_per_particle = 7;  // wide_angle.cl: three on either side
   const double background = brightest_background(frame);
-  const double picture_error = response(frame, background);
+  // Beside a crowd of clouds a pixel may be dark, and errs by as much as its sum.
+  const double picture_error = plan.crowd > 1 ? 1 : response(frame, background);
   const double truncation = plan.truncation_share;
   layout.exact = frame.tolerance < 3e-4;
   // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
@@ -234,7 +239,11 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   layout.least_extent = static_cast<float>(extent_of_loss(loss));
   layout.restored_light = static_cast<float>(0.5 * loss);
   // Two dozen edges may cross in one pixel: so many clouds of peak 0.1 overlapped in tests.
-  layout.inverse_edge = static_cast<float>(24 / truncation);
+  // Kernels multiply it by the peak of a whole crowd.
+  layout.crowd = static_cast<float>(plan.crowd);
+  layout.inverse_edge = static_cast<float>(std::max(24 / plan.crowd, 1.0) / truncation);
+  // Below, errors relative to a peak are no more than three times their shares.
+  layout.bright_peak = 8;
   if (frame.kernel.sampling == Sampling::mean) {
     // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
     const double sigma = std::pow(7.7e-3 * picture_error / plan.pixel_mean_share, 0.25);
@@ -251,7 +260,11 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   layout.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * plan.phi_share)));
   layout.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * plan.phi_share, 0.25)));
-  layout.opaque = opaque_limit(frame, background, plan.stop_share);
+  const double brightest = brightest_behind(frame, background);
+  layout.opaque = opaque_limit(brightest, plan.stop_share);
+  // An opacity close to 1 errs by ten roundings of 1 (exp, phi's difference and quotient, three
+  // products, the sum), and with it what shines through.
+  layout.keep_transmittance = plan.needs_sort && 10 * 0x1p-24 * brightest > plan.stop_share;
   return layout;
 }
 
@@ -267,6 +280,7 @@ std::string kernel_defines(const Frame& frame, const Plan& plan, const FrameLayo
   if (layout.vector_colors) define("VECTOR_COLORS");
   if (layout.exact_numbers) define("EXACT_NUMBERS");
   if (layout.ellipses) define("ELLIPSES");
+  if (layout.keep_transmittance) define("KEEP_TRANSMITTANCE");
   if (frame.projection == Projection::fisheye) define("PROJECTION_FISHEYE");
   if (layout.exact) define("EXACT");
   if (layout.builtin_erf) define("BUILTIN_ERF");

@@ -29,8 +29,10 @@ struct FrameLayout {
   double blur[2] = {0, 0};
   double blur_error = 0;  // of a splat's peak
 
-  float mean_sigma = 0;  // narrower splats take the pixel mean by erf
-  float widening = 0;    // of sigma^2, for wider ones
+  float mean_sigma = 0;   // narrower splats take the pixel mean by erf
+  float widening = 0;     // of sigma^2, for wider ones
+  float bright_peak = 0;  // brighter splats take means that keep more digits, also wider ones
+  float crowd = 1;        // so many splats may lie on one another
   RefinementFilter refinement;
   float coarse_peak = 0;                // brighter splats stay on grid 0
   float coarse_sigma = 0;               // smallest sigma in pixels of a coarse grid
@@ -39,8 +41,9 @@ struct FrameLayout {
   float inverse_edge = 0;               // 1 / (value at which a splat may end)
   float phi_short = 0, phi_series = 0;  // optical depths up to which a series serves
   float opaque = 0;
-  bool exact_numbers = false;  // tolerance 0: kernels of exact.cl
-  bool vector_colors = false;  // some particles have colours of their own
+  bool keep_transmittance = false;  // opacity.cl: sources may show through opacities close to 1
+  bool exact_numbers = false;       // tolerance 0: kernels of exact.cl
+  bool vector_colors = false;       // some particles have colours of their own
   // Equirectangular pictures: splats are wider than high, and have copies beside the picture.
   bool ellipses = false;
   std::uint32_t splats_per_particle = 1;  // at most

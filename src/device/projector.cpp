@@ -7,6 +7,7 @@
 #include <string>
 
 #include "device/exact_parameters.h"
+#include "scene/peak_color.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
 
@@ -14,43 +15,6 @@ namespace splotchcl {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-// Bounds on amplitudes are taken over the whole palette.
-double brightest_knot(const std::vector<Rgb>& knots) {
-  float brightest = 0;
-  for (const Rgb& knot : knots) {
-    brightest = std::max(brightest, *std::max_element(knot.begin(), knot.end()));
-  }
-  return static_cast<double>(brightest);
-}
-
-// A per unit weight, of the palette's colours `knots`.
-double peak_absorption(const DrawnComponent& component, const std::vector<Rgb>& knots) {
-  switch (component.absorption.kind) {
-    case Absorption::Kind::none:
-    case Absorption::Kind::gray:
-      return 0;
-    case Absorption::Kind::as_emission:
-      return component.brightness * brightest_knot(knots);
-    case Absorption::Kind::factor:
-      return component.absorption.factor * brightest_knot(knots);
-  }
-  return 0;
-}
-
-// What does not follow the particles' own colours.
-double peak_own_absorption(const DrawnComponent& component) {
-  const Palette& palette = component.palette;
-  return palette.has_own_absorption() ? peak_absorption(component, palette.absorption) : 0;
-}
-
-double peak_colour(const DrawnComponent& component) {
-  const Palette& palette = component.palette;
-  const double emission = component.brightness * brightest_knot(palette.emission);
-  return std::max(emission, palette.has_own_absorption()
-                                ? peak_own_absorption(component)
-                                : peak_absorption(component, palette.emission));
-}
 
 kernel::FieldScaling scaling_of(const ScalarMap& map) {
   kernel::FieldScaling scaling{};
@@ -160,6 +124,8 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.min_radius = static_cast<float>(frame_.kernel.min_radius_pixels);
   p.widening = layout_.widening;
   p.mean_sigma = layout_.mean_sigma;
+  p.bright_peak = layout_.bright_peak;
+  p.crowd = layout_.crowd;
 
   const double length_scale = splotchcl::length_scale(frame_);
   p.length_scale = static_cast<float>(length_scale);
@@ -179,7 +145,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
       p.weight_scale = static_cast<float>(length_scale / component.reference_column);
       break;
   }
-  p.peak_colour = static_cast<float>(peak_colour(component));
+  p.peak_colour = static_cast<float>(peak_color(component));
   p.peak_own = static_cast<float>(peak_own_absorption(component));
   p.least_extent = layout_.least_extent;
   // A cut is part of the model: nothing is left out.

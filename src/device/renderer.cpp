@@ -56,6 +56,9 @@ struct Renderer::State {
       : device(choose_device(options.device)), particles(device) {
     rows = options.shape == CompositeShape::automatic ? device.traits.rows
                                                       : options.shape == CompositeShape::rows;
+    // The shape decides for all stages: a processor that is asked for groups also projects one
+    // particle at a time, as a GPU does.
+    device.traits.rows = rows;
     device.traits.double_numbers &= options.use_double;
   }
 
@@ -81,7 +84,7 @@ Image Renderer::State::render(const Frame& frame) {
   device.buffers.reset_peak();
   particles.begin_frame();
 
-  const Plan plan = make_plan(frame);
+  const Plan plan = make_plan_from_particles(frame);
   const FrameLayout layout = make_layout(frame, plan, rows);
   const compute::buffer grids = device.buffers.upload("grids", layout.grids);
   Projector projector(device, frame, layout, grids);

@@ -29,8 +29,8 @@ Resolver::Resolver(DeviceContext& device, const FrameLayout& layout, const Frame
   parameters_.circle_diameter = std::min(frame.width, frame.height);
   std::string defines = kernel_defines(frame, plan, layout) + "#define LANES_8\n";
   if (frame.background_image) defines += "#define BACKGROUND_IMAGE\n";
-  program_ = device.programs.get(defines,
-                                 {"common.cl", "lanes.cl", "shape.cl", "precise.cl", "resolve.cl"});
+  program_ = device.programs.get(
+      defines, {"common.cl", "lanes.cl", "shape.cl", "opacity.cl", "precise.cl", "resolve.cl"});
   if (layout.bands) {
     blur_program_ =
         device.programs.get(kernel_defines(frame, plan, layout), {"common.cl", "blur.cl"});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scene/crowding.h"
+
 namespace splotchcl {
 namespace {
 
@@ -72,6 +74,13 @@ Plan make_plan(const Frame& frame) {
   return plan;
 }
 
+Plan make_plan_from_particles(const Frame& frame) {
+  Plan plan = make_plan(frame);
+  // The exact mode's bound holds for any number.
+  if (!plan.exact) plan.crowd = find_crowd(frame);
+  return plan;
+}
+
 const char* name(LightPlan light) {
   switch (light) {
     case LightPlan::emission:
@@ -99,6 +108,10 @@ void explain_shares(const Plan& plan, double tolerance, std::ostream& out) {
       << plan.coarse_share << ", arithmetic " << plan.arithmetic_share << ":\n"
       << "    centre values for pixel means " << plan.pixel_mean_share << ", exp and phi "
       << plan.phi_share << ", early stop " << plan.stop_share << "\n";
+  if (plan.crowd > 1) {
+    out << "  up to " << plan.crowd
+        << " clouds lie upon one another: each is drawn farther and finer\n";
+  }
 }
 
 }  // namespace

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/central_column.h"
-#include "scene/projection.h"
+#include "scene/cloud_in_picture.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 
@@ -132,42 +131,13 @@ double color_strength(const DrawnComponent& component, std::size_t i) {
 
 // Nothing for particles that are bad or outside the camera's limits.
 std::optional<Cloud> cloud_of(const DrawnComponent& component, const Frame& frame, std::size_t i) {
-  using namespace boost::qvm;
-  const Particles& particles = component.particles;
-  const double h = component.size_factor * static_cast<double>(particles.smoothing_length[i]);
-  const double sigma = frame.kernel.width * h;
-  const Vec3 offset = {{static_cast<double>(particles.position[3 * i]),
-                        static_cast<double>(particles.position[3 * i + 1]),
-                        static_cast<double>(particles.position[3 * i + 2])}};
-  const Vec3 from_camera = particles.origin - frame.camera.position + offset;
-  const std::optional<Projected> place =
-      project_point({{dot(from_camera, frame.camera.right), dot(from_camera, frame.camera.down),
-                      dot(from_camera, frame.camera.forward)}},
-                    frame.camera, frame.projection);
-  if (!place) return std::nullopt;
-  const bool flat = frame.projection == Projection::orthographic;
-  if (place->depth < frame.near_limit.value_or(flat ? 0.0 : 0.1 * h)) return std::nullopt;
-  if (frame.far_limit && place->depth > *frame.far_limit) return std::nullopt;
-
+  const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
+  if (!cloud) return std::nullopt;
   const double coarse_pixels = coarse_scale(frame);
-  Cloud cloud;
-  cloud.x = coarse_pixels * place->x;
-  cloud.y = coarse_pixels * place->y;
-  // A cloud that is wider than high has the light of a circle of the same area.
-  const double height = sigma * place->pixels_per_length;
-  cloud.sigma = coarse_pixels * height *
-                std::sqrt(stretch_along_x(*place, height, frame.camera, frame.projection));
-  const double weight = particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
-  cloud.column = central_column(component.weight, weight, h, sigma);
-  if (!particles.intensity.is_absent()) {
-    cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);
-  }
-  cloud.column *= color_strength(component, i);
-  const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) && cloud.sigma > 0 &&
-                       std::isfinite(cloud.sigma) && cloud.column > 0 &&
-                       std::isfinite(cloud.column);
-  if (!is_good) return std::nullopt;
-  return cloud;
+  const double column = cloud->column * color_strength(component, i);
+  if (!(column > 0 && std::isfinite(column))) return std::nullopt;
+  return Cloud{coarse_pixels * cloud->x, coarse_pixels * cloud->y, coarse_pixels * cloud->sigma,
+               column};
 }
 
 std::vector<double> lit_pixels(std::vector<double> pixels) {

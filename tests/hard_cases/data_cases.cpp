@@ -138,6 +138,33 @@ Frame bad_values(LightPlan plan) {
   return lit(frame_of(setup.width, setup.height, {clouds}), plan);
 }
 
+// The same for keys and for colours of the particles' own, which other frames do not read.
+Frame bad_keys_and_colors(LightPlan plan) {
+  CloudSetup setup;
+  setup.count = 400;
+  DrawnComponent clouds = random_clouds(setup);
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  std::vector<float> keys, colors;
+  for (int i = 0; i < setup.count; ++i) {
+    keys.push_back(static_cast<float>(i % 17));
+    for (int c = 0; c < 3; ++c)
+      colors.push_back(static_cast<float>((i + c) % 5) / 5);
+  }
+  std::size_t next = 3;
+  for (const float bad : {nan, infinite, -infinite}) {
+    keys[next] = bad;
+    for (std::size_t c = 0; c < 3; ++c)
+      colors[3 * (next + 7 * (c + 1)) + c] = bad;
+    next += 28;
+  }
+  clouds.particles.sort_field = Column::owning(keys);
+  clouds.particles.color_vector = Column::owning(colors);
+  Frame frame = lit(frame_of(setup.width, setup.height, {clouds}), plan);
+  frame.sort = {SortOrder::By::field, "key", false};
+  return frame;
+}
+
 Frame many_components(LightPlan plan) {
   std::vector<DrawnComponent> components;
   for (int i = 0; i < 100; ++i) {
@@ -216,6 +243,7 @@ std::vector<HardCase> data_cases() {
        false,
        false},
       {"BadValuesInEveryField", "one not-a-number that is drawn spoils every pixel", bad_values},
+      {"BadKeysAndColors", "the same of fields that few frames read", bad_keys_and_colors},
       {"ManyComponents", "colours and offsets of each must be its own", many_components},
       {"NarrowLinearColorRange", "the palette's ends need more digits than the values have",
        [](LightPlan plan) { return narrow_color_range(Scaling::linear, 10, plan); }},

@@ -11,14 +11,6 @@
 
 namespace splotchcl::test {
 
-// What the renderer cannot hold today in one plan: the error it may reach, in units of the
-// frame's tolerance, and where that number comes from.
-struct KnownLimit {
-  LightPlan plan;
-  double bound;
-  std::string reason;
-};
-
 // A frame that is hard to draw within its tolerance.
 struct HardCase {
   std::string name;  // letters and digits: also the test's name
@@ -32,7 +24,6 @@ struct HardCase {
   bool dark = false;       // nothing to see: a black picture is right
   bool groups_too = true;  // false: too slow on a processor in the shape made for GPUs
   bool exact_too = true;   // false: too slow in the most exact mode
-  std::vector<KnownLimit> limits = {};
 };
 
 std::vector<HardCase> light_cases();    // absorption, depth, dynamic range

@@ -118,13 +118,6 @@ Bench& bench() {
   return *shared;
 }
 
-const KnownLimit* find_limit(const HardCase& hard, LightPlan plan) {
-  for (const KnownLimit& limit : hard.limits) {
-    if (limit.plan == plan) return &limit;
-  }
-  return nullptr;
-}
-
 class HardCases : public testing::TestWithParam<CaseRun> {};
 
 TEST_P(HardCases, StayWithinTheirBound) {
@@ -133,15 +126,13 @@ TEST_P(HardCases, StayWithinTheirBound) {
   Frame frame = hard.frame(run.plan);
   ASSERT_EQ(make_plan(frame).light, run.plan);
   if (is_exact(run)) frame.tolerance = 0;
-  const double tolerance = is_exact(run) ? most_exact_tolerance : frame.tolerance;
-  const KnownLimit* limit = is_exact(run) ? nullptr : find_limit(hard, run.plan);
-  const double bound = tolerance * (limit ? limit->bound : 1);
+  const double bound = is_exact(run) ? most_exact_tolerance : frame.tolerance;
   const Image image = bench().renderer(run.way).render(frame);
   const ExactImage& exact = bench().exact(run, frame);
   ASSERT_EQ(largest_value(exact) < 0.05, hard.dark) << "the case must have something to see";
   const double error = largest_error(image, exact);
-  bench().table().add(hard, run.plan, way_name(run), error, tolerance, bound, limit);
-  EXPECT_LE(error, bound) << hard.why << (limit ? "; known limit: " + limit->reason : "");
+  bench().table().add(hard, run.plan, way_name(run), error, bound);
+  EXPECT_LE(error, bound) << hard.why;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HardCases, testing::ValuesIn(all_runs()),

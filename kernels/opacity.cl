@@ -1,0 +1,26 @@
+// How much of what lies behind a pixel's layers they take away, as planes carry it, on VALUEs
+// (lanes.cl): the opacity 1 - exp(-depth), which keeps depths of 1e-8. With
+// KEEP_TRANSMITTANCE, where sources may be so bright that they show through an opacity close
+// to 1, minus the transmittance from an opacity of one half on: it keeps its own digits.
+#ifdef KEEP_TRANSMITTANCE
+inline VALUE opacity_of(VALUE carried) {
+  return carried + choose((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);
+}
+
+inline VALUE transmittance_of(VALUE carried) {
+  return choose(1.0f - carried, -carried, carried < 0.0f);
+}
+
+// What is carried behind one more layer, which takes `taken` of all light away and leaves
+// `left` of it: either may be rounded where the other counts. The smallest float stands for
+// nothing at all, which has no sign.
+inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
+  const VALUE opacity = carried + taken;
+  return choose(-max(left, (VALUE)(1.17549435e-38f)), opacity,
+                carried >= 0.0f & opacity < 0.5f);
+}
+#else
+inline VALUE opacity_of(VALUE carried) { return carried; }
+inline VALUE transmittance_of(VALUE carried) { return 1.0f - carried; }
+inline VALUE carry(VALUE carried, VALUE taken, VALUE left) { return carried + taken; }
+#endif

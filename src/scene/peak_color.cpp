@@ -1,0 +1,47 @@
+#include "scene/peak_color.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace splotchcl {
+namespace {
+
+// Bounds on amplitudes are taken over the whole palette.
+double brightest_knot(const std::vector<Rgb>& knots) {
+  float brightest = 0;
+  for (const Rgb& knot : knots) {
+    brightest = std::max(brightest, *std::max_element(knot.begin(), knot.end()));
+  }
+  return static_cast<double>(brightest);
+}
+
+// A per unit weight, of the palette's colours `knots`.
+double peak_absorption(const DrawnComponent& component, const std::vector<Rgb>& knots) {
+  switch (component.absorption.kind) {
+    case Absorption::Kind::none:
+    case Absorption::Kind::gray:
+      return 0;
+    case Absorption::Kind::as_emission:
+      return component.brightness * brightest_knot(knots);
+    case Absorption::Kind::factor:
+      return component.absorption.factor * brightest_knot(knots);
+  }
+  return 0;
+}
+
+}  // namespace
+
+double peak_own_absorption(const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  return palette.has_own_absorption() ? peak_absorption(component, palette.absorption) : 0;
+}
+
+double peak_color(const DrawnComponent& component) {
+  const Palette& palette = component.palette;
+  const double emission = component.brightness * brightest_knot(palette.emission);
+  return std::max(emission, palette.has_own_absorption()
+                                ? peak_own_absorption(component)
+                                : peak_absorption(component, palette.emission));
+}
+
+}  // namespace splotchcl

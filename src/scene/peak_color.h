@@ -1,0 +1,14 @@
+#pragma once
+
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// The largest of E and A per unit of a particle's weight, in any channel: a bound over the
+// whole palette. Colours of the particles' own multiply it, but for peak_own_absorption.
+double peak_color(const DrawnComponent& component);
+
+// That of an absorption palette of the component's own, 0 without one.
+double peak_own_absorption(const DrawnComponent& component);
+
+}  // namespace splotchcl
