@@ -114,6 +114,35 @@ TEST_F(Consistency, ShufflingParticlesOfDifferentDepthsGivesTheSameBits) {
   EXPECT_EQ(draw(frame).pixels, in_order.pixels);
 }
 
+// Ties stay in the file's order: so shuffled that those of equal depth do, the bits are the
+// same; shuffled in any way, the picture is the oracle's of that file.
+TEST_F(Consistency, ShufflingParticlesOfEqualDepthsFollowsTheFile) {
+  Frame frame = clouds_for(LightPlan::ordered);
+  DrawnComponent& clouds = frame.components.front();
+  std::vector<float> positions(clouds.particles.position.data(),
+                               clouds.particles.position.data() + 1500);
+  constexpr std::size_t depths = 7;
+  for (std::size_t i = 0; i < 500; ++i)
+    positions[3 * i + 2] = static_cast<float>(1 + i % depths);
+  clouds.particles.position = Column::owning(positions);
+  const Image in_order = draw(frame);
+  const DrawnComponent all = clouds;
+
+  std::vector<std::size_t> by_depth;
+  for (const std::size_t depth : {4, 1, 6, 0, 3, 5, 2}) {
+    for (const std::size_t i : every(depths, depth, 500))
+      by_depth.push_back(i);
+  }
+  frame.components = {picked(all, by_depth)};
+  EXPECT_EQ(draw(frame).pixels, in_order.pixels);
+
+  std::vector<std::size_t> reversed = every(1, 0, 500);
+  std::reverse(reversed.begin(), reversed.end());
+  frame.components = {picked(all, reversed)};
+  EXPECT_LE(largest_error(draw(frame), reference::render(frame)), frame.tolerance);
+  EXPECT_NE(draw(frame).pixels, in_order.pixels) << "the order of ties should show here";
+}
+
 TEST_F(Consistency, BadParticlesLeaveNoTrace) {
   for (const LightPlan plan : plans) {
     Frame frame = clouds_for(plan);

@@ -1,0 +1,140 @@
+// Every kernel in every variant that frames may ask for, on scenes so small that also a
+// simulator ends them soon (scripts/test --icd oclgrind).
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/pictures.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
+
+class EveryKernel : public PictureTest, public testing::WithParamInterface<CompositeShape> {
+ protected:
+  // Clouds from far below a pixel to wider than the picture, so that sums use coarse grids.
+  static Frame small_frame(LightPlan plan, int count = 12) {
+    CloudSetup setup;
+    setup.count = count;
+    setup.width = 35;
+    setup.height = 14;
+    setup.column_low = 0.1;
+    DrawnComponent clouds = random_clouds(setup);
+    if (plan == LightPlan::emission) clouds.absorption = {Absorption::Kind::none, 0};
+    if (plan == LightPlan::ordered) clouds.absorption = {Absorption::Kind::gray, 0.2};
+    return frame_of(setup.width, setup.height, {clouds});
+  }
+
+  // The camera among the clouds looks in all directions.
+  static Frame wide_frame(Projection projection) {
+    Frame frame = small_frame(LightPlan::ordered);
+    Camera camera;
+    camera.look_at = {{0, 0, 1}};
+    camera.projection = projection;
+    if (projection == Projection::cube) frame.width = frame.height;
+    if (projection == Projection::equirectangular) frame.height = frame.width / 2;
+    frame.crop = {0, 0, frame.width, frame.height};
+    frame.camera = make_camera_frame(camera, frame.width, frame.height);
+    frame.projection = projection;
+    return frame;
+  }
+
+  void expect_within_tolerance(const Frame& frame, const std::string& what) {
+    const double promise = frame.tolerance > 0 ? frame.tolerance : most_exact_tolerance;
+    EXPECT_LE(largest_error(draw(frame, GetParam()), reference::render(frame)), promise)
+        << what << ", " << name(make_plan(frame).light);
+  }
+};
+
+TEST_P(EveryKernel, HoldsItsTolerance) {
+  for (const LightPlan plan : plans) {
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 0.0}) {
+      Frame frame = small_frame(plan, tolerance > 0 ? 12 : 4);
+      frame.tolerance = tolerance;
+      expect_within_tolerance(frame, "tolerance " + std::to_string(tolerance));
+    }
+  }
+}
+
+TEST_P(EveryKernel, HoldsItsToleranceWithPairsOfFloats) {
+  Renderer pairs({"", GetParam(), false});
+  for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
+    Frame frame = small_frame(plan, 3);
+    frame.tolerance = 0;
+    EXPECT_LE(largest_error(pairs.render(frame), reference::render(frame)), most_exact_tolerance);
+  }
+}
+
+// Light of stars beside them and behind them: their shapes and transmittances keep all digits.
+TEST_P(EveryKernel, DrawsBrightStars) {
+  for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
+    Frame frame = small_frame(plan);
+    DrawnComponent stars = component_of({{3.3, 1.2, 200, 1.7, 1e4}}, two_colors());
+    stars.absorption = {Absorption::Kind::none, 0};
+    frame.components.push_back(stars);
+    expect_within_tolerance(frame, "stars");
+  }
+}
+
+TEST_P(EveryKernel, CutsKernels) {
+  for (const LightPlan plan : plans) {
+    for (const Sampling sampling : {Sampling::mean, Sampling::center}) {
+      Frame frame = small_frame(plan);
+      frame.kernel.cut = 2;
+      frame.kernel.sampling = sampling;
+      expect_within_tolerance(frame, "cut");
+    }
+  }
+}
+
+TEST_P(EveryKernel, TakesColorsOfTheParticlesOwn) {
+  for (const LightPlan plan : plans) {
+    Frame frame = small_frame(plan);
+    Particles& particles = frame.components.front().particles;
+    std::vector<float> vectors(3 * particles.count);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+      vectors[i] = static_cast<float>(i % 5) / 5;
+    particles.color_vector = Column::owning(vectors);
+    expect_within_tolerance(frame, "vectors");
+  }
+}
+
+TEST_P(EveryKernel, PutsAPictureBehind) {
+  Frame frame = small_frame(LightPlan::ordered);
+  Image image(frame.width, frame.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<float>(i % 7) / 7;
+  frame.background_image = std::make_shared<const Image>(image);
+  expect_within_tolerance(frame, "background");
+}
+
+TEST_P(EveryKernel, LooksInAllDirections) {
+  for (const Projection projection :
+       {Projection::fisheye, Projection::equirectangular, Projection::cube}) {
+    Frame frame = wide_frame(projection);
+    expect_within_tolerance(frame, "wide angle");
+    frame.camera.eye_offset = 0.01;
+    frame.camera.turn_axis = {{0, 1, 0}};
+    expect_within_tolerance(frame, "an eye beside the camera");
+  }
+}
+
+// A list that is cut: layers of its segments are joined.
+TEST_P(EveryKernel, JoinsSegments) {
+  const std::vector<Cloud> grains(8200, Cloud{0.2, 0.3, 1, 0.1, 0.01});
+  Frame frame = frame_of(3, 2, {component_of(grains, two_colors())});
+  frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
+  expect_within_tolerance(frame, "segments");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, EveryKernel,
+                         testing::Values(CompositeShape::rows, CompositeShape::groups),
+                         [](const testing::TestParamInfo<CompositeShape>& info) {
+                           return info.param == CompositeShape::rows ? "rows" : "groups";
+                         });
+
+}  // namespace
+}  // namespace splotchcl::test
