@@ -129,8 +129,9 @@ inline void sum_amplitude(const Splat splat, const ComponentColors colors,
 #endif
 }
 #else
-// E w and A w at the cloud's centre (scene.h, Absorption).
-inline void amplitudes(const Splat splat, const ComponentColors colors,
+// E w and A w at the cloud's centre (scene.h, Absorption). As a call it would leave its results
+// in memory in pieces, which a processor cannot forward to the copy of the whole entry.
+__attribute__((always_inline)) inline void amplitudes(const Splat splat, const ComponentColors colors,
                        __global const float* knots, const BinParameters p, float* emission,
                        float* absorption) {
   float e[3], a[3];
