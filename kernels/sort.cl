@@ -3,15 +3,24 @@
 // waits for another, so no forward progress is assumed.
 #define DIGITS 256
 
+// Also, per block, the bits that are set in some keys and in all of them: a digit that is the
+// same for all needs no pass.
 __kernel void sort_histogram(__global const uint* keys, uint count, uint block_length, uint shift,
-                             uint block_count, __global uint* histograms) {
+                             uint block_count, __global uint* histograms, __global uint2* bits) {
   const uint block = get_global_id(0);
   const uint begin = block * block_length;
   const uint end = min(begin + block_length, count);
   uint histogram[DIGITS];
   for (uint d = 0; d < DIGITS; ++d) histogram[d] = 0;
-  for (uint i = begin; i < end; ++i) ++histogram[(keys[i] >> shift) & (DIGITS - 1)];
+  uint some = 0, all = ~0u;
+  for (uint i = begin; i < end; ++i) {
+    const uint key = keys[i];
+    some |= key;
+    all &= key;
+    ++histogram[(key >> shift) & (DIGITS - 1)];
+  }
   for (uint d = 0; d < DIGITS; ++d) histograms[d * block_count + block] = histogram[d];
+  bits[block] = (uint2)(some, all);
 }
 
 // Exclusive scan over all digits and blocks, in place: where each block's first pair of a

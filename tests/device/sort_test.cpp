@@ -77,5 +77,18 @@ TEST(Sort, ComparesKeysThatDifferInOneDigitOnly) {
   }
 }
 
+// A pass is left out for a digit that all keys share, whichever it is.
+TEST(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
+  for (const std::uint32_t shared : {0x000000ffu, 0x0000ff00u, 0x00ff0000u, 0xff00ff00u}) {
+    Keys keys = random_keys(3000, 0, 4294967295.0);
+    for (std::uint32_t& key : keys)
+      key = (key & ~shared) | (0x5a5a5a5au & shared);
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << shared;
+    keys[1234] ^= shared & 0x80808080u;
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << "but for one key, " << shared;
+  }
+  EXPECT_EQ(device_order(Keys(5000, 77u)), stable_order(Keys(5000, 77u)));
+}
+
 }  // namespace
 }  // namespace splotchcl::test
