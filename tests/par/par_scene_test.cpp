@@ -195,7 +195,7 @@ TEST_F(ParScenes, TakeSettings) {
 
 TEST_F(ParScenes, AreRefusedWithTheKeyThatIsWrong) {
   EXPECT_THAT(error("fov=wide\n"), HasSubstr("key fov"));
-  EXPECT_THAT(error("fov=0\n"), HasSubstr("field_of_view"));
+  EXPECT_THAT(error("fov=0\n"), HasSubstr("x.par: as a scene: key camera.field_of_view"));
   EXPECT_THAT(error("color_asinh0=T\ncolor_log0=T\n"), HasSubstr("color_asinh0"));
   EXPECT_THAT(error("size_fac0=-1\n"), HasSubstr("size_fac0"));
   EXPECT_THAT(error("lookat_x=1\nlookat_y=2\nlookat_z=3\n"), HasSubstr("look_at"));

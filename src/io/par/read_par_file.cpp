@@ -4,11 +4,25 @@
 #include "io/par/par_keys.h"
 #include "io/par/translate.h"
 #include "io/scene_file/file_names.h"
+#include "splotchcl/error.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {
 namespace fs = std::filesystem;
+
+namespace {
+
+// Mistakes that only the scene shows have its keys, and its lines, which no file has.
+[[noreturn]] void refuse_as_scene(const std::string& message, const std::string& par) {
+  const std::size_t line = par.size() + 1;
+  const bool names_line = message.compare(0, line, par + ":") == 0;
+  const std::size_t end = names_line ? message.find_first_not_of("0123456789", line) : line;
+  if (!names_line || end == line || end == std::string::npos) throw UsageError(message);
+  throw UsageError(fmt::format("{}: as a scene{}", par, message.substr(end)));
+}
+
+}  // namespace
 
 Scene read_par_file(const fs::path& path, const std::vector<std::string>& settings,
                     std::vector<std::string>& notes) {
@@ -24,7 +38,11 @@ Scene read_par_file(const fs::path& path, const std::vector<std::string>& settin
     for (const std::string& note : more)
       notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
   }
-  return parse_scene(translation.scene.text(), path.string(), settings);
+  try {
+    return parse_scene(translation.scene.text(), path.string(), settings);
+  } catch (const UsageError& error) {
+    refuse_as_scene(error.what(), path.string());
+  }
 }
 
 Scene with_paths_from(Scene scene, const fs::path& folder) {
