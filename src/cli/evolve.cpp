@@ -10,6 +10,7 @@
 #include "io/common/unfinished_file.h"
 #include "io/load/cached_snapshot.h"
 #include "io/load/load_memory.h"
+#include "io/picture/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/picture.h"
@@ -88,12 +89,15 @@ class TurningScene {
   // What the first frame decides holds for all.
   void decide(std::vector<std::string>& notes) {
     scene_ = decide_scene(scene_, load_frame(scene_, *snapshot_at(galaxy_.at(0)), notes));
+    other_scenes_.decide(scene_);
   }
   std::vector<Picture> draw(const std::shared_ptr<const Snapshot>& turned, Renderer& renderer,
                             std::vector<std::string>& notes) {
+    const std::shared_ptr<const Snapshot> snapshot = snapshot_at(turned);
+    const Frame loaded = load_frame(scene_, *snapshot, notes);
     return draw_pictures(
-        scene_, *snapshot_at(turned), [&](const Frame& frame) { return renderer.render(frame); },
-        notes);
+        scene_, loaded, snapshot->info(),
+        [&](const Frame& frame) { return renderer.render(frame); }, notes, other_scenes_);
   }
 
  private:
@@ -109,6 +113,7 @@ class TurningScene {
   bool is_main_ = false;
   std::set<std::string> paths_;  // of the galaxy, as components name it
   std::shared_ptr<const Snapshot> surroundings_;
+  OtherScenes other_scenes_;
 };
 
 class Evolution {
