@@ -15,7 +15,8 @@ inline VALUE transmittance_of(VALUE carried) {
 // `left` of it: either may be rounded where the other counts. The smallest float stands for
 // nothing at all, which has no sign.
 inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
-  const VALUE opacity = carried + taken;
+  // Differences of the error function may be negative by their error: the sign is taken.
+  const VALUE opacity = max(carried + taken, (VALUE)(0.0f));
   return choose(-max(left, (VALUE)(1.17549435e-38f)), opacity,
                 carried >= 0.0f & opacity < 0.5f);
 }
