@@ -35,6 +35,9 @@ struct Plan {
   // So many clouds may lie upon one another (docs/accuracy.md); from the particles, so that
   // make_plan leaves it at 1.
   double crowd = 1;
+  // Clouds are so sharp for a small tolerance that their places in single precision would not
+  // hold it: the frame is drawn as with tolerance 0. Also from the particles.
+  bool needs_exact_places = false;
 };
 
 Plan make_plan(const Frame& frame);

@@ -63,6 +63,7 @@ struct Renderer::State {
   }
 
   Image render(const Frame& frame);
+  Image draw(const Frame& frame, const Plan& plan);
   void draw_sums(const Frame& frame, Projector& projector, Binner& binner, Compositor& compositor);
   void draw_blocks(const SplatBlocks& blocks, Binner& binner, Compositor& compositor);
   void draw_ordered(const Frame& frame, Projector& projector, Binner& binner,
@@ -76,6 +77,16 @@ struct Renderer::State {
 
 Image Renderer::State::render(const Frame& frame) {
   check_frame(frame);
+  const Plan plan = make_plan_from_particles(frame);
+  if (plan.needs_exact_places) {
+    Frame most_exact = frame;
+    most_exact.tolerance = 0;
+    return draw(most_exact, make_plan(most_exact));
+  }
+  return draw(frame, plan);
+}
+
+Image Renderer::State::draw(const Frame& frame, const Plan& plan) {
   const auto start = std::chrono::steady_clock::now();
   const double built_before = device.programs.build_seconds();
   stats = {};
@@ -84,7 +95,6 @@ Image Renderer::State::render(const Frame& frame) {
   device.buffers.reset_peak();
   particles.begin_frame();
 
-  const Plan plan = make_plan_from_particles(frame);
   const FrameLayout layout = make_layout(frame, plan, rows);
   const compute::buffer grids = device.buffers.upload("grids", layout.grids);
   Projector projector(device, frame, layout, grids);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "scene/crowding.h"
+#include "scene/sharpness.h"
 
 namespace splotchcl {
 namespace {
@@ -74,10 +75,24 @@ Plan make_plan(const Frame& frame) {
   return plan;
 }
 
+namespace {
+
+// Roundings have either sign and few clouds are as sharp as the sharpest: errors were an eighth
+// of what the sharpest could do (docs/accuracy.md).
+bool places_exceed_tolerance(const Frame& frame) {
+  constexpr double largest = 3e-4, part_of_sharpest = 0.25;
+  if (frame.tolerance >= largest || is_wide_angle(frame.projection)) return false;
+  const double place_error = 0x1p-23 * std::max(frame.crop.width, frame.crop.height);
+  return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;
+}
+
+}  // namespace
+
 Plan make_plan_from_particles(const Frame& frame) {
   Plan plan = make_plan(frame);
-  // The exact mode's bound holds for any number.
-  if (!plan.exact) plan.crowd = find_crowd(frame);
+  if (plan.exact) return plan;  // its bound holds for any particles
+  plan.needs_exact_places = places_exceed_tolerance(frame);
+  if (!plan.needs_exact_places) plan.crowd = find_crowd(frame);
   return plan;
 }
 
@@ -108,6 +123,9 @@ void explain_shares(const Plan& plan, double tolerance, std::ostream& out) {
       << plan.coarse_share << ", arithmetic " << plan.arithmetic_share << ":\n"
       << "    centre values for pixel means " << plan.pixel_mean_share << ", exp and phi "
       << plan.phi_share << ", early stop " << plan.stop_share << "\n";
+  if (plan.needs_exact_places) {
+    out << "  clouds are too sharp for places in single precision: drawn as with tolerance 0\n";
+  }
   if (plan.crowd > 1) {
     out << "  up to " << plan.crowd
         << " clouds lie upon one another: each is drawn farther and finer\n";
