@@ -35,7 +35,8 @@ enum class ComparedChannels { rgb, rgba };
 ImageDifference compare_images(const Image& image, const Image& reference, double limit = 0,
                                ComparedChannels compared = ComparedChannels::rgba);
 
-// |a - b| of red, green and blue, divided by `white`; magenta where not finite; opaque.
+// a - b of red, green and blue: 1/2 where they are equal, 1 where a is larger by `white`, 0 where
+// it is smaller by as much; magenta where not finite; opaque.
 Image difference_image(const Image& image, const Image& reference, double white);
 
 }  // namespace splotchcl

@@ -198,8 +198,10 @@ void add_compare(CLI::App& app, Run& run, Console& console) {
                   wrapped("Count the pixels where |A - B| > X max(1, |B|) in any channel; 1 is the "
                           "display's white"))
       ->type_name("X");
-  sub->add_option("--diff", options->difference,
-                  wrapped("Write a picture of |A - B|, scaled so that the largest is white"))
+  sub->add_option(
+         "--diff", options->difference,
+         wrapped("Write a picture of A - B: grey where they are equal, up to white where A is "
+                 "brighter, down to black where it is darker by the largest difference"))
       ->type_name("FILE");
   sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
   sub->footer(

@@ -118,8 +118,8 @@ int run_compare(const CompareOptions& options, Console& console) {
     const double largest = difference.overall.maximum;
     const double white = std::isfinite(largest) && largest > 0 ? largest : 1;
     write_image(*options.difference, difference_image(image, reference, white));
-    console.note(
-        fmt::format("white in {} is a difference of {:.6g}", options.difference->string(), white));
+    console.note(fmt::format("in {} grey is no difference, white {:.6g} more and black {:.6g} less",
+                             options.difference->string(), white, white));
   }
   std::cout << (options.json ? to_json(difference, options).dump(2) + "\n"
                              : to_text(difference, options));

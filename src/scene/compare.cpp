@@ -106,10 +106,12 @@ Image difference_image(const Image& image, const Image& reference, double white)
     float* out = &result.pixels[4 * pixel];
     bool finite = true;
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double difference =
-          distance(image.pixels[4 * pixel + channel], reference.pixels[4 * pixel + channel]);
+      const float value = image.pixels[4 * pixel + channel];
+      const float expected = reference.pixels[4 * pixel + channel];
+      const double difference = distance(value, expected);
       finite = finite && std::isfinite(difference);
-      out[channel] = difference > 0 ? static_cast<float>(difference / white) : 0.0F;
+      const double part = difference > 0 ? 0.5 * difference / white : 0.0;
+      out[channel] = static_cast<float>(value < expected ? 0.5 - part : 0.5 + part);
     }
     if (!finite) {
       out[0] = out[2] = 1;

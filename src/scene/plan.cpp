@@ -80,7 +80,7 @@ namespace {
 // Roundings have either sign and few clouds are as sharp as the sharpest: errors were an eighth
 // of what the sharpest could do (docs/accuracy.md).
 bool places_exceed_tolerance(const Frame& frame) {
-  constexpr double largest = 3e-4, part_of_sharpest = 0.25;
+  constexpr double largest = 3e-4, part_of_sharpest = 0.15;
   if (frame.tolerance >= largest || is_wide_angle(frame.projection)) return false;
   const double place_error = 0x1p-23 * std::max(frame.crop.width, frame.crop.height);
   return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;

@@ -101,7 +101,7 @@ TEST(Compare, WritesAPictureOfTheDifference) {
   EXPECT_EQ(splotchcl_in(folder, "compare a.exr b.exr --diff d.png").exit_code, 0);
   const Image difference = read_image(folder / "d.png");
   EXPECT_EQ(difference.at(1, 0)[0], 1);
-  EXPECT_EQ(difference.at(0, 0)[0], 0);
+  EXPECT_NEAR(difference.at(0, 0)[0], 0.5, 1.0 / 255);
 }
 
 TEST(Compare, NamesAPictureThatCannotBeRead) {

@@ -116,9 +116,10 @@ TEST(DifferenceImage, ShowsWhereAndHowFarThePicturesDiffer) {
   Image image = reference;
   image.at(1, 0)[0] = 0.25F;
   const Image difference = difference_image(image, reference, 0.5);
-  EXPECT_EQ(difference.at(0, 0)[0], 0);
-  EXPECT_EQ(difference.at(1, 0)[0], 0.5F);
-  EXPECT_EQ(difference.at(1, 0)[1], 0);
+  EXPECT_EQ(difference.at(0, 0)[0], 0.5F);
+  EXPECT_EQ(difference.at(1, 0)[0], 0.25F) << "darker by half of white";
+  EXPECT_EQ(difference_image(reference, image, 0.5).at(1, 0)[0], 0.75F) << "and brighter";
+  EXPECT_EQ(difference.at(1, 0)[1], 0.5F);
   EXPECT_EQ(difference.at(1, 0)[3], 1);
 }
 
