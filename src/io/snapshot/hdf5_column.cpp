@@ -108,8 +108,10 @@ std::optional<std::vector<std::uint64_t>> read_integers(const std::vector<Hdf5Va
 Vec3 find_position_origin(const std::vector<Hdf5Values>& positions) {
   if (std::none_of(positions.begin(), positions.end(), is_double)) return {{0, 0, 0}};
   std::vector<std::uint64_t> sizes;
-  for (const Hdf5Values& part : positions)
+  for (const Hdf5Values& part : positions) {
+    Hdf5File(part.file).check_complete(part.dataset);
     sizes.push_back(part.dataset.rows());
+  }
   std::vector<std::array<double, 3>> sample;
   for (const SampleRange& range : sample_ranges(sizes)) {
     const Hdf5Values& part = positions[range.part];
