@@ -52,7 +52,10 @@ struct ProjectParameters {
   float widening;      // sigma'^2 = sigma^2 + widening, in pixels
   float mean_sigma;    // below: the pixel mean by erf, not the widened centre value
   float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
-  float crowd;         // so many splats may lie on one another: their peaks add up
+  float crowd_light;   // what splats that lie upon one another add up to; 0: there are none
+  float crowd_bright;  // the same where it makes them bright splats
+  float crowd_extent;  // sigmas drawn of them at least
+  float crowd_narrowest, crowd_widest;  // of sigmas in this range, in pixels
 
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit

@@ -257,8 +257,11 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
 #else
   const VALUE own_area = sigma * sigma;
 #endif
-  const VALUE peak = p.crowd * weight * brightest * min((VALUE)(1.0f), 3.2f * own_area);
-  const INTEGER bright = peak > p.bright_peak;
+  const INTEGER crowded = sigma >= p.crowd_narrowest & sigma <= p.crowd_widest;
+  const VALUE own_peak = weight * brightest * min((VALUE)(1.0f), 3.2f * own_area);
+  // What counts of a splat in a crowd is what all of them add up to.
+  const VALUE peak = max(own_peak, choose((VALUE)(0.0f), (VALUE)(p.crowd_light), crowded));
+  const INTEGER bright = own_peak > p.bright_peak | (crowded & (INTEGER)(p.crowd_bright > 0.0f ? -1 : 0));
   const VALUE mean_limit =
       choose((VALUE)(p.mean_sigma), bright_mean_limit(peak, p), bright);
   const INTEGER by_mean = sigma < mean_limit;
@@ -272,8 +275,11 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   weight *= narrowing * narrowing;
 #endif
 
+  const VALUE crowd_extent = choose((VALUE)(0.0f), (VALUE)(p.crowd_extent), crowded);
   const VALUE extent =
-      p.kernel_cut > 0.0f ? (VALUE)(p.kernel_cut) : truncation_extent(peak, p);
+      p.kernel_cut > 0.0f
+          ? (VALUE)(p.kernel_cut)
+          : max(truncation_extent(own_peak, p), crowd_extent);
 
   // Wide splats go to the coarsest grid that still shows their shape, bright ones finer.
   const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));

@@ -17,6 +17,13 @@ enum class LightPlan { emission, proportional, ordered };
 // What tolerance 0 promises instead, of max(1, |oracle|) (docs/accuracy.md).
 constexpr double most_exact_tolerance = 1e-6;
 
+// Clouds that lie upon one another in one place of the picture (docs/accuracy.md).
+struct Crowd {
+  double light = 0;  // or depth, of all of them; 0: there is no crowd
+  // Only clouds of such widths do: sigma in pixels.
+  double narrowest_sigma = 0, widest_sigma = 0;
+};
+
 struct Plan {
   LightPlan light = LightPlan::emission;
   std::array<double, 3> source = {1, 1, 1};  // q, for proportional
@@ -32,9 +39,7 @@ struct Plan {
   double phi_share = 0;         // exp and (1 - exp(-y)) / y
   double stop_share = 0;        // what an early stop leaves out (ordered only)
 
-  // So many clouds may lie upon one another (docs/accuracy.md); from the particles, so that
-  // make_plan leaves it at 1.
-  double crowd = 1;
+  Crowd crowd;  // from the particles: make_plan finds none
   // Clouds are so sharp for a small tolerance that their places in single precision would not
   // hold it: the frame is drawn as with tolerance 0. Also from the particles.
   bool needs_exact_places = false;

@@ -212,6 +212,12 @@ double blur_of_grid(const FrameLayout& layout, std::uint32_t grid) {
   return layout.bands && grid > 0 ? layout.blur[grid % 2 == 1 ? 0 : 1] : 0;
 }
 
+// So many clouds of peak 0.1 overlapped in tests.
+constexpr double ends_in_a_pixel = 24;
+
+// In pixels: wider than the clouds of a crowd's first level, narrower than any on a coarse grid.
+constexpr double narrow_sigma = 1.75;
+
 FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   FrameLayout layout;
   layout.exact_numbers = plan.exact && has_exact_projection(frame.projection);
@@ -229,8 +235,10 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   layout.ellipses = frame.projection == Projection::equirectangular;
   if (layout.ellipses) layout.splats_per_particle = 7;  // wide_angle.cl: three on either side
   const double background = brightest_background(frame);
-  // Beside a crowd of clouds a pixel may be dark, and errs by as much as its sum.
-  const double picture_error = plan.crowd > 1 ? 1 : response(frame, background);
+  // Beside a crowd of clouds a pixel may be dark, and errs by as much as its sum. Means of
+  // narrow clouds, which stay on the picture's own grid, do not depend on it.
+  const bool is_wide_crowd = plan.crowd.light > 0 && plan.crowd.widest_sigma > narrow_sigma;
+  const double picture_error = is_wide_crowd ? 1 : response(frame, background);
   const double truncation = plan.truncation_share;
   layout.exact = frame.tolerance < 3e-4;
   // The polynomial's 6e-7 grows with sigma / pixel, to 1e-5 of the peak at sigma 6.
@@ -238,12 +246,17 @@ FrameLayout make_layout(const Frame& frame, const Plan& plan, bool rows) {
   const double loss = truncation / (uneven_light * picture_error);
   layout.least_extent = static_cast<float>(extent_of_loss(loss));
   layout.restored_light = static_cast<float>(0.5 * loss);
-  // Two dozen edges may cross in one pixel: so many clouds of peak 0.1 overlapped in tests.
-  // Kernels multiply it by the peak of a whole crowd.
-  layout.crowd = static_cast<float>(plan.crowd);
-  layout.inverse_edge = static_cast<float>(std::max(24 / plan.crowd, 1.0) / truncation);
-  // Below, errors relative to a peak are no more than three times their shares.
+  layout.inverse_edge = static_cast<float>(ends_in_a_pixel / truncation);
+  // A crowd's clouds end where the light of all of them has become so faint.
+  layout.crowd_light = static_cast<float>(plan.crowd.light);
+  const double fading = std::log(std::max(plan.crowd.light / truncation, 1.0));
+  layout.crowd_extent = static_cast<float>(std::sqrt(fading));
+  layout.crowd_narrowest = static_cast<float>(plan.crowd.narrowest_sigma);
+  layout.crowd_widest = static_cast<float>(plan.crowd.widest_sigma);
+  // Below, errors relative to a peak are no more than three times their shares; below twice
+  // as much in a crowd, whose clouds do not all err alike unless they are all the same.
   layout.bright_peak = 8;
+  layout.crowd_bright = layout.crowd_light > 2 * layout.bright_peak ? layout.crowd_light : 0;
   if (frame.kernel.sampling == Sampling::mean) {
     // The widened centre value errs by 7.7e-3 / sigma^4 of the peak.
     const double sigma = std::pow(7.7e-3 * picture_error / plan.pixel_mean_share, 0.25);

@@ -32,7 +32,10 @@ struct FrameLayout {
   float mean_sigma = 0;   // narrower splats take the pixel mean by erf
   float widening = 0;     // of sigma^2, for wider ones
   float bright_peak = 0;  // brighter splats take means that keep more digits, also wider ones
-  float crowd = 1;        // so many splats may lie on one another
+  // Splats of such sigmas may lie upon one another, and add up to this light.
+  float crowd_light = 0, crowd_narrowest = 0, crowd_widest = 0;
+  float crowd_bright = 0;  // the same where they are to keep more digits
+  float crowd_extent = 0;  // sigmas drawn of them at least
   RefinementFilter refinement;
   float coarse_peak = 0;                // brighter splats stay on grid 0
   float coarse_sigma = 0;               // smallest sigma in pixels of a coarse grid

@@ -125,7 +125,11 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.widening = layout_.widening;
   p.mean_sigma = layout_.mean_sigma;
   p.bright_peak = layout_.bright_peak;
-  p.crowd = layout_.crowd;
+  p.crowd_light = layout_.crowd_light;
+  p.crowd_bright = layout_.crowd_bright;
+  p.crowd_extent = layout_.crowd_extent;
+  p.crowd_narrowest = layout_.crowd_narrowest;
+  p.crowd_widest = layout_.crowd_widest;
 
   const double length_scale = splotchcl::length_scale(frame_);
   p.length_scale = static_cast<float>(length_scale);

@@ -100,19 +100,31 @@ double light_of_ring(const Cell& cell, const Cells& cells) {
   return light / static_cast<double>(steps.size());
 }
 
+// Some of a crowd may be a little narrower or wider than the widths of its cell.
+constexpr double width_margin = 1.2;
+
+void add(double light, std::int32_t level, Crowd& crowd) {
+  const double narrowest = level == 0 ? 0 : std::exp2(0.5 * level) / width_margin;
+  const double widest = std::exp2(0.5 * (level + 1)) * width_margin;
+  const bool is_first = crowd.light == 0;
+  crowd.light = std::max(crowd.light, light);
+  crowd.narrowest_sigma = is_first ? narrowest : std::min(crowd.narrowest_sigma, narrowest);
+  crowd.widest_sigma = std::max(crowd.widest_sigma, widest);
+}
+
 }  // namespace
 
-double find_crowd(const Frame& frame) {
+Crowd find_crowd(const Frame& frame) {
   std::size_t total = 0;
   for (const DrawnComponent& component : frame.components)
     total += component.particles.count;
-  if (static_cast<double>(total) < fewest) return 1;
+  Crowd crowd;
+  if (static_cast<double>(total) < fewest) return crowd;
   const std::size_t stride = sample_stride(total, sample_limit);
   Cells cells;
   for (const DrawnComponent& component : frame.components)
     collect(component, frame, stride, cells);
 
-  double crowd = 1;
   const int least = stride == 1 ? 1 : fewest_in_sample;
   for (const auto& [cell, content] : cells) {
     if (content.light <= harmless || content.samples < least || content.count < fewest) continue;
@@ -120,7 +132,7 @@ double find_crowd(const Frame& frame) {
     const double around = std::max(1.0, pi * light_of_ring(cell, cells));
     if (content.light <= harmless * around) continue;
     // A crowd on a corner of four cells has a quarter in each.
-    crowd = std::max(crowd, 4 * content.count / around);
+    add(4 * content.light / around, cell.level, crowd);
   }
   return crowd;
 }

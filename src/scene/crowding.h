@@ -1,6 +1,7 @@
 #pragma once
 
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 
@@ -8,6 +9,6 @@ namespace splotchcl {
 // their discs add up in one pixel: 1 where there are no more than the budget foresees
 // (docs/accuracy.md). An estimate from a sample of the frame's particles in fixed steps: the
 // same in every run and on every device.
-double find_crowd(const Frame& frame);
+Crowd find_crowd(const Frame& frame);
 
 }  // namespace splotchcl

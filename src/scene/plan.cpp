@@ -126,9 +126,10 @@ void explain_shares(const Plan& plan, double tolerance, std::ostream& out) {
   if (plan.needs_exact_places) {
     out << "  clouds are too sharp for places in single precision: drawn as with tolerance 0\n";
   }
-  if (plan.crowd > 1) {
-    out << "  up to " << plan.crowd
-        << " clouds lie upon one another: each is drawn farther and finer\n";
+  if (plan.crowd.light > 0) {
+    out << "  clouds of light " << plan.crowd.light << " lie upon one another: those of sigma "
+        << plan.crowd.narrowest_sigma << " to " << plan.crowd.widest_sigma
+        << " pixels are drawn farther and finer\n";
   }
 }
 
