@@ -30,6 +30,10 @@ std::string head_of(const std::string& key, std::size_t bytes) {
 }  // namespace
 
 std::optional<std::filesystem::path> BinaryCache::user_folder() {
+  if (const char* const own = std::getenv("SPLOTCHCL_CACHE"); own != nullptr) {
+    if (*own == '\0') return std::nullopt;
+    return std::filesystem::path(own);
+  }
   if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
     return std::filesystem::path(cache) / "splotchcl";
   }

@@ -14,7 +14,8 @@ class BinaryCache {
   // Without a folder nothing is found and nothing kept.
   explicit BinaryCache(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
-  // $XDG_CACHE_HOME/splotchcl or ~/.cache/splotchcl, where one of these variables is set.
+  // $SPLOTCHCL_CACHE, nothing where it is empty; else $XDG_CACHE_HOME/splotchcl or
+  // ~/.cache/splotchcl, where one of these variables is set.
   static std::optional<std::filesystem::path> user_folder();
 
   // `key` is all that the binary depends on. It is kept with the binary and compared in full,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -59,6 +60,17 @@ TEST_F(BinaryCacheTest, WithoutAFolderKeepsNothing) {
   const BinaryCache none(std::nullopt);
   none.keep("key", binary_);
   EXPECT_FALSE(none.find("key"));
+}
+
+TEST_F(BinaryCacheTest, LiesWhereTheUserSays) {
+  const auto folder_with = [](const char* value) {
+    setenv("SPLOTCHCL_CACHE", value, 1);
+    const auto folder = BinaryCache::user_folder();
+    unsetenv("SPLOTCHCL_CACHE");
+    return folder;
+  };
+  EXPECT_EQ(folder_with("/somewhere"), fs::path("/somewhere"));
+  EXPECT_EQ(folder_with(""), std::nullopt);
 }
 
 TEST_F(BinaryCacheTest, DoesWithoutAFolderThatCannotBeMade) {
