@@ -32,13 +32,13 @@ double smoothing_length_at(double density) {
 void add_halo(ParticleArrays& arrays, std::size_t count, double total, Random& random) {
   // 200 times the mean density of a box of `total` particles.
   const double radius = std::cbrt(static_cast<double>(count) * 3 / (4 * pi * 200 * total));
-  const Vec3 centre = {{random.uniform(), random.uniform(), random.uniform()}};
+  const Vec3 center = {{random.uniform(), random.uniform(), random.uniform()}};
   const double core = 0.02 * radius;
   for (std::size_t i = 0; i < count; ++i) {
     const double r = radius * random.uniform();
     const double from_core = std::max(r, core);
     const double density = static_cast<double>(count) / (4 * pi * radius * from_core * from_core);
-    arrays.add(centre + random.direction() * r, smoothing_length_at(density), 1 - 0.7 * r / radius);
+    arrays.add(center + random.direction() * r, smoothing_length_at(density), 1 - 0.7 * r / radius);
   }
 }
 
@@ -171,8 +171,8 @@ Frame cloud_frame(int width, int height, std::vector<DrawnComponent> components)
   frame.camera.look_at_distance = 1;
   frame.camera.pixels_per_length = 1;
   frame.camera.focal_pixels = 1;
-  frame.camera.centre_x = 0.5 * width;
-  frame.camera.centre_y = 0.5 * height;
+  frame.camera.center_x = 0.5 * width;
+  frame.camera.center_y = 0.5 * height;
   frame.kernel.width = 1;  // h is sigma
   frame.components = std::move(components);
   return frame;

@@ -58,9 +58,9 @@ struct Range {
 };
 
 // Pixels (centre at i + 1/2) within `radius` of `centre`.
-Range pixels_within(float centre, float radius, int size) {
-  return {std::max(0, static_cast<int>(std::ceil(centre - radius - 0.5f))),
-          std::min(size - 1, static_cast<int>(std::floor(centre + radius - 0.5f)))};
+Range pixels_within(float center, float radius, int size) {
+  return {std::max(0, static_cast<int>(std::ceil(center - radius - 0.5f))),
+          std::min(size - 1, static_cast<int>(std::floor(center + radius - 0.5f)))};
 }
 
 template <class Visit>

@@ -58,8 +58,8 @@ inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile)
 // First and last pixel whose centre (index + 1/2) lies within `radius` of `centre`,
 // clamped to [0, size - 1]; first > last where there is none. Clamped before the
 // conversion: a splat close to the camera may lie anywhere.
-inline int2 pixel_range(float centre, float radius, int size) {
-  const float low = centre - radius - 0.5f, high = centre + radius - 0.5f;
+inline int2 pixel_range(float center, float radius, int size) {
+  const float low = center - radius - 0.5f, high = center + radius - 0.5f;
   const float end = (float)size;
   const float first = low > 0.0f ? (low < end ? low : end) : 0.0f;
   const float last = high < end - 1.0f ? (high > -1.0f ? high : -1.0f) : end - 1.0f;

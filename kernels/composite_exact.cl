@@ -56,8 +56,8 @@ inline Exact wide_mean(Exact d, Exact sigma) {
   const Exact u = exact_quotient(d, sigma);
   const float inverse = 1.0f / high_part(sigma);
   const float excess = mean_excess(2.0f * high_part(u) * inverse, -inverse * inverse);
-  const Exact centre = exact_exp(exact_negative(exact_product(u, u)));
-  return exact_product(centre, exact_sum(exact_of(1.0f), exact_of(excess)));
+  const Exact center = exact_exp(exact_negative(exact_product(u, u)));
+  return exact_product(center, exact_sum(exact_of(1.0f), exact_of(excess)));
 }
 
 // One axis of the shape in the pixel whose centre is at distance d >= 0.
@@ -154,10 +154,10 @@ typedef struct Batch {
 } Batch;
 
 // `place` of the tile's columns and rows, whose pixel centre lies at `centre`.
-inline void fill_axis(__local Batch* batch, uint k, uint place, float centre) {
+inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
   const __local ExactSplat* splat = batch->splats + k;
-  const FloatPair splat_centre = place < TILE_WIDTH ? splat->x : splat->y;
-  const Exact d = exact_difference(exact_of(centre), exact_pair(splat_centre));
+  const FloatPair splat_center = place < TILE_WIDTH ? splat->x : splat->y;
+  const Exact d = exact_difference(exact_of(center), exact_pair(splat_center));
   Exact value = exact_of(0.0f);
   if (fabs(high_part(d)) <= splat->radius) {
     value = exact_axis(exact_magnitude(d), exact_pair(splat->sigma));
@@ -219,9 +219,9 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint place = item; place < count * AXES; place += GROUP) {
       const uint axis = place % AXES;
-      const float centre = axis < TILE_WIDTH ? corner_x + (float)axis + 0.5f
+      const float center = axis < TILE_WIDTH ? corner_x + (float)axis + 0.5f
                                              : corner_y + (float)(axis - TILE_WIDTH) + 0.5f;
-      fill_axis(&batch, place / AXES, axis, centre);
+      fill_axis(&batch, place / AXES, axis, center);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint x = item * 8 % TILE_WIDTH, y = TILE_WIDTH + item * 8 / TILE_WIDTH;

@@ -35,7 +35,7 @@ inline float low_part(Exact a) { return a.y; }
 inline Exact exact_negative(Exact a) { return -a; }
 
 // a + b where |a| >= |b| or a = 0. An infinite sum has no low part.
-inline Exact renormalised(float a, float b) {
+inline Exact renormalized(float a, float b) {
   const float sum = a + b;
   const float low = b - (sum - a);
   return (float2)(sum, isfinite(sum) ? low : 0.0f);
@@ -48,26 +48,26 @@ inline float2 exact_float_sum(float a, float b) {
 inline Exact exact_sum(Exact a, Exact b) {
   const float2 high = exact_float_sum(a.x, b.x);
   const float2 low = exact_float_sum(a.y, b.y);
-  const float2 first = renormalised(high.x, high.y + low.x);
-  return renormalised(first.x, first.y + low.y);
+  const float2 first = renormalized(high.x, high.y + low.x);
+  return renormalized(first.x, first.y + low.y);
 }
 inline Exact exact_product(Exact a, Exact b) {
   const float high = a.x * b.x;
   const float low = fma(a.x, b.x, -high) + (a.x * b.y + a.y * b.x);
-  return renormalised(high, low);
+  return renormalized(high, low);
 }
 inline Exact exact_scaled(Exact a, float power_of_two) { return a * power_of_two; }
 inline Exact exact_quotient(Exact a, Exact b) {
   const float first = a.x / b.x;
   const Exact rest = exact_sum(a, exact_negative(exact_product(b, exact_of(first))));
   const float second = rest.x / b.x;
-  return isfinite(first) ? renormalised(first, second) : exact_of(first);
+  return isfinite(first) ? renormalized(first, second) : exact_of(first);
 }
 inline Exact exact_root(Exact a) {
   if (!(a.x > 0.0f)) return exact_of(0.0f);
   const float root = sqrt(a.x);
   const Exact rest = exact_sum(a, exact_negative(exact_product(exact_of(root), exact_of(root))));
-  return renormalised(root, rest.x / (2.0f * root));
+  return renormalized(root, rest.x / (2.0f * root));
 }
 inline int exact_less(Exact a, Exact b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 #endif

@@ -24,7 +24,7 @@ inline ExactLanes lanes_pair(float8 high, float8 low) {
 }
 inline float8 high_lanes(ExactLanes a) { return a.high; }
 inline float8 low_lanes(ExactLanes a) { return a.low; }
-inline ExactLanes renormalised_lanes(float8 a, float8 b) {
+inline ExactLanes renormalized_lanes(float8 a, float8 b) {
   const float8 sum = a + b;
   return lanes_pair(sum, select((float8)(0.0f), b - (sum - a), isfinite(sum)));
 }
@@ -33,11 +33,11 @@ inline ExactLanes lanes_sum(ExactLanes a, ExactLanes b) {
   const float8 high_rest = (a.high - (high - back)) + (b.high - back);
   const float8 low = a.low + b.low, low_back = low - a.low;
   const float8 low_rest = (a.low - (low - low_back)) + (b.low - low_back);
-  const ExactLanes first = renormalised_lanes(high, high_rest + low);
-  return renormalised_lanes(first.high, first.low + low_rest);
+  const ExactLanes first = renormalized_lanes(high, high_rest + low);
+  return renormalized_lanes(first.high, first.low + low_rest);
 }
 inline ExactLanes lanes_product(ExactLanes a, Exact b) {
   const float8 high = a.high * b.x;
-  return renormalised_lanes(high, fma(a.high, (float8)(b.x), -high) + (a.high * b.y + a.low * b.x));
+  return renormalized_lanes(high, fma(a.high, (float8)(b.x), -high) + (a.high * b.y + a.low * b.x));
 }
 #endif

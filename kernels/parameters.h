@@ -35,7 +35,7 @@ struct ProjectParameters {
   float right[3];
   float down[3];
   float pixels_per_length;   // perspective: at z = 1
-  float centre_x, centre_y;  // of the whole picture, relative to the crop's corner
+  float center_x, center_y;  // of the whole picture, relative to the crop's corner
   int perspective;
   float period;        // pixels after which an equirectangular picture repeats itself
   float eye_offset;    // of an eye beside the camera, in wide angles
@@ -60,7 +60,7 @@ struct ProjectParameters {
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
   float weight_scale;  // for masses its square root: it may be too small for a float
-  float peak_colour;   // the largest of E and A per unit weight, and of it what
+  float peak_color;   // the largest of E and A per unit weight, and of it what
   float peak_own;      // does not follow the particles' own colour vectors
 
   float least_extent;    // sigmas drawn of a faint splat
@@ -150,7 +150,7 @@ struct FloatPair {
 struct ExactParameters {
   float position[3][3];  // of the camera, relative to the component's origin: a sum of three
   struct FloatPair right[3], down[3], forward[3];
-  struct FloatPair pixels_per_length, centre_x, centre_y;
+  struct FloatPair pixels_per_length, center_x, center_y;
   struct FloatPair near_limit, far_limit, near_factor;
   int has_near_limit, has_far_limit;
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;

@@ -79,7 +79,7 @@ inline VALUE squared_distance(Offset d, float inverse_unit) {
 
 inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
 
-inline VALUE normalised(VALUE value, const FieldScaling map) {
+inline VALUE normalized(VALUE value, const FieldScaling map) {
   VALUE scaled = value;
   if (map.scaling == SCALING_LOG) {
     scaled = choose((VALUE)(-INFINITY), log2_positive(max(value, (VALUE)(1e-45f))) * 0.301029996f,
@@ -205,7 +205,7 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE sigma =
       p.min_radius > 0.0f ? sqrt(sigma_true * sigma_true + sigma_floor * sigma_floor) : sigma_true;
 #ifdef WIDE_ANGLE
-  const VALUE x = p.centre_x + place.x, y = p.centre_y + place.y;
+  const VALUE x = p.center_x + place.x, y = p.center_y + place.y;
 #else
   // Across the view the look-at point serves as well as the camera. Seen from afar it is
   // much closer to the particle, and less is lost in the difference.
@@ -213,8 +213,8 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const INTEGER far_away = z > p.far_away;
   const VALUE across = choose(chain_dot(d, p.right), chain_dot(l, p.right), far_away);
   const VALUE along = choose(chain_dot(d, p.down), chain_dot(l, p.down), far_away);
-  const VALUE x = p.centre_x + across * scale;
-  const VALUE y = p.centre_y + along * scale;
+  const VALUE x = p.center_x + across * scale;
+  const VALUE y = p.center_y + along * scale;
 #endif
 #ifdef ELLIPSES
   const VALUE sigma_x = sigma_along_x(sigma, place.cos_latitude, p);
@@ -245,10 +245,10 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
 #endif
   if (!ANY(s.visible)) return s;
 
-  VALUE weight = column_weight(raw_weight, h, p) * normalised(raw_intensity, p.intensity);
+  VALUE weight = column_weight(raw_weight, h, p) * normalized(raw_intensity, p.intensity);
   if (p.min_radius > 0.0f) weight *= sigma_true / sigma;
   // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
-  VALUE brightest = p.peak_colour;
+  VALUE brightest = p.peak_color;
 #ifdef VECTOR_COLORS
   brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
 #endif
@@ -328,7 +328,7 @@ inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const INTEGER faint = extent <= p.least_extent;
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
   s.weight = choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
-  s.color = normalised(raw_color, p.color);
+  s.color = normalized(raw_color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, bright & by_mean);
 #ifdef ELLIPSES
   s.sigma_x = choose(s.sigma_x, -s.sigma_x, bright & by_mean_x);

@@ -37,7 +37,7 @@ inline int is_within_limits(Exact z, Exact h, const ProjectParameters p, const E
 }
 
 // In [0, 1] (frame.h, ScalarMap).
-inline Exact exact_normalised(float value, int scaling, FloatPair minimum,
+inline Exact exact_normalized(float value, int scaling, FloatPair minimum,
                               FloatPair inverse_range) {
   Exact scaled = exact_of(value);
   if (scaling == SCALING_LOG) {
@@ -136,8 +136,8 @@ inline int exact_splat(uint i, const ProjectParameters p, const ExactParameters 
 
   Exact scale = exact_pair(e.pixels_per_length);
   if (p.perspective) scale = exact_quotient(scale, view.z);
-  const Exact x = exact_sum(exact_pair(e.centre_x), exact_product(view.x, scale));
-  const Exact y = exact_sum(exact_pair(e.centre_y), exact_product(view.y, scale));
+  const Exact x = exact_sum(exact_pair(e.center_x), exact_product(view.x, scale));
+  const Exact y = exact_sum(exact_pair(e.center_y), exact_product(view.y, scale));
   const Exact width = exact_pair(e.kernel_width);
   const Exact h_pixels = exact_product(h, scale);
   Exact h_drawn = h_pixels;
@@ -150,7 +150,7 @@ inline int exact_splat(uint i, const ProjectParameters p, const ExactParameters 
   }
   const Exact sigma = exact_product(width, h_drawn);
   weight = exact_product(
-      weight, exact_normalised(intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
+      weight, exact_normalized(intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
                                e.intensity_minimum, e.intensity_inverse_range));
 
   Exact own[3];
@@ -162,7 +162,7 @@ inline int exact_splat(uint i, const ProjectParameters p, const ExactParameters 
 #endif
   }
   Exact emission[3], absorption[3];
-  const Exact position = exact_normalised(colors[(size_t)i * p.color_stride], p.color.scaling,
+  const Exact position = exact_normalized(colors[(size_t)i * p.color_stride], p.color.scaling,
                                           e.color_minimum, e.color_inverse_range);
   exact_amplitudes(position, weight, own, component_colors[p.component], knots, e, emission,
                    absorption);

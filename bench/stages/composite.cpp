@@ -62,9 +62,9 @@ double count_updates(const Frame& frame) {
     };
     const double radius = cut * static_cast<double>(particles.smoothing_length[i]);
     // The part of the disc's square inside the picture stands for the disc's.
-    const auto inside = [radius](double centre, int size) {
-      const double low = std::max(centre - radius, -0.5 * size);
-      const double high = std::min(centre + radius, 0.5 * size);
+    const auto inside = [radius](double center, int size) {
+      const double low = std::max(center - radius, -0.5 * size);
+      const double high = std::min(center + radius, 0.5 * size);
       return std::max(0.0, high - low) / (2 * radius);
     };
     updates += pi * radius * radius * inside(at(0), frame.width) * inside(at(1), frame.height);

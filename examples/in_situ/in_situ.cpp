@@ -61,13 +61,13 @@ void add_galaxy(Stars& stars, int count, double x, double vx, double tilt, std::
 // Only the two centres have mass: leapfrog with a softened pull.
 void pull(Stars& stars, std::size_t second, float time) {
   for (std::size_t i = 0; i < stars.count(); ++i) {
-    for (const std::size_t centre : {std::size_t{0}, second}) {
+    for (const std::size_t center : {std::size_t{0}, second}) {
       float d[3], square = 0.02F;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        d[axis] = stars.position[3 * centre + axis] - stars.position[3 * i + axis];
+        d[axis] = stars.position[3 * center + axis] - stars.position[3 * i + axis];
         square += d[axis] * d[axis];
       }
-      const float strength = i == centre ? 0 : time / (square * std::sqrt(square));
+      const float strength = i == center ? 0 : time / (square * std::sqrt(square));
       for (std::size_t axis = 0; axis < 3; ++axis)
         stars.velocity[3 * i + axis] += strength * d[axis];
     }

@@ -43,8 +43,8 @@ struct Camera {
 double field_of_view_degrees(const Camera& camera);
 
 // The camera as both renderers use it: orthonormal axes x right, y down, z forward.
-//   perspective:  x_pixel = centre_x + focal_pixels * x / z
-//   orthographic: x_pixel = centre_x + pixels_per_length * x
+//   perspective:  x_pixel = center_x + focal_pixels * x / z
+//   orthographic: x_pixel = center_x + pixels_per_length * x
 // Pixel centres lie at i + 1/2; row 0 is the top of the picture.
 struct CameraFrame {
   Vec3 position;
@@ -53,7 +53,7 @@ struct CameraFrame {
   double focal_pixels = 0;
   double look_at_distance = 0;
   double pixels_per_length = 0;  // focal_pixels / look_at_distance
-  double centre_x = 0, centre_y = 0;
+  double center_x = 0, center_y = 0;
   // Stereo in all directions: every particle is turned about turn_axis (a unit vector, the
   // upward direction of a head that looks around) by asin(eye_offset / its distance), to the
   // left for an eye that lies eye_offset > 0 to the right. 0: no stereo.

@@ -16,7 +16,7 @@ namespace splotchcl {
 
 struct GalaxySettings {
   // Where the galaxy is in the picture.
-  std::optional<std::array<double, 2>> centre;  // pixels from the left and top; unset: found
+  std::optional<std::array<double, 2>> center;  // pixels from the left and top; unset: found
   double inclination_degrees = 0;               // 0 face-on, below 80
   // Of the disk's longest diameter, from up counter-clockwise.
   double position_angle_degrees = 0;
@@ -74,7 +74,7 @@ struct Galaxy {
   GalaxyParticles bulge;     // 3
   GalaxyParticles clusters;  // 4
   // What was decided about the picture, in pixels of the file.
-  std::array<double, 2> centre = {0, 0};
+  std::array<double, 2> center = {0, 0};
   double sky = 0, noise = 0;  // mean of the channels, linear light
   std::uint64_t pixels_of_stars = 0;
   double pixel_size_kpc = 0;  // of the squares that clouds are made from

@@ -19,7 +19,7 @@ struct ReadSettings {
   int seed = 1;
 
   // How many particles a smoothing length reaches that the file does not have.
-  int neighbours = 64;
+  int neighbors = 64;
   // Whether smoothing lengths that were found are kept in a file beside the snapshot.
   bool cache_smoothing_lengths = false;
 };

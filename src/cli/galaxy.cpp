@@ -21,7 +21,7 @@ int run_galaxy(const GalaxyOptions& options, Console& console) {
       "{}: {} gas, {} disk, {} bulge and {} cluster particles, centre at pixel {:.0f},{:.0f}, {} "
       "pixels of stars removed, {:.1f} s",
       options.output.string(), galaxy.gas.count(), galaxy.disk.count(), galaxy.bulge.count(),
-      galaxy.clusters.count(), galaxy.centre[0], galaxy.centre[1], galaxy.pixels_of_stars,
+      galaxy.clusters.count(), galaxy.center[0], galaxy.center[1], galaxy.pixels_of_stars,
       stopwatch.seconds()));
   return 0;
 }

@@ -8,7 +8,7 @@ namespace {
 // Where the galaxy is in the picture, and what of the picture is its light.
 void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
   GalaxySettings& s = options.settings;
-  sub.add_option("--centre", s.centre,
+  sub.add_option("--center,--centre", s.center,
                  wrapped("The galaxy's centre in pixels from the left and top. Default: the centre "
                          "of light"))
       ->type_name("X,Y")

@@ -43,10 +43,10 @@ std::vector<float> blur_weights(double sigma2, double error) {
     weights.push_back(std::exp(-k * k / sigma2));
     sum += weights.back();
   }
-  std::vector<float> normalised;
+  std::vector<float> normalized;
   for (const double weight : weights)
-    normalised.push_back(static_cast<float>(weight / sum));
-  return normalised;
+    normalized.push_back(static_cast<float>(weight / sum));
+  return normalized;
 }
 
 }  // namespace splotchcl

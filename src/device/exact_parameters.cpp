@@ -44,8 +44,8 @@ void set_camera(const Frame& frame, const DrawnComponent& component, kernel::Exa
   copy(camera.forward, e.forward);
   e.pixels_per_length = pair_of(
       frame.projection == Projection::perspective ? camera.focal_pixels : camera.pixels_per_length);
-  e.centre_x = pair_of(camera.centre_x - frame.crop.x);
-  e.centre_y = pair_of(camera.centre_y - frame.crop.y);
+  e.center_x = pair_of(camera.center_x - frame.crop.x);
+  e.center_y = pair_of(camera.center_y - frame.crop.y);
   e.has_near_limit = frame.near_limit.has_value();
   e.near_limit = pair_of(frame.near_limit.value_or(0));
   e.near_factor = pair_of(0.1);

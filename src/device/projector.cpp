@@ -102,8 +102,8 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
   p.period = static_cast<float>(period_along_x(frame_.camera, frame_.projection));
   p.eye_offset = static_cast<float>(frame_.camera.eye_offset);
   copy(along_axes(frame_.camera.turn_axis, frame_.camera), p.turn_axis);
-  p.centre_x = static_cast<float>(frame_.camera.centre_x - frame_.crop.x);
-  p.centre_y = static_cast<float>(frame_.camera.centre_y - frame_.crop.y);
+  p.center_x = static_cast<float>(frame_.camera.center_x - frame_.crop.x);
+  p.center_y = static_cast<float>(frame_.camera.center_y - frame_.crop.y);
 
   // z <= 0 never projects in perspective; the smallest float stands for "above 0".
   const float lowest = p.perspective ? std::numeric_limits<float>::min() : 0.0f;
@@ -149,7 +149,7 @@ kernel::ProjectParameters Projector::parameters_for(const DrawnComponent& compon
       p.weight_scale = static_cast<float>(length_scale / component.reference_column);
       break;
   }
-  p.peak_colour = static_cast<float>(peak_color(component));
+  p.peak_color = static_cast<float>(peak_color(component));
   p.peak_own = static_cast<float>(peak_own_absorption(component));
   p.least_extent = layout_.least_extent;
   // A cut is part of the model: nothing is left out.

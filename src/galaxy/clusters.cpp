@@ -19,13 +19,13 @@ GalaxyParticles make_clusters(const LightMap& map, const GalaxySettings& setting
   const double star_area = map.plane().area_of_pixel() / settings.cluster_stars;
   for (int cluster = 0; cluster < settings.clusters; ++cluster) {
     const double radius = halo_fraction * map.radius() * plummer_radius(random);
-    const Vec3 centre = random.direction() * radius;
-    const Vec3 axis = axis_across(centre, random);
+    const Vec3 center = random.direction() * radius;
+    const Vec3 axis = axis_across(center, random);
     const double size = settings.cluster_radius_kpc * std::exp(size_spread * random.normal());
     const int count = std::max(
         1, static_cast<int>(settings.cluster_stars * std::exp(number_spread * random.normal())));
     for (int i = 0; i < count; ++i) {
-      const Vec3 place = centre + random.direction() * (size * plummer_radius(random));
+      const Vec3 place = center + random.direction() * (size * plummer_radius(random));
       add_particle(stars, place, (star_brightness(random) * light_per_star / star_area) * old_stars,
                    star_area, axis, radius);
     }

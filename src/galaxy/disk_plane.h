@@ -12,9 +12,9 @@ class DiskPlane {
 
   // The position angle is that of the line along which the disk is not foreshortened, from
   // up, counter-clockwise.
-  DiskPlane(const Place& centre_pixel, double inclination_degrees, double position_angle_degrees,
+  DiskPlane(const Place& center_pixel, double inclination_degrees, double position_angle_degrees,
             double pixel_size)
-      : centre_(centre_pixel), pixel_size_(pixel_size) {
+      : center_(center_pixel), pixel_size_(pixel_size) {
     constexpr double radians = 3.14159265358979323846 / 180;
     const double angle = position_angle_degrees * radians;
     major_ = {-std::sin(angle), std::cos(angle)};
@@ -23,12 +23,12 @@ class DiskPlane {
 
   // In the disk, from its centre: right and up as in the picture, in length units.
   Place in_disk(const Place& pixel) const {
-    return stretched({pixel_size_ * (pixel[0] - centre_[0]), pixel_size_ * (centre_[1] - pixel[1])},
+    return stretched({pixel_size_ * (pixel[0] - center_[0]), pixel_size_ * (center_[1] - pixel[1])},
                      1 / foreshortening_);
   }
   Place in_picture(const Place& disk) const {
     const Place seen = stretched(disk, foreshortening_);
-    return {centre_[0] + seen[0] / pixel_size_, centre_[1] - seen[1] / pixel_size_};
+    return {center_[0] + seen[0] / pixel_size_, center_[1] - seen[1] / pixel_size_};
   }
   // Of the disk, in squared length units.
   double area_of_pixel() const { return pixel_size_ * pixel_size_ / foreshortening_; }
@@ -42,7 +42,7 @@ class DiskPlane {
     return {along * major_[0] + factor * across[0], along * major_[1] + factor * across[1]};
   }
 
-  Place centre_, major_;
+  Place center_, major_;
   double foreshortening_, pixel_size_;
 };
 

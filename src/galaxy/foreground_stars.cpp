@@ -69,7 +69,7 @@ StarMask find_stars(const Image& picture, const StarCriteria& criteria) {
       const Light light = light_at(picture, x, y);
       const double brightness = mean(light);
       if (brightness <= criteria.least_light || shines_in_lines(light)) continue;
-      const double distance = std::hypot(x - criteria.centre_x, y - criteria.centre_y);
+      const double distance = std::hypot(x - criteria.center_x, y - criteria.center_y);
       if (distance < criteria.protected_radius) continue;
       ring.clear();
       for_ring(picture, x, y,

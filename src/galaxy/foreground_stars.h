@@ -9,7 +9,7 @@ namespace splotchcl {
 struct StarCriteria {
   double contrast = 2.5;   // of a star against the median around it
   double least_light = 0;  // above that median
-  int centre_x = 0, centre_y = 0;
+  int center_x = 0, center_y = 0;
   double protected_radius = 0;  // around the centre: a galaxy's nucleus is a point, too
 };
 

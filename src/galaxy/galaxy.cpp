@@ -12,13 +12,13 @@
 namespace splotchcl {
 namespace {
 
-constexpr int neighbours = 24;
+constexpr int neighbors = 24;
 constexpr int smallest_side = 16;  // of a picture in which a border tells what sky is
 
 void find_lengths(GalaxyParticles& particles) {
   const Column position(nullptr, particles.position.data(), particles.position.size());
   const Column lengths =
-      find_smoothing_lengths(position, particles.count(), std::nullopt, neighbours);
+      find_smoothing_lengths(position, particles.count(), std::nullopt, neighbors);
   particles.smoothing_length.assign(lengths.data(), lengths.data() + lengths.size());
 }
 
@@ -69,7 +69,7 @@ Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double 
   const LightMap map(picture, settings, file_pixels);
   const BulgeProfile bulge(map, settings);
   Galaxy galaxy;
-  galaxy.centre = {map.centre()[0] * file_pixels, map.centre()[1] * file_pixels};
+  galaxy.center = {map.center()[0] * file_pixels, map.center()[1] * file_pixels};
   galaxy.sky = mean(map.sky().level);
   galaxy.noise = map.sky().noise;
   galaxy.pixels_of_stars = map.pixels_of_stars();

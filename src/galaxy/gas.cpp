@@ -30,9 +30,9 @@ GalaxyParticles make_gas(const LightMap& map, const BulgeProfile& bulge,
       if (!(mean(light) > 0)) continue;
       const auto disk = map.plane().in_disk({x + random.uniform(), y + random.uniform()});
       const Light color = share * bulge.rest(light, std::hypot(disk[0], disk[1]));
-      const Vec3 centre = {{disk[0], disk[1], settings.gas_height_kpc * random.normal()}};
+      const Vec3 center = {{disk[0], disk[1], settings.gas_height_kpc * random.normal()}};
       for (int i = 0; i < settings.cloud_points; ++i) {
-        const Vec3 place = centre + place_in_ball(random) * cloud_radius;
+        const Vec3 place = center + place_in_ball(random) * cloud_radius;
         add_particle(gas, place, color, mass, axis, std::hypot(place.a[0], place.a[1]));
       }
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "galaxy/centre.h"
+#include "galaxy/center.h"
 #include "galaxy/foreground_stars.h"
 #include "splotchcl/error.h"
 
@@ -18,19 +18,19 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
-DiskPlane::Place choose_centre(const Image& picture, const GalaxySettings& settings,
+DiskPlane::Place choose_center(const Image& picture, const GalaxySettings& settings,
                                double file_pixels) {
-  if (!settings.centre) return find_centre(picture);
-  const DiskPlane::Place centre = {(*settings.centre)[0] / file_pixels,
-                                   (*settings.centre)[1] / file_pixels};
+  if (!settings.center) return find_center(picture);
+  const DiskPlane::Place center = {(*settings.center)[0] / file_pixels,
+                                   (*settings.center)[1] / file_pixels};
   const bool inside =
-      centre[0] >= 0 && centre[1] >= 0 && centre[0] <= picture.width && centre[1] <= picture.height;
+      center[0] >= 0 && center[1] >= 0 && center[0] <= picture.width && center[1] <= picture.height;
   if (!inside) {
-    throw UsageError("the centre " + std::to_string((*settings.centre)[0]) + "," +
-                     std::to_string((*settings.centre)[1]) +
+    throw UsageError("the centre " + std::to_string((*settings.center)[0]) + "," +
+                     std::to_string((*settings.center)[1]) +
                      " lies outside the picture; give pixels from its left and top");
   }
-  return centre;
+  return center;
 }
 
 // To the farthest corner, as it lies in the disk.
@@ -50,16 +50,16 @@ double whole_radius(const Image& picture, const DiskPlane& plane) {
 LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double file_pixels)
     : sky_(measure_sky(picture)),
       picture_(without_sky(picture, sky_)),
-      centre_(choose_centre(picture_, settings, file_pixels)),
-      plane_(centre_, settings.inclination_degrees, settings.position_angle_degrees,
+      center_(choose_center(picture_, settings, file_pixels)),
+      plane_(center_, settings.inclination_degrees, settings.position_angle_degrees,
              settings.size_kpc / std::max(picture.width, picture.height)) {
   threshold_ = settings.threshold * sky_.noise;
   if (settings.removes_stars) {
     StarCriteria criteria;
     criteria.contrast = settings.star_contrast;
     criteria.least_light = threshold_;
-    criteria.centre_x = static_cast<int>(centre_[0]);
-    criteria.centre_y = static_cast<int>(centre_[1]);
+    criteria.center_x = static_cast<int>(center_[0]);
+    criteria.center_y = static_cast<int>(center_[1]);
     criteria.protected_radius = nucleus_fraction * std::min(picture.width, picture.height);
     pixels_of_stars_ = remove_foreground_stars(picture_, criteria);
   }

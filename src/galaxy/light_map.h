@@ -27,7 +27,7 @@ class LightMap {
   // What make_galaxy tells of it.
   Sky sky() const { return sky_; }
   std::uint64_t pixels_of_stars() const { return pixels_of_stars_; }
-  DiskPlane::Place centre() const { return centre_; }
+  DiskPlane::Place center() const { return center_; }
 
  private:
   void fade(const GalaxySettings& settings);
@@ -35,7 +35,7 @@ class LightMap {
 
   Sky sky_;
   Image picture_;
-  DiskPlane::Place centre_;
+  DiskPlane::Place center_;
   std::uint64_t pixels_of_stars_ = 0;
   DiskPlane plane_;
   double radius_ = 0;

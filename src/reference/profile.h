@@ -8,10 +8,10 @@ namespace splotchcl::reference {
 
 // The mean of exp(-(t - centre)^2 / sigma^2) for t from i to i + 1: one axis of a pixel's
 // mean, since the Gaussian and the pixel are both products of their axes.
-inline double mean_over_pixel(double centre, double sigma, int i) {
+inline double mean_over_pixel(double center, double sigma, int i) {
   constexpr double half_sqrt_pi = 0.886226925452758014;
-  const double low = (i - centre) / sigma;
-  const double high = (i + 1 - centre) / sigma;
+  const double low = (i - center) / sigma;
+  const double high = (i + 1 - center) / sigma;
   // Both ends on one side: erf is close to +-1 there and its differences lose the digits
   // that erfc keeps.
   if (low > 0) return half_sqrt_pi * sigma * (std::erfc(low) - std::erfc(high));
@@ -19,16 +19,16 @@ inline double mean_over_pixel(double centre, double sigma, int i) {
   return half_sqrt_pi * sigma * (std::erf(high) - std::erf(low));
 }
 
-inline double value_at_pixel_center(double centre, double sigma, int i) {
-  const double distance = (i + 0.5 - centre) / sigma;
+inline double value_at_pixel_center(double center, double sigma, int i) {
+  const double distance = (i + 0.5 - center) / sigma;
   return std::exp(-distance * distance);
 }
 
 // One axis of the shape in pixel i; the shape is the product of its two axes where the
 // kernel does not cut it.
-inline double axis_profile(double centre, double sigma, int i, Sampling sampling) {
-  return sampling == Sampling::mean ? mean_over_pixel(centre, sigma, i)
-                                    : value_at_pixel_center(centre, sigma, i);
+inline double axis_profile(double center, double sigma, int i, Sampling sampling) {
+  return sampling == Sampling::mean ? mean_over_pixel(center, sigma, i)
+                                    : value_at_pixel_center(center, sigma, i);
 }
 
 // Whether kernel.cut takes the splat's light from the pixel: its centre is farther than
@@ -40,8 +40,8 @@ inline bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kerne
   const double dy = y + 0.5 - splat.y;
   const double radius = *kernel.cut * splat.sigma;
   if (dx * dx + dy * dy <= radius * radius) return false;
-  const bool holds_centre = std::floor(splat.x) == x && std::floor(splat.y) == y;
-  return !(kernel.sampling == Sampling::mean && holds_centre);
+  const bool holds_center = std::floor(splat.x) == x && std::floor(splat.y) == y;
+  return !(kernel.sampling == Sampling::mean && holds_center);
 }
 
 // The layer of a column X of one splat: tau = A X, S = E X phi(tau).

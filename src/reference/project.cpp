@@ -77,7 +77,7 @@ void color_splat(Splat& splat, const Particle& p, const DrawnComponent& componen
   const Palette& palette = component.palette;
   const bool has_color = !component.particles.color.is_absent();
   const double palette_position =
-      has_color ? normalised(static_cast<double>(p.color), component.color) : 0.0;
+      has_color ? normalized(static_cast<double>(p.color), component.color) : 0.0;
   auto emitted = sample_knots(palette.emission, palette_position);
   for (std::size_t c = 0; c < 3; ++c)
     emitted[c] *= static_cast<double>(p.color_vector[c]);
@@ -139,7 +139,7 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   splat.weight = w / component.reference_column * (h_pixels / h_drawn);
   // An absent intensity is 1 without being scaled.
   if (!component.particles.intensity.is_absent()) {
-    splat.weight *= normalised(static_cast<double>(p.intensity), component.intensity);
+    splat.weight *= normalized(static_cast<double>(p.intensity), component.intensity);
   }
   color_splat(splat, p, component);
   return splat;

@@ -29,10 +29,10 @@ double reach_in_sigmas(const Splat& splat) {
   return std::sqrt(std::log(1e14) + std::log(strongest));
 }
 
-Range pixels_within(double centre, double radius, int first, int end) {
+Range pixels_within(double center, double radius, int first, int end) {
   // Clamped before the conversion: a splat close to the camera may lie anywhere.
-  const double low = std::clamp<double>(std::floor(centre - radius), first, end);
-  const double high = std::clamp<double>(std::ceil(centre + radius), first, end);
+  const double low = std::clamp<double>(std::floor(center - radius), first, end);
+  const double high = std::clamp<double>(std::ceil(center + radius), first, end);
   return {static_cast<int>(low), static_cast<int>(high)};
 }
 

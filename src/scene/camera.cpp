@@ -159,8 +159,8 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   frame.focal_pixels = focal_length(camera, width, height);
   frame.look_at_distance = distance;
   frame.pixels_per_length = frame.focal_pixels / distance;
-  frame.centre_x = 0.5 * width;
-  frame.centre_y = 0.5 * height;
+  frame.center_x = 0.5 * width;
+  frame.center_y = 0.5 * height;
   return frame;
 }
 
@@ -168,8 +168,8 @@ CameraFrame in_original_convention(const CameraFrame& camera) {
   using namespace boost::qvm;
   CameraFrame frame = camera;
   frame.down = -frame.down;
-  frame.centre_x += 0.5;
-  frame.centre_y += 0.5;
+  frame.center_x += 0.5;
+  frame.center_y += 0.5;
   return frame;
 }
 

@@ -37,7 +37,7 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
   const double weight = particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
   cloud.column = central_column(component.weight, weight, h, sigma);
   if (!particles.intensity.is_absent()) {
-    cloud.column *= normalised(static_cast<double>(particles.intensity[i]), component.intensity);
+    cloud.column *= normalized(static_cast<double>(particles.intensity[i]), component.intensity);
   }
   const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) && cloud.sigma > 0 &&
                        std::isfinite(cloud.sigma) && cloud.column > 0 &&

@@ -16,7 +16,7 @@ bool all_of_kind(const Frame& frame, Kind kind) {
                      [kind](const DrawnComponent& c) { return c.absorption.kind == kind; });
 }
 
-bool any_own_absorption_colours(const Frame& frame) {
+bool any_own_absorption_colors(const Frame& frame) {
   return std::any_of(frame.components.begin(), frame.components.end(),
                      [](const DrawnComponent& c) { return c.palette.has_own_absorption(); });
 }
@@ -33,7 +33,7 @@ void choose_light(const Frame& frame, Plan& plan) {
     return;
   }
   plan.light = LightPlan::ordered;
-  if (any_own_absorption_colours(frame)) return;
+  if (any_own_absorption_colors(frame)) return;
   if (all_of_kind(frame, Kind::as_emission)) {
     plan.light = LightPlan::proportional;
   } else if (one_factor_on_the_emission_palette(frame)) {

@@ -20,7 +20,7 @@ std::optional<Projected> project_straight(const Vec3& v, const CameraFrame& came
   const double z = v.a[2];
   if (perspective && z <= 0) return std::nullopt;
   const double scale = perspective ? camera.focal_pixels / z : camera.pixels_per_length;
-  return Projected{camera.centre_x + scale * v.a[0], camera.centre_y + scale * v.a[1], z, scale};
+  return Projected{camera.center_x + scale * v.a[0], camera.center_y + scale * v.a[1], z, scale};
 }
 
 // The direction `u` as an eye beside the camera sees it, turned about the head's axis.
@@ -41,8 +41,8 @@ Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& cam
   const double widening_sine = u.a[2] > 0 ? sine : std::max(sine, smallest_sine_behind);
   const double widening = widening_sine > 0 ? angle / widening_sine : 1;
   Projected place;
-  place.x = camera.centre_x + radius * cosine_around;
-  place.y = camera.centre_y + radius * sine_around;
+  place.x = camera.center_x + radius * cosine_around;
+  place.y = camera.center_y + radius * sine_around;
   place.pixels_per_length = camera.focal_pixels / distance * std::sqrt(widening);
   return place;
 }
@@ -50,8 +50,8 @@ Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& cam
 Projected project_equirectangular(const Vec3& u, double distance, const CameraFrame& camera) {
   Projected place;
   place.cos_latitude = std::hypot(u.a[0], u.a[2]);
-  place.x = camera.centre_x + camera.focal_pixels * std::atan2(u.a[0], u.a[2]);
-  place.y = camera.centre_y + camera.focal_pixels * std::atan2(u.a[1], place.cos_latitude);
+  place.x = camera.center_x + camera.focal_pixels * std::atan2(u.a[0], u.a[2]);
+  place.y = camera.center_y + camera.focal_pixels * std::atan2(u.a[1], place.cos_latitude);
   place.pixels_per_length = camera.focal_pixels / distance;
   return place;
 }
@@ -65,8 +65,8 @@ std::optional<Projected> project_cube_face(const Vec3& u, double distance,
   if (u.a[2] <= 0) return std::nullopt;
   const double cosine = std::max(u.a[2], smallest_cosine_of_face);
   Projected place;
-  place.x = camera.centre_x + camera.focal_pixels * u.a[0] / u.a[2];
-  place.y = camera.centre_y + camera.focal_pixels * u.a[1] / u.a[2];
+  place.x = camera.center_x + camera.focal_pixels * u.a[0] / u.a[2];
+  place.y = camera.center_y + camera.focal_pixels * u.a[1] / u.a[2];
   place.pixels_per_length = camera.focal_pixels / (distance * cosine * std::sqrt(cosine));
   return place;
 }

@@ -115,7 +115,7 @@ double color_strength(const DrawnComponent& component, std::size_t i) {
   constexpr double least = 0.02;
   const Column& color = component.particles.color;
   const double place =
-      color.is_absent() ? 0.0 : normalised(static_cast<double>(color[i]), component.color);
+      color.is_absent() ? 0.0 : normalized(static_cast<double>(color[i]), component.color);
   double strength = least;
   const auto emitted = sample_knots(component.palette.emission, place);
   for (std::size_t c = 0; c < 3; ++c) {

@@ -29,7 +29,7 @@ double unscaled(double value, Scaling scaling) {
   return value;
 }
 
-double normalised(double value, const ScalarMap& map) {
+double normalized(double value, const ScalarMap& map) {
   const double v = scaled(value, map.scaling);
   if (!std::isfinite(v) || map.maximum == map.minimum) return 0;
   return std::clamp((v - map.minimum) / (map.maximum - map.minimum), 0.0, 1.0);

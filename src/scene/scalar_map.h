@@ -11,6 +11,6 @@ double scaled(double value, Scaling scaling);
 double unscaled(double value, Scaling scaling);
 
 // The value's place in [0, 1], as ScalarMap says.
-double normalised(double value, const ScalarMap& map);
+double normalized(double value, const ScalarMap& map);
 
 }  // namespace splotchcl

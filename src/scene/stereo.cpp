@@ -90,7 +90,7 @@ CameraFrame eye_camera(const CameraFrame& camera, Projection projection, const S
   if (stereo.mode == StereoMode::toe_in) {
     turn_to_look_at(frame, offset);
   } else if (stereo.mode == StereoMode::off_axis) {
-    frame.centre_x += camera.pixels_per_length * offset;
+    frame.center_x += camera.pixels_per_length * offset;
   }
   return frame;
 }

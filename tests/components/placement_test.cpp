@@ -194,7 +194,7 @@ class Planted : public PictureTest {
 };
 
 // The centre of the light, in pixels.
-std::pair<double, double> light_centre(const Image& image) {
+std::pair<double, double> light_center(const Image& image) {
   double x = 0, y = 0, sum = 0;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
@@ -245,7 +245,7 @@ TEST_F(Planted, APointStaysWithinATwentiethOfAPixelOfTheOracle) {
     const std::vector<reference::Splat> splats = reference::project(frame);
     ASSERT_EQ(splats.size(), 1u);
     if (splats[0].x < 20 || splats[0].x > 380 || splats[0].y < 20 || splats[0].y > 280) continue;
-    const auto [x, y] = light_centre(draw(frame));
+    const auto [x, y] = light_center(draw(frame));
     largest = std::max({largest, std::abs(x - splats[0].x), std::abs(y - splats[0].y)});
     EXPECT_LT(std::hypot(x - splats[0].x, y - splats[0].y), 0.05) << "from " << distance;
   }

@@ -82,7 +82,7 @@ TEST_P(VectorColors, AgreeWithAbsorptionFromAPalette) {
   expect_within_tolerance(frame, LightPlan::ordered);
 }
 
-TEST_P(VectorColors, LeaveOutParticlesWhoseColourIsNone) {
+TEST_P(VectorColors, LeaveOutParticlesWhoseColorIsNone) {
   Frame frame = frame_with({Kind::none, 0});
   std::vector<float> colors(3 * frame.components[0].particles.count, 0.5f);
   colors[4] = -0.25f;
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, VectorColors,
                          });
 
 // On a GPU particles are projected one at a time, on a processor eight.
-TEST(VectorColorLanes, PassTheColoursOnEitherWay) {
+TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
   const CloudSetup setup;
   Frame frame = frame_of(setup.width, setup.height, {with_vectors(random_clouds(setup), 5)});
   frame.components.push_back(random_clouds(setup));  // has none, and shows its palette's

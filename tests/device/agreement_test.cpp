@@ -79,7 +79,7 @@ TEST_P(Agreement, HoldsOnABackground) {
   expect_within_tolerance(frame);
 }
 
-TEST_P(Agreement, HoldsForCentreSamplesOfAnUncutKernel) {
+TEST_P(Agreement, HoldsForCenterSamplesOfAnUncutKernel) {
   CloudSetup setup;
   setup.sigma_low = 0.5;
   Frame frame = frame_for(setup);

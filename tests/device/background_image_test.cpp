@@ -69,10 +69,10 @@ TEST_P(BackgroundImage, IsCutAsThePictureIs) {
   }
 }
 
-TEST_P(BackgroundImage, OfOneColourIsThatColour) {
+TEST_P(BackgroundImage, OfOneColorIsThatColor) {
   Frame frame = scene_of(plan());
   frame.background = {0.25, 0.5, 3};
-  const Image by_colour = draw(frame, shape());
+  const Image by_color = draw(frame, shape());
   Image plain(61, 45);
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 61; ++x) {
@@ -83,10 +83,10 @@ TEST_P(BackgroundImage, OfOneColourIsThatColour) {
   }
   frame.background = {0, 0, 0};
   frame.background_image = std::make_shared<const Image>(std::move(plain));
-  EXPECT_EQ(draw(frame, shape()).pixels, by_colour.pixels);
+  EXPECT_EQ(draw(frame, shape()).pixels, by_color.pixels);
 }
 
-TEST_P(BackgroundImage, TakesThePlaceOfTheColour) {
+TEST_P(BackgroundImage, TakesThePlaceOfTheColor) {
   Frame frame = scene_of(plan());
   frame.background_image = numbered_pixels(61, 45);
   const Image image = draw(frame, shape());
@@ -117,9 +117,9 @@ TEST_P(BackgroundImage, BehindAnAbsorbingCloudIsItsClosedForm) {
   Frame frame = frame_of(60, 44, {clouds});
   frame.background_image = numbered_pixels(60, 44);
   const Image image = draw(frame, shape());
-  const auto mean = [&cloud](double centre, int i) {
+  const auto mean = [&cloud](double center, int i) {
     return 0.5 * std::sqrt(pi) * cloud.sigma *
-           (std::erf((i + 1 - centre) / cloud.sigma) - std::erf((i - centre) / cloud.sigma));
+           (std::erf((i + 1 - center) / cloud.sigma) - std::erf((i - center) / cloud.sigma));
   };
   for (int y = 0; y < 44; ++y) {
     for (int x = 0; x < 60; ++x) {

@@ -15,9 +15,9 @@ namespace {
 constexpr int width = 60, height = 44;
 
 // The mean over pixel i of exp(-(t - centre)^2 / sigma^2).
-double axis_mean(double centre, double sigma, int i) {
+double axis_mean(double center, double sigma, int i) {
   return 0.5 * std::sqrt(pi) * sigma *
-         (std::erf((i + 1 - centre) / sigma) - std::erf((i - centre) / sigma));
+         (std::erf((i + 1 - center) / sigma) - std::erf((i - center) / sigma));
 }
 
 // X of a cloud in a pixel of the frames below.
@@ -71,7 +71,7 @@ TEST_P(ClosedForms, OneGaussian) {
   }
 }
 
-TEST_P(ClosedForms, OneGaussianAtPixelCentres) {
+TEST_P(ClosedForms, OneGaussianAtPixelCenters) {
   const Cloud cloud = {0.3, -1.7, 1, 3, 2};
   Frame frame =
       equal_light(frame_of(width, height, {component_of({cloud}, one_color(1, 1, 1))}), plan());

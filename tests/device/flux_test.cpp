@@ -82,8 +82,8 @@ TEST_P(Flux, OfASceneIsTheSameAtAnyShift) {
     expected += static_cast<double>(clouds.particles.weight[i]);
   for (const double shift : {0.01, 0.25, 0.5, 0.99}) {
     Frame frame = thin(frame_of(100, 100, {clouds}), GetParam());
-    frame.camera.centre_x += shift;
-    frame.camera.centre_y -= 0.7 * shift;
+    frame.camera.center_x += shift;
+    frame.camera.center_y -= 0.7 * shift;
     EXPECT_NEAR(sum_of_light(draw(frame)) / expected, 1, flux_bound(frame, GetParam()))
         << "shift " << shift;
   }

@@ -15,13 +15,13 @@ constexpr double unit = 0x1p-24;  // the relative error of one rounding
 
 // Clouds in a ball around `centre`, of widths from far below to far above a pixel when the
 // ball fills a picture of some hundred pixels.
-DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::uint64_t seed) {
+DrawnComponent ball(const Vec3& center, double radius, const Vec3& origin, std::uint64_t seed) {
   constexpr std::size_t count = 2003;
   Random random(seed);
   std::vector<float> positions, sizes, weights;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = centre.a[axis] + radius * random.uniform(-0.55, 0.55);
+      const double place = center.a[axis] + radius * random.uniform(-0.55, 0.55);
       positions.push_back(static_cast<float>(place - origin.a[axis]));
     }
     const double sigma = radius * random.logarithmic(1e-5, 0.3);
@@ -38,15 +38,15 @@ DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::
 }
 
 // The camera stands where a ball around the centre fills its field of view.
-Frame seen(const Vec3& centre, double radius, double field_of_view, const Vec3& origin,
+Frame seen(const Vec3& center, double radius, double field_of_view, const Vec3& origin,
            std::uint64_t seed) {
   Camera camera;
-  camera.look_at = centre;
+  camera.look_at = center;
   const double distance = 1.2 * radius / std::sin(0.5 * field_of_view * pi / 180);
-  camera.position = centre + Vec3{{0.48, -0.6, 0.64}} * distance;
+  camera.position = center + Vec3{{0.48, -0.6, 0.64}} * distance;
   camera.sky = {{0.3, 1, 0.2}};
   camera.field_of_view_degrees = field_of_view;
-  Frame frame = frame_of(1000, 900, {ball(centre, radius, origin, seed)});
+  Frame frame = frame_of(1000, 900, {ball(center, radius, origin, seed)});
   frame.camera = make_camera_frame(camera, frame.width, frame.height);
   frame.projection = Projection::perspective;
   return with_identities(frame);
@@ -87,11 +87,11 @@ Expected expected_of(const reference::Splat& splat, const Frame& frame) {
 //   scale    z errs like dot, by six of |d| / z; focal length 1, division 5 (2.5 ulp)
 //   x        the product 1, the sum and the centre 1 each
 // and one each for adding the guard of a coarse grid and for taking the crop off the centre.
-double centre_bound(const Expected& e, double x, double centre, double guard) {
-  const double offset = x - centre;
+double center_bound(const Expected& e, double x, double center, double guard) {
+  const double offset = x - center;
   const double lost_digits = 2 * std::sqrt(3.0) * unit * e.coordinate;
   return unit * (6 * e.scale * (e.distance + lost_digits) + (6 * e.slant + 7) * std::abs(offset) +
-                 2 * (std::abs(x) + std::abs(centre)) + std::abs(x) + guard);
+                 2 * (std::abs(x) + std::abs(center)) + std::abs(x) + guard);
 }
 
 // Roundings of sigma: those of the scale, of h's and kernel's factors and products (5), and
@@ -125,7 +125,7 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
   }
 
   // The largest distance of a centre from the oracle's, in pixels.
-  double expect_centres_and_widths(const Frame& frame) const {
+  double expect_centers_and_widths(const Frame& frame) const {
     double farthest = 0;
     for_each_splat(frame, [&](const Expected& e, const kernel::Splat& splat,
                               const FrameLayout& layout, std::uint32_t grid) {
@@ -136,9 +136,9 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
       const double error = std::max(std::abs(x - e.x), std::abs(y - e.y));
       farthest = std::max(farthest, error);
       ASSERT_LE(std::abs(x - e.x),
-                centre_bound(e, e.x, frame.camera.centre_x - frame.crop.x, guard));
+                center_bound(e, e.x, frame.camera.center_x - frame.crop.x, guard));
       ASSERT_LE(std::abs(y - e.y),
-                centre_bound(e, e.y, frame.camera.centre_y - frame.crop.y, guard));
+                center_bound(e, e.y, frame.camera.center_y - frame.crop.y, guard));
       // Drawn narrower where its grid is blurred: undone with three more roundings.
       const double drawn = static_cast<double>(splat.sigma);
       const double sigma = pixel * std::sqrt(drawn * drawn + blur_of_grid(layout, grid));
@@ -157,37 +157,37 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
 // 1207 * 1.13 pixels for the offset, 14 of 500 for the scale and 5 of 1000.
 constexpr double ordinary_bound = (6 * 1207 * 1.13 + 14 * 500 + 5 * 1000) * unit;
 
-TEST_P(ProjectGeometry, CentresLieWithinAThousandthOfAPixel) {
+TEST_P(ProjectGeometry, CentersLieWithinAThousandthOfAPixel) {
   static_assert(ordinary_bound < 1.3e-3, "what the next line promises");
-  EXPECT_LE(expect_centres_and_widths(seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 1)),
+  EXPECT_LE(expect_centers_and_widths(seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 1)),
             ordinary_bound);
 }
 
-TEST_P(ProjectGeometry, CentresLieAsCloseInTheOrderedPlan) {
+TEST_P(ProjectGeometry, CentersLieAsCloseInTheOrderedPlan) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 2);
   frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
-  EXPECT_LE(expect_centres_and_widths(frame), ordinary_bound);
+  EXPECT_LE(expect_centers_and_widths(frame), ordinary_bound);
 }
 
-TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsForWideAndNarrowViews) {
+TEST_P(ProjectGeometry, CentersAndWidthsHoldTheirBoundsForWideAndNarrowViews) {
   for (const double field_of_view : {1.0, 10.0, 100.0, 140.0})
-    expect_centres_and_widths(seen({{12, -34, 56}}, 10, field_of_view, {{0, 0, 0}}, 3));
+    expect_centers_and_widths(seen({{12, -34, 56}}, 10, field_of_view, {{0, 0, 0}}, 3));
 }
 
-TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsInOrthographicProjection) {
+TEST_P(ProjectGeometry, CentersAndWidthsHoldTheirBoundsInOrthographicProjection) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 4);
   frame.projection = Projection::orthographic;
-  expect_centres_and_widths(frame);
+  expect_centers_and_widths(frame);
 }
 
-TEST_P(ProjectGeometry, CentresAndWidthsHoldTheirBoundsFarFromTheOriginOfCoordinates) {
+TEST_P(ProjectGeometry, CentersAndWidthsHoldTheirBoundsFarFromTheOriginOfCoordinates) {
   const Vec3 far = {{1e8, -2e8, 3e8}};
-  EXPECT_LE(expect_centres_and_widths(seen(far, 10, 45, far, 5)), ordinary_bound);
+  EXPECT_LE(expect_centers_and_widths(seen(far, 10, 45, far, 5)), ordinary_bound);
   // Stored positions in steps of up to 32 units, exact as far as they go.
-  EXPECT_LE(expect_centres_and_widths(seen(far, 1e4, 45, {{0, 0, 0}}, 6)), ordinary_bound);
+  EXPECT_LE(expect_centers_and_widths(seen(far, 1e4, 45, {{0, 0, 0}}, 6)), ordinary_bound);
 }
 
-TEST_P(ProjectGeometry, CentresAreRelativeToTheCrop) {
+TEST_P(ProjectGeometry, CentersAreRelativeToTheCrop) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 7);
   // A margin is left out; every cloud is wide enough to reach into the crop.
   for (DrawnComponent& component : frame.components) {
@@ -195,13 +195,13 @@ TEST_P(ProjectGeometry, CentresAreRelativeToTheCrop) {
     component.particles.weight = Column::uniform(1);
   }
   frame.crop = {300, 250, 400, 300};
-  EXPECT_LE(expect_centres_and_widths(frame), ordinary_bound);
+  EXPECT_LE(expect_centers_and_widths(frame), ordinary_bound);
 }
 
 TEST_P(ProjectGeometry, WidthsFollowTheSmallestRadius) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 8);
   frame.kernel.min_radius_pixels = 1.5;
-  expect_centres_and_widths(frame);
+  expect_centers_and_widths(frame);
 }
 
 // Roundings of w: sigma in world units 3, squared by two divisions of 5 each; the scale of

@@ -21,12 +21,12 @@ std::uint32_t ordered_bits(float value, bool descending) {
 }
 
 // Positions within `radius` of `centre`, stored relative to `origin`.
-DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::size_t count,
+DrawnComponent ball(const Vec3& center, double radius, const Vec3& origin, std::size_t count,
                     std::uint64_t seed) {
   Random random(seed);
   std::vector<float> positions;
   for (std::size_t i = 0; i < 3 * count; ++i) {
-    const double place = centre.a[i % 3] + radius * random.uniform(-1, 1);
+    const double place = center.a[i % 3] + radius * random.uniform(-1, 1);
     positions.push_back(static_cast<float>(place - origin.a[i % 3]));
   }
   DrawnComponent component;
@@ -40,11 +40,11 @@ DrawnComponent ball(const Vec3& centre, double radius, const Vec3& origin, std::
 
 // A camera `distance` from the centre, in a direction that is no axis, that sees a ball of
 // half that radius in full.
-Frame seen_from(const Vec3& centre, double distance, Projection projection,
+Frame seen_from(const Vec3& center, double distance, Projection projection,
                 const std::vector<DrawnComponent>& components) {
   Camera camera;
-  camera.look_at = centre;
-  camera.position = centre + Vec3{{0.48, -0.6, 0.64}} * distance;
+  camera.look_at = center;
+  camera.position = center + Vec3{{0.48, -0.6, 0.64}} * distance;
   camera.sky = {{0.3, 1, 0.2}};
   camera.field_of_view_degrees = 120;
   camera.projection = projection;
@@ -75,34 +75,34 @@ class ProjectKeys : public StageTest, public testing::WithParamInterface<bool> {
 };
 
 TEST_P(ProjectKeys, EqualTheOraclesInPerspective) {
-  const Vec3 centre = {{120, -340, 560}};
-  const DrawnComponent component = ball(centre, 100, {{0, 0, 0}}, 5003, 1);
-  expect(seen_from(centre, 300, Projection::perspective, {component}));
+  const Vec3 center = {{120, -340, 560}};
+  const DrawnComponent component = ball(center, 100, {{0, 0, 0}}, 5003, 1);
+  expect(seen_from(center, 300, Projection::perspective, {component}));
 }
 
 TEST_P(ProjectKeys, EqualTheOraclesInOrthographicProjection) {
-  const Vec3 centre = {{120, -340, 560}};
-  const DrawnComponent component = ball(centre, 100, {{0, 0, 0}}, 5003, 2);
-  expect(seen_from(centre, 300, Projection::orthographic, {component}));
+  const Vec3 center = {{120, -340, 560}};
+  const DrawnComponent component = ball(center, 100, {{0, 0, 0}}, 5003, 2);
+  expect(seen_from(center, 300, Projection::orthographic, {component}));
 }
 
 TEST_P(ProjectKeys, EqualTheOraclesForADistantOrigin) {
-  const Vec3 centre = {{1e8 + 0.1, -2e8, 3e8}};
-  const DrawnComponent component = ball(centre, 1, {{1e8, -2e8, 3e8}}, 5003, 3);
-  expect(seen_from(centre, 3, Projection::perspective, {component}));
+  const Vec3 center = {{1e8 + 0.1, -2e8, 3e8}};
+  const DrawnComponent component = ball(center, 1, {{1e8, -2e8, 3e8}}, 5003, 3);
+  expect(seen_from(center, 3, Projection::perspective, {component}));
 }
 
 TEST_P(ProjectKeys, EqualTheOraclesForDistantPositions) {
-  const Vec3 centre = {{1e8, -2e8, 3e8}};
-  const DrawnComponent component = ball(centre, 1e4, {{0, 0, 0}}, 5003, 4);
-  expect(seen_from(centre, 3e4, Projection::perspective, {component}));
+  const Vec3 center = {{1e8, -2e8, 3e8}};
+  const DrawnComponent component = ball(center, 1e4, {{0, 0, 0}}, 5003, 4);
+  expect(seen_from(center, 3e4, Projection::perspective, {component}));
 }
 
 TEST_P(ProjectKeys, EqualTheOraclesForComponentsWithOriginsOfTheirOwn) {
-  const Vec3 centre = {{0.3, 0.61, 0.74}};
-  const DrawnComponent near = ball(centre, 1e-6, centre, 1001, 5);
-  const DrawnComponent box = ball(centre, 1e-6, {{0, 0, 0}}, 1001, 6);
-  expect(seen_from(centre, 3e-6, Projection::perspective, {near, box}));
+  const Vec3 center = {{0.3, 0.61, 0.74}};
+  const DrawnComponent near = ball(center, 1e-6, center, 1001, 5);
+  const DrawnComponent box = ball(center, 1e-6, {{0, 0, 0}}, 1001, 6);
+  expect(seen_from(center, 3e-6, Projection::perspective, {near, box}));
 }
 
 TEST_P(ProjectKeys, TakeTheBitsOfAField) {

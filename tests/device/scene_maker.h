@@ -59,7 +59,7 @@ class SceneMaker {
     frame.projection = camera.projection;
     if (chance(0.3)) frame.near_limit = distance - random_.uniform(0, 1);
     if (chance(0.3)) frame.far_limit = distance + random_.uniform(0, 1);
-    centre_ = camera.look_at;
+    center_ = camera.look_at;
     pixel_ = 1 / frame.camera.pixels_per_length;
   }
 
@@ -128,7 +128,7 @@ class SceneMaker {
     const std::size_t count = static_cast<std::size_t>(integer(0, 300));
     Particles& particles = component.particles;
     particles.count = count;
-    particles.origin = chance(0.5) ? centre_ : Vec3{{0, 0, 0}};
+    particles.origin = chance(0.5) ? center_ : Vec3{{0, 0, 0}};
     std::vector<float> positions, sizes, weights, colors, intensities, keys, vectors;
     const bool crowded = chance(0.15);
     const double smallest = 0.05 * pixel_ / frame.kernel.width / component.size_factor;
@@ -136,7 +136,7 @@ class SceneMaker {
     for (std::size_t i = 0; i < count; ++i) {
       const bool again = crowded && i % 100 != 0;  // the place and width of the one before
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double place = centre_.a[axis] + random_.uniform(-1, 1);
+        const double place = center_.a[axis] + random_.uniform(-1, 1);
         positions.push_back(again ? positions[positions.size() - 3]
                                   : static_cast<float>(place - particles.origin.a[axis]));
         vectors.push_back(static_cast<float>(random_.uniform()));
@@ -177,7 +177,7 @@ class SceneMaker {
   }
 
   Random random_;
-  Vec3 centre_{};
+  Vec3 center_{};
   double pixel_ = 1;
 };
 

@@ -156,7 +156,7 @@ TEST_F(CrossFadeOfPictures, ReadsTheOtherSceneOnce) {
   EXPECT_EQ(reference_seen_from(-9), reference_seen_from(-90));
 }
 
-TEST_F(CrossFadeOfPictures, FadesToAColourAfterwards) {
+TEST_F(CrossFadeOfPictures, FadesToAColorAfterwards) {
   EXPECT_FLOAT_EQ(draw(0.5, "finish.fade=0.5").at(3, 3)[1], 0.5F);
 }
 

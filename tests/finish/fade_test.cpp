@@ -24,7 +24,7 @@ TEST(Fade, OfZeroLeavesEveryBit) {
 }
 
 // What is left is what the display shows as the colour, after gamma.
-TEST(Fade, OfOneIsTheColourAsDisplayed) {
+TEST(Fade, OfOneIsTheColorAsDisplayed) {
   Image image = plain_image(2, 2, {0.1F, 0.2F, 9});
   fade_to_color(image, fading(1), 2.2);
   EXPECT_NEAR(std::pow(static_cast<double>(image.at(1, 1)[0]), 1 / 2.2), 0.5, 1e-6);

@@ -20,7 +20,7 @@ TEST(Layout, KeepsAMarginOnEverySide) {
   EXPECT_EQ(last.bottom, 1000 - margin);
 }
 
-TEST(Layout, CentresWhatLiesAtTheMiddleOfASide) {
+TEST(Layout, CentersWhatLiesAtTheMiddleOfASide) {
   Layout layout(1600, 1000);
   const Box top = layout.place(Place::top, 100, 20, "it");
   EXPECT_EQ(top.left + top.right, 1600);

@@ -78,7 +78,7 @@ TEST(PictureFinish, ReplacesPlaceholders) {
   EXPECT_EQ(with.finish().pixels, plain.finish().pixels);
 }
 
-TEST(PictureFinish, GivesTextItsColourAfterGamma) {
+TEST(PictureFinish, GivesTextItsColorAfterGamma) {
   FinishScene scene;
   scene.scene.image.gamma = 2.2;
   scene.scene.finish.text_color = {1, 0.5, 0};
@@ -151,7 +151,7 @@ TEST(ColorBar, ShowsThePalettesLightFromLowToHigh) {
   }
 }
 
-TEST(ColorBar, HasItsTicksAtTheirColours) {
+TEST(ColorBar, HasItsTicksAtTheirColors) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), {Scaling::log, 2.5, 4.5});
   scene.scene.finish.color_bar.show = true;
@@ -178,7 +178,7 @@ TEST(ColorBar, LiesAtTheTopAndBottom) {
   EXPECT_LT(bar.height, 20);
 }
 
-TEST(ColorBar, OfEveryColouredComponentShareTheLength) {
+TEST(ColorBar, OfEveryColoredComponentShareTheLength) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
   scene.add_component("stars", red_to_blue(), zero_to_one);
@@ -202,7 +202,7 @@ TEST(ColorBar, OfAComponentThatDoesNotExistIsRefused) {
   EXPECT_THAT(message, HasSubstr("did you mean gas"));
 }
 
-TEST(ColorBar, WithoutAColouredComponentIsRefused) {
+TEST(ColorBar, WithoutAColoredComponentIsRefused) {
   FinishScene scene;
   scene.scene.finish.color_bar.show = true;
   EXPECT_THAT(refusal([&] { check_finish(scene.scene, scene.snapshot); }),
@@ -288,7 +288,7 @@ TEST(Inset, HasThePicturesConvention) {
     EXPECT_NEAR(seen.camera.right.a[i], scene.frame.camera.right.a[i], 1e-12);
     EXPECT_NEAR(seen.camera.down.a[i], scene.frame.camera.down.a[i], 1e-12);
   }
-  EXPECT_EQ(seen.camera.centre_x, 0.5 * seen.width + 0.5);
+  EXPECT_EQ(seen.camera.center_x, 0.5 * seen.width + 0.5);
 }
 
 TEST(Inset, ShowsTheComponentsThatAreNamed) {

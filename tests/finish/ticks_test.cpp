@@ -52,7 +52,7 @@ TEST(Ticks, StandWhereTheScalingPutsTheirValues) {
     const std::vector<Tick> ticks = ticks_of(map, 6, true);
     ASSERT_GE(ticks.size(), 2U);
     for (const Tick& tick : ticks)
-      EXPECT_NEAR(tick.position, normalised(tick.value, map), 1e-9);
+      EXPECT_NEAR(tick.position, normalized(tick.value, map), 1e-9);
   }
 }
 

@@ -20,10 +20,10 @@ std::string points_file() {
          std::string(reinterpret_cast<const char*>(values), sizeof values);
 }
 
-TEST(ExampleReader, ReadsWhatItRecognises) {
+TEST(ExampleReader, ReadsWhatItRecognizes) {
   const TemporaryFolder folder;
   write_bytes(folder / "points", points_file());
-  ASSERT_TRUE(points_format().recognises(MappedFile::open(folder / "points")));
+  ASSERT_TRUE(points_format().recognizes(MappedFile::open(folder / "points")));
   const auto snapshot = points_format().open(folder / "points", {});
   EXPECT_THAT(values_of(snapshot->read(4, "position")), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(0.5F, 0.25F));

@@ -43,7 +43,7 @@ class MissingSizes : public ::testing::Test {
   const std::string keep_ = "read.cache_smoothing_lengths=true";
 };
 
-TEST_F(MissingSizes, ReachAsManyNeighboursAsTheSceneSays) {
+TEST_F(MissingSizes, ReachAsManyNeighborsAsTheSceneSays) {
   write(1);
   const std::vector<float> usual = lengths(), few = lengths({"read.neighbours=8"});
   EXPECT_EQ(lengths({"read.neighbours=64"}), usual);
@@ -61,7 +61,7 @@ TEST_F(MissingSizes, AreKeptOnlyWhenAsked) {
   EXPECT_THAT(notes_, Contains(HasSubstr("are those kept in")));
 }
 
-TEST_F(MissingSizes, AreFoundAnewForOtherPositionsOrNeighbours) {
+TEST_F(MissingSizes, AreFoundAnewForOtherPositionsOrNeighbors) {
   write(1);
   const std::vector<float> first = lengths({keep_});
   EXPECT_NE(lengths({keep_, "read.neighbours=8"}), first);

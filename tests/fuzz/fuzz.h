@@ -80,7 +80,7 @@ inline void read_all(const Snapshot& snapshot) {
 // Opens the scratch file with one format, whether it would be recognised or not, and reads all.
 inline void read_as(const SnapshotFormat& format, const SnapshotOptions& options = {}) {
   try {
-    if (!format.recognises(MappedFile::open(scratch_file()))) return;
+    if (!format.recognizes(MappedFile::open(scratch_file()))) return;
     read_all(*format.open(scratch_file(), options));
   } catch (const Error&) {
     // refused

@@ -110,7 +110,7 @@ Image red_and_blue_pixels(const DiskPicture& picture) {
   return image;
 }
 
-TEST(GalaxyLight, NoColumnOfPixelsHasOneColourAlongZ) {
+TEST(GalaxyLight, NoColumnOfPixelsHasOneColorAlongZ) {
   const DiskPicture picture;
   GalaxySettings settings = small_settings();
   settings.removes_stars = false;

@@ -13,7 +13,7 @@ constexpr double sky_level = 0.02, sky_noise = 0.001;
 // Linear light of an exponential disk around a pixel, on a noisy sky.
 struct DiskPicture {
   int width = 160, height = 160;
-  double centre_x = 80, centre_y = 80;
+  double center_x = 80, center_y = 80;
   double scale = 12;  // of the exponential, in pixels
   double peak = 0.8;
   double axis_ratio = 1;  // of the ellipses of equal light, longest upright
@@ -24,7 +24,7 @@ struct DiskPicture {
     Image image(width, height);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const double radius = std::hypot((x + 0.5 - centre_x) / axis_ratio, y + 0.5 - centre_y);
+        const double radius = std::hypot((x + 0.5 - center_x) / axis_ratio, y + 0.5 - center_y);
         const double light = peak * std::exp(-radius / scale);
         for (std::size_t i = 0; i < 3; ++i) {
           image.at(x, y)[i] =

@@ -84,7 +84,7 @@ TEST(GalaxyPictures, TransparentPixelsHaveNoLight) {
   }
   store(folder / "half.png", image, 4, OIIO::TypeDesc::UINT8);
   GalaxySettings settings = small_settings();
-  settings.centre = {80, 80};
+  settings.center = {80, 80};
   const Galaxy galaxy = read_galaxy(folder / "half.png", settings);
   ASSERT_GT(galaxy.gas.count(), 1000u);
   for (std::size_t i = 0; i < galaxy.gas.count(); ++i)
@@ -114,8 +114,8 @@ TEST(GalaxyPictures, APictureOfTwentyThousandPixelsMakesAGalaxy) {
   DiskPicture picture;
   picture.width = 20000;
   picture.height = 1000;
-  picture.centre_x = 6000;
-  picture.centre_y = 500;
+  picture.center_x = 6000;
+  picture.center_y = 500;
   picture.scale = 100;
   store(folder / "wide.tif", picture.draw(), 1, OIIO::TypeDesc::UINT8);
   GalaxySettings settings = small_settings();
@@ -123,8 +123,8 @@ TEST(GalaxyPictures, APictureOfTwentyThousandPixelsMakesAGalaxy) {
   const Galaxy galaxy = read_galaxy(folder / "wide.tif", settings);
   EXPECT_DOUBLE_EQ(galaxy.pixel_size_kpc, 2);
   // In pixels of the file, of which 20 are averaged to one.
-  EXPECT_NEAR(galaxy.centre[0], 6000, 20);
-  EXPECT_NEAR(galaxy.centre[1], 500, 20);
+  EXPECT_NEAR(galaxy.center[0], 6000, 20);
+  EXPECT_NEAR(galaxy.center[1], 500, 20);
 }
 
 TEST(GalaxyPictures, OnePixelIsRefused) {

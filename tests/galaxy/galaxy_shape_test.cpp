@@ -16,18 +16,18 @@ double deviation(const GalaxyParticles& particles, std::size_t axis) {
   return std::sqrt(sum / static_cast<double>(particles.count()));
 }
 
-TEST(GalaxyShape, CentreOfLightIsFoundBesideACompanion) {
+TEST(GalaxyShape, CenterOfLightIsFoundBesideACompanion) {
   DiskPicture picture;
-  picture.centre_x = 60.5;
-  picture.centre_y = 90.5;
+  picture.center_x = 60.5;
+  picture.center_y = 90.5;
   Image image = picture.draw();
   const DiskPicture companion = {160, 160, 140, 30, 5, 1.0};
   const Image other = companion.draw();
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] += other.pixels[i] - static_cast<float>(sky_level);
   const Galaxy galaxy = make_galaxy(image, small_settings());
-  EXPECT_NEAR(galaxy.centre[0], 60.5, 1);
-  EXPECT_NEAR(galaxy.centre[1], 90.5, 1);
+  EXPECT_NEAR(galaxy.center[0], 60.5, 1);
+  EXPECT_NEAR(galaxy.center[1], 90.5, 1);
 }
 
 TEST(GalaxyShape, RadiusKeepsACompanionOut) {
@@ -62,7 +62,7 @@ TEST(GalaxyShape, RightAndUpAreThoseOfThePicture) {
       image.at(x, y)[2] = 3;  // to the upper right
   }
   GalaxySettings settings = small_settings();
-  settings.centre = {80, 80};
+  settings.center = {80, 80};
   settings.removes_stars = false;
   const Galaxy galaxy = make_galaxy(image, settings);
   const std::vector<float>& color = galaxy.gas.color;
@@ -140,7 +140,7 @@ TEST(GalaxyShape, SettingsOutOfRangeAreRefused) {
   refuses([](GalaxySettings& s) { s.radius_pixels = 0; });
   refuses([](GalaxySettings& s) { s.cloud_points = 0; });
   refuses([](GalaxySettings& s) { s.disk_light = 1.5; });
-  refuses([](GalaxySettings& s) { s.centre = {-10, 5}; });
+  refuses([](GalaxySettings& s) { s.center = {-10, 5}; });
 }
 
 }  // namespace

@@ -30,14 +30,14 @@ DrawnComponent ball(double radius, int count, std::uint64_t seed = 41) {
 }
 
 // The camera's picture shows a ball of this radius around `centre` in full.
-Camera camera_at(const Vec3& centre, double radius, double field_of_view) {
+Camera camera_at(const Vec3& center, double radius, double field_of_view) {
   const double half_view = 0.5 * field_of_view * pi / 180;
   const double distance = 1.6 * radius / std::tan(half_view);
   // Any direction that is no axis.
   const Vec3 direction = {{0.48, -0.6, 0.64}};
   Camera camera;
-  camera.look_at = centre;
-  camera.position = centre + direction * distance;
+  camera.look_at = center;
+  camera.position = center + direction * distance;
   camera.sky = {{0.1, 1, 0.3}};
   camera.field_of_view_degrees = field_of_view;
   return camera;
@@ -85,44 +85,44 @@ Frame around_the_camera(LightPlan plan) {
 }
 
 Frame far_origin(LightPlan plan) {
-  const Vec3 centre = {{1e8, -2e8, 3e8}};
+  const Vec3 center = {{1e8, -2e8, 3e8}};
   DrawnComponent clouds = ball(1, 400);
-  clouds.particles.origin = centre;
-  return lit(seen_by(camera_at(centre, 1, 40), width, height, {clouds}), plan);
+  clouds.particles.origin = center;
+  return lit(seen_by(camera_at(center, 1, 40), width, height, {clouds}), plan);
 }
 
 // The stored positions themselves lie around 1e8, where single precision has steps of 8.
 Frame far_positions(LightPlan plan) {
-  const Vec3 centre = {{1e8, -2e8, 3e8}};
+  const Vec3 center = {{1e8, -2e8, 3e8}};
   DrawnComponent clouds = ball(1000, 400);
   std::vector<float> positions;
   for (std::size_t i = 0; i < 3 * clouds.particles.count; ++i) {
     positions.push_back(
-        static_cast<float>(centre.a[i % 3] + static_cast<double>(clouds.particles.position[i])));
+        static_cast<float>(center.a[i % 3] + static_cast<double>(clouds.particles.position[i])));
   }
   clouds.particles.position = Column::owning(positions);
-  return lit(seen_by(camera_at(centre, 1000, 40), width, height, {clouds}), plan);
+  return lit(seen_by(camera_at(center, 1000, 40), width, height, {clouds}), plan);
 }
 
 // A galaxy of 1e-6 of a box, with its positions stored from the box's corner or its own
 // centre, and the rest of the box around it.
 Frame galaxy_in_a_box(bool from_the_corner, LightPlan plan) {
-  const Vec3 centre = {{0.3, 0.61, 0.74}};
+  const Vec3 center = {{0.3, 0.61, 0.74}};
   DrawnComponent galaxy = ball(1e-6, 400);
   if (from_the_corner) {
     std::vector<float> positions;
     for (std::size_t i = 0; i < 3 * galaxy.particles.count; ++i) {
       positions.push_back(
-          static_cast<float>(centre.a[i % 3] + static_cast<double>(galaxy.particles.position[i])));
+          static_cast<float>(center.a[i % 3] + static_cast<double>(galaxy.particles.position[i])));
     }
     galaxy.particles.position = Column::owning(positions);
   } else {
-    galaxy.particles.origin = centre;
+    galaxy.particles.origin = center;
   }
   DrawnComponent box = ball(0.5, 300, 47);
   box.particles.origin = {{0.5, 0.5, 0.5}};
   box.brightness = 0.05;
-  return lit(seen_by(camera_at(centre, 1e-6, 45), width, height, {galaxy, box}), plan);
+  return lit(seen_by(camera_at(center, 1e-6, 45), width, height, {galaxy, box}), plan);
 }
 
 Frame sky_almost_parallel(LightPlan plan) {

@@ -29,8 +29,8 @@ Frame part_of_a_large_picture(int x, int y, LightPlan plan) {
     const double z = random.uniform(1, 10);
     const double length = z / frame.camera.focal_pixels;  // of one pixel
     // The camera looks along z with the sky along y: right is -x.
-    const double right = (pixel_x - frame.camera.centre_x) * length;
-    const double down = (pixel_y - frame.camera.centre_y) * length;
+    const double right = (pixel_x - frame.camera.center_x) * length;
+    const double down = (pixel_y - frame.camera.center_y) * length;
     const Vec3 at =
         frame.camera.right * right + frame.camera.down * down + frame.camera.forward * z;
     clouds.push_back({at.a[0], at.a[1], at.a[2], length * random.logarithmic(0.3, 20),

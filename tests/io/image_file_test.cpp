@@ -65,7 +65,7 @@ struct WithoutLeakDetection {
 class FloatFormats : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(ImageFile, FloatFormats, ::testing::Values("exr", "tif", "tiff"));
 
-TEST_P(FloatFormats, KeepEveryBitOfColourAndAlpha) {
+TEST_P(FloatFormats, KeepEveryBitOfColorAndAlpha) {
   const TemporaryFolder folder;
   const auto path = folder / (std::string("picture.") + GetParam());
   const Image image = ramp(7, 5, 20);
@@ -80,7 +80,7 @@ class ByteFormats : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(ImageFile, ByteFormats,
                          ::testing::Values("png", "tga", "bmp", "ppm", "pnm", "PNG"));
 
-TEST_P(ByteFormats, KeepColourRoundedToEightBits) {
+TEST_P(ByteFormats, KeepColorRoundedToEightBits) {
   const TemporaryFolder folder;
   const auto path = folder / (std::string("picture.") + GetParam());
   const Image image = ramp(9, 6, 1);
@@ -130,7 +130,7 @@ TEST(ImageFile, AppliesTheGammaToEightBitsOnly) {
   EXPECT_EQ(read_image(folder / "a.exr").at(0, 0)[0], 0.25F);
 }
 
-TEST(ImageFile, ClampsColoursBeyondWhiteInEightBits) {
+TEST(ImageFile, ClampsColorsBeyondWhiteInEightBits) {
   const TemporaryFolder folder;
   Image image(1, 1);
   image.pixels = {7, -1, std::numeric_limits<float>::infinity(), 1};
@@ -141,7 +141,7 @@ TEST(ImageFile, ClampsColoursBeyondWhiteInEightBits) {
   EXPECT_EQ(read.at(0, 0)[2], 1);
 }
 
-TEST(ImageFile, KeepsColourBeyondWhiteInRadianceFiles) {
+TEST(ImageFile, KeepsColorBeyondWhiteInRadianceFiles) {
   const TemporaryFolder folder;
   Image image(1, 1);
   image.pixels = {8, 4, 2, 1};  // exact in a shared exponent

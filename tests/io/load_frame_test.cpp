@@ -176,7 +176,7 @@ TEST(LoadFrameWeight, IsConstantWhereNoMassIsKnown) {
   EXPECT_THAT(refusal(scene_of({wants_mass}), snapshot), HasSubstr("have no masses"));
 }
 
-TEST(LoadFrameColour, RangeIsTheBulkOfTheScaledData) {
+TEST(LoadFrameColor, RangeIsTheBulkOfTheScaledData) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, {}, {}};
   const DrawnComponent drawn = load(component, gas_row());
@@ -185,7 +185,7 @@ TEST(LoadFrameColour, RangeIsTheBulkOfTheScaledData) {
   EXPECT_NEAR(drawn.color.maximum, 3.98, 1e-6);
 }
 
-TEST(LoadFrameColour, LimitsOfTheSceneAreBeforeScaling) {
+TEST(LoadFrameColor, LimitsOfTheSceneAreBeforeScaling) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, 0.1, 1e6};
   const DrawnComponent drawn = load(component, gas_row());
@@ -193,7 +193,7 @@ TEST(LoadFrameColour, LimitsOfTheSceneAreBeforeScaling) {
   EXPECT_NEAR(drawn.color.maximum, 6, 1e-12);
 }
 
-TEST(LoadFrameColour, ALimitBeyondAllDataKeepsThemBeyondIt) {
+TEST(LoadFrameColor, ALimitBeyondAllDataKeepsThemBeyondIt) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::linear, 1e9, {}};
   const DrawnComponent drawn = load(component, gas_row());
@@ -201,13 +201,13 @@ TEST(LoadFrameColour, ALimitBeyondAllDataKeepsThemBeyondIt) {
   EXPECT_GT(drawn.color.maximum, 1e9);
 }
 
-TEST(LoadFrameColour, RefusesALimitWithoutALogarithm) {
+TEST(LoadFrameColor, RefusesALimitWithoutALogarithm) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, 0.0, {}};
   EXPECT_THAT(refusal(scene_of({component}), gas_row()), HasSubstr("color.min is 0"));
 }
 
-TEST(LoadFrameColour, OfOneValueForAllIsTheMiddleOfThePalette) {
+TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
   MemorySnapshot snapshot = gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 100));
   Component component = gas();
@@ -218,7 +218,7 @@ TEST(LoadFrameColour, OfOneValueForAllIsTheMiddleOfThePalette) {
   EXPECT_THAT(notes_of(component, snapshot), Contains(HasSubstr("the same for all")));
 }
 
-TEST(LoadFrameColour, SaysWhenNoValueCanBeScaled) {
+TEST(LoadFrameColor, SaysWhenNoValueCanBeScaled) {
   MemorySnapshot snapshot = gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 0));
   Component component = gas();
@@ -226,7 +226,7 @@ TEST(LoadFrameColour, SaysWhenNoValueCanBeScaled) {
   EXPECT_THAT(notes_of(component, snapshot), Contains(HasSubstr("no particle has a temperature")));
 }
 
-TEST(LoadFrameColour, OfAVectorIsItsLength) {
+TEST(LoadFrameColor, OfAVectorIsItsLength) {
   MemorySnapshot snapshot = gas_row(2);
   snapshot.add(0, "velocity", {3, 4, 0, 0, -5, 12}, 3);
   Component component = gas();
@@ -234,7 +234,7 @@ TEST(LoadFrameColour, OfAVectorIsItsLength) {
   EXPECT_THAT(values(load(component, snapshot).particles.color, 2), ElementsAre(5, 13));
 }
 
-TEST(LoadFrameColour, NamesAFieldThatIsNotThere) {
+TEST(LoadFrameColor, NamesAFieldThatIsNotThere) {
   Component component = gas();
   component.color.field = "internal_enrgy";
   const std::string message = refusal(scene_of({component}), gas_row());
@@ -251,7 +251,7 @@ TEST(LoadFrameSort, ReadsTheFieldThatTheSceneSortsBy) {
   EXPECT_THAT(refusal(scene, gas_row()), HasSubstr("sort.by is \"rank\""));
 }
 
-TEST(LoadFrameIntensity, HasARangeLikeTheColour) {
+TEST(LoadFrameIntensity, HasARangeLikeTheColor) {
   Component component = gas();
   component.intensity = {"internal_energy", Scaling::log, 1, 1e4};
   const DrawnComponent drawn = load(component, gas_row());
@@ -271,7 +271,7 @@ MemorySnapshot grid_without_sizes() {
   return snapshot;
 }
 
-TEST(LoadFrameSize, IsFoundFromNeighboursWhereTheFileHasNone) {
+TEST(LoadFrameSize, IsFoundFromNeighborsWhereTheFileHasNone) {
   const MemorySnapshot snapshot = grid_without_sizes();
   const DrawnComponent drawn = load(gas(), snapshot);
   // The 64th neighbour on a unit grid: beyond the 56 within sqrt(5) lies sqrt(6).
@@ -301,7 +301,7 @@ TEST(LoadFrameSize, FollowsFromDensityAndMassWhereBothAreKnown) {
   EXPECT_NEAR(drawn.particles.smoothing_length[7], expected, 1e-6);
 }
 
-TEST(LoadFrameSize, IsFoundFromNeighboursWhereADensityIsMissing) {
+TEST(LoadFrameSize, IsFoundFromNeighborsWhereADensityIsMissing) {
   MemorySnapshot snapshot = grid_without_sizes();
   std::vector<float> density(1000, 4);
   density[3] = 0;  // as in initial conditions that were never evolved

@@ -69,7 +69,7 @@ inline void expect_same(const ReadSettings& a, const ReadSettings& b) {
   EXPECT_EQ(a.every, b.every);
   EXPECT_EQ(a.max_particles, b.max_particles);
   EXPECT_EQ(a.seed, b.seed);
-  EXPECT_EQ(a.neighbours, b.neighbours);
+  EXPECT_EQ(a.neighbors, b.neighbors);
   EXPECT_EQ(a.cache_smoothing_lengths, b.cache_smoothing_lengths);
 }
 

@@ -71,7 +71,7 @@ class RandomScenes {
       read.max_particles = integer(1, 1 << 30);
     }
     read.seed = integer(0, 1 << 30);
-    read.neighbours = integer(1, 4096);
+    read.neighbors = integer(1, 4096);
     read.cache_smoothing_lengths = coin();
     return read;
   }

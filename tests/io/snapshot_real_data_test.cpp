@@ -162,14 +162,14 @@ TEST_F(RealSnapshots, SwiftIsReadWithTheSupportOfItsKernel) {
   const Column h = snapshot->read(0, "smoothing_length");
   const Column density = snapshot->read(0, "density");
   const Column mass = snapshot->read(0, "mass");
-  std::vector<double> neighbours;
+  std::vector<double> neighbors;
   for (std::size_t i = 0; i < h.size(); ++i) {
     const double length = static_cast<double>(h[i]);
-    neighbours.push_back(4 * M_PI / 3 * length * length * length * static_cast<double>(density[i]) /
-                         static_cast<double>(mass[i]));
+    neighbors.push_back(4 * M_PI / 3 * length * length * length * static_cast<double>(density[i]) /
+                        static_cast<double>(mass[i]));
   }
-  std::nth_element(neighbours.begin(), neighbours.begin() + 16384, neighbours.end());
-  EXPECT_NEAR(neighbours[16384], 47.99508, 47.99508 * 3e-4);
+  std::nth_element(neighbors.begin(), neighbors.begin() + 16384, neighbors.end());
+  EXPECT_NEAR(neighbors[16384], 47.99508, 47.99508 * 3e-4);
 }
 
 TEST_F(RealSnapshots, LengthsFromDensityAreNearThoseOfTheFile) {

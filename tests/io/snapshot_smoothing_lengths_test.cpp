@@ -93,7 +93,7 @@ TEST(SmoothingLengths, AreTheSameInEveryRun) {
   EXPECT_TRUE(std::equal(first.data(), first.data() + 20000, second.data()));
 }
 
-TEST(SmoothingLengths, WithFewerParticlesThanNeighboursReachTheFarthest) {
+TEST(SmoothingLengths, WithFewerParticlesThanNeighborsReachTheFarthest) {
   const Column lengths = find_smoothing_lengths(Column::owning({0, 0, 0, 3, 0, 0, 3, 4, 0}), 3);
   EXPECT_EQ(lengths[0], 5);
   EXPECT_EQ(lengths[1], 4);

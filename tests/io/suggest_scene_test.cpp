@@ -15,9 +15,9 @@ namespace {
 
 using test::MemorySnapshot;
 
-std::vector<float> ball(int count, double centre, double radius) {
+std::vector<float> ball(int count, double center, double radius) {
   std::mt19937 random(5);
-  std::normal_distribution<double> normal(centre, radius);
+  std::normal_distribution<double> normal(center, radius);
   std::vector<float> position;
   for (int i = 0; i < 3 * count; ++i)
     position.push_back(static_cast<float>(normal(random)));
@@ -73,7 +73,7 @@ TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
   EXPECT_LT(scene.components[0].brightness, scene.components[1].brightness);
 }
 
-TEST(SuggestScene, ColoursGasByItsHeatIfThatVaries) {
+TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
   MemorySnapshot snapshot;
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "density", powers_of_ten(100, 3));
@@ -84,7 +84,7 @@ TEST(SuggestScene, ColoursGasByItsHeatIfThatVaries) {
   EXPECT_NEAR(std::log10(*gas.color.maximum), 3.94, 0.02);
 }
 
-TEST(SuggestScene, ColoursGasByItsDensityIfTheHeatIsTheSameEverywhere) {
+TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatIsTheSameEverywhere) {
   MemorySnapshot snapshot;
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "density", powers_of_ten(100, 3));

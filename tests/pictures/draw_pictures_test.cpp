@@ -132,7 +132,7 @@ TEST(Pictures, OfTwoEyesHaveInsetsOfTwoEyes) {
     const double step = 2 * 3.14159265358979323846 / 180 * 5;
     EXPECT_NEAR(left.position.a[0] - right.position.a[0], step, 1e-12);
     // x of the inset's look-at point in both.
-    EXPECT_NEAR(left.centre_x, right.centre_x - right.focal_pixels * step / 5, 1e-9);
+    EXPECT_NEAR(left.center_x, right.center_x - right.focal_pixels * step / 5, 1e-9);
   }
 }
 

@@ -21,7 +21,7 @@ std::uint32_t ordered_bits(float value) {
   return bits | 0x80000000u;
 }
 
-Frame ball_around_the_camera(Projection projection, const Vec3& centre, double radius) {
+Frame ball_around_the_camera(Projection projection, const Vec3& center, double radius) {
   constexpr std::size_t count = 3001;
   Random random(7);
   std::vector<float> positions;
@@ -29,13 +29,13 @@ Frame ball_around_the_camera(Projection projection, const Vec3& centre, double r
     positions.push_back(static_cast<float>(radius * random.uniform(-1, 1)));
   DrawnComponent component;
   component.particles.count = count;
-  component.particles.origin = centre;
+  component.particles.origin = center;
   component.particles.position = Column::owning(positions);
   component.particles.smoothing_length = Column::uniform(static_cast<float>(0.01 * radius));
   component.weight = WeightModel::constant;
   component.reference_column = 1 / (0.01 * radius);
   Camera camera;
-  camera.position = centre + Vec3{{0.1, 0.03, -0.2}} * radius;
+  camera.position = center + Vec3{{0.1, 0.03, -0.2}} * radius;
   camera.look_at = camera.position + Vec3{{0.4, -0.3, 0.8}} * radius;
   camera.projection = projection;
   if (projection == Projection::fisheye) camera.field_of_view_degrees = 360;

@@ -31,8 +31,8 @@ inline Frame empty_frame(int width, int height) {
   frame.camera.look_at_distance = 1;
   frame.camera.pixels_per_length = 1;
   frame.camera.focal_pixels = 1;
-  frame.camera.centre_x = 0.5 * width;
-  frame.camera.centre_y = 0.5 * height;
+  frame.camera.center_x = 0.5 * width;
+  frame.camera.center_y = 0.5 * height;
   return frame;
 }
 

@@ -87,7 +87,7 @@ TEST(Gaussian, PixelMeanFarOutKeepsItsDigits) {
   EXPECT_NEAR(shape(splat, -11, 0, {}) / (expected_x * expected_y), 1, 1e-9);
 }
 
-TEST(Gaussian, CenterSamplingIsTheFormulaAtThePixelCentre) {
+TEST(Gaussian, CenterSamplingIsTheFormulaAtThePixelCenter) {
   KernelSettings kernel;
   kernel.sampling = Sampling::center;
   const reference::Splat splat = splat_at(4.2, 3.9, 1.7);
@@ -95,7 +95,7 @@ TEST(Gaussian, CenterSamplingIsTheFormulaAtThePixelCentre) {
   EXPECT_NEAR(shape(splat, 6, 2, kernel), std::exp(-(dx * dx + dy * dy) / (1.7 * 1.7)), 1e-15);
 }
 
-TEST(Gaussian, PixelMeanTendsToTheCentreValueForWideClouds) {
+TEST(Gaussian, PixelMeanTendsToTheCenterValueForWideClouds) {
   KernelSettings center;
   center.sampling = Sampling::center;
   const reference::Splat splat = splat_at(0.3, -0.2, 300);
@@ -103,7 +103,7 @@ TEST(Gaussian, PixelMeanTendsToTheCentreValueForWideClouds) {
   EXPECT_NEAR(shape(splat, 40, -70, {}), shape(splat, 40, -70, center), 4.0 / (24 * 300 * 300));
 }
 
-TEST(Gaussian, PeakOfAnEmittingCloudIsBrightnessTimesColumnTimesColour) {
+TEST(Gaussian, PeakOfAnEmittingCloudIsBrightnessTimesColumnTimesColor) {
   DrawnComponent component = emitting({Cloud{0.5, 0.5, 1, 3, 0.8}});
   component.brightness = 2;
   component.reference_column = 4;
@@ -133,7 +133,7 @@ TEST(Gaussian, FluxOfThePictureDoesNotDependOnSubpixelShiftsOrSize) {
   }
 }
 
-TEST(Cut, EndsTheCloudAtPixelCentresBeyondIt) {
+TEST(Cut, EndsTheCloudAtPixelCentersBeyondIt) {
   KernelSettings kernel;
   kernel.cut = 2;
   for (const Sampling sampling : {Sampling::mean, Sampling::center}) {

@@ -81,7 +81,7 @@ TEST(Weight, OfMassIsTheColumnDensity) {
   EXPECT_NEAR(reference::project(frame)[0].weight, 12 / (pi * 36) / 2, 1e-15);
 }
 
-TEST(Weight, OfDensityIsItsColumnThroughTheCentre) {
+TEST(Weight, OfDensityIsItsColumnThroughTheCenter) {
   Frame frame = frame_of(8, 8, {one_particle()});
   frame.kernel.width = 0.5;
   frame.components[0].weight = WeightModel::density;
@@ -99,7 +99,7 @@ TEST(Weight, ConstantIsOneOverH) {
   EXPECT_EQ(reference::project(frame)[0].weight, 0.125);
 }
 
-TEST(Weight, CarriesTheNormalisedIntensity) {
+TEST(Weight, CarriesTheNormalizedIntensity) {
   Frame frame = frame_of(8, 8, {one_particle()});
   frame.components[0].particles.intensity = Column::uniform(100);
   frame.components[0].intensity = {Scaling::log, 0, 8};
@@ -114,7 +114,7 @@ double red_of(const ScalarMap& map, float value) {
   return reference::project(frame)[0].emission[0];
 }
 
-TEST(ColourScalar, IsScaledThenClampedToItsRange) {
+TEST(ColorScalar, IsScaledThenClampedToItsRange) {
   EXPECT_NEAR(red_of({Scaling::linear, 2, 4}, 2.5f), 0.25, 1e-15);
   EXPECT_NEAR(red_of({Scaling::log, -1, 3}, 10), 0.5, 1e-15);
   EXPECT_NEAR(red_of({Scaling::asinh, 0, 2}, 1), std::asinh(1) / 2, 1e-15);
@@ -122,7 +122,7 @@ TEST(ColourScalar, IsScaledThenClampedToItsRange) {
   EXPECT_EQ(red_of({Scaling::linear, 2, 4}, 1), 0);
 }
 
-TEST(ColourScalar, TakesTheFirstColourWhereItHasNoPlace) {
+TEST(ColorScalar, TakesTheFirstColorWhereItHasNoPlace) {
   EXPECT_EQ(red_of({Scaling::log, -1, 3}, 0), 0);
   EXPECT_EQ(red_of({Scaling::log, -1, 3}, -5), 0);
   EXPECT_EQ(red_of({Scaling::linear, 2, 2}, 5), 0);
@@ -136,7 +136,7 @@ TEST(Absorption, DefaultsToTheEmission) {
   EXPECT_EQ(splat.absorption[1], 1.5);
 }
 
-TEST(Absorption, UsesThePalettesOwnColoursWhereItHasThem) {
+TEST(Absorption, UsesThePalettesOwnColorsWhereItHasThem) {
   Frame frame = frame_of(8, 8, {component_of({Cloud{}}, one_color(1, 0.5f, 0.25f))});
   frame.components[0].brightness = 3;
   frame.components[0].palette.absorption = {Rgb{0, 0.25f, 1}};

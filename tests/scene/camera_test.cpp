@@ -26,8 +26,8 @@ struct Pixel {
 Pixel project(const CameraFrame& frame, const Vec3& point) {
   const Vec3 d = point - frame.position;
   const double scale = frame.focal_pixels / dot(d, frame.forward);
-  return {frame.centre_x + scale * dot(d, frame.right),
-          frame.centre_y + scale * dot(d, frame.down)};
+  return {frame.center_x + scale * dot(d, frame.right),
+          frame.center_y + scale * dot(d, frame.down)};
 }
 
 // Looks along +z from the origin, with y upwards.
@@ -120,14 +120,14 @@ TEST(Camera, SeesHalfTheFieldOfViewOnEitherSide) {
 
 TEST(Camera, HasTheSameScaleVerticallyAsHorizontally) {
   const CameraFrame frame = make_camera_frame(simple_camera(), 640, 480);
-  const double right = project(frame, {{-1, 0, 10}}).x - frame.centre_x;
-  const double up = frame.centre_y - project(frame, {{0, 1, 10}}).y;
+  const double right = project(frame, {{-1, 0, 10}}).x - frame.center_x;
+  const double up = frame.center_y - project(frame, {{0, 1, 10}}).y;
   EXPECT_NEAR(right, up, 1e-12);
 }
 
 TEST(Camera, HasTheOrthographicScaleOfTheLookAtDistance) {
   const CameraFrame frame = make_camera_frame(simple_camera(), 640, 480);
-  const double perspective_pixels = project(frame, {{-1, 0, 10}}).x - frame.centre_x;
+  const double perspective_pixels = project(frame, {{-1, 0, 10}}).x - frame.center_x;
   EXPECT_NEAR(frame.pixels_per_length, perspective_pixels, 1e-12);
 }
 

@@ -41,7 +41,7 @@ TEST(PaletteSampling, GivesTheFirstKnotForWhatIsNotANumber) {
   EXPECT_EQ(sample_knots(three_knots, not_a_number), sample_knots(three_knots, 0));
 }
 
-TEST(PaletteSampling, OfASingleKnotIsThatColourEverywhere) {
+TEST(PaletteSampling, OfASingleKnotIsThatColorEverywhere) {
   for (const double position : {-1.0, 0.0, 0.3, 1.0, 5.0}) {
     EXPECT_EQ(sample_knots({{0.25f, 0.5f, 0.75f}}, position), (Color{0.25, 0.5, 0.75})) << position;
   }
@@ -62,7 +62,7 @@ TEST(PaletteSampling, KeepsAStraightLineStraightForAnyNumberOfKnots) {
   }
 }
 
-TEST(PaletteSampling, StaysBetweenNeighbouringKnotsAtTheLastBitBelowOne) {
+TEST(PaletteSampling, StaysBetweenNeighboringKnotsAtTheLastBitBelowOne) {
   const Color color = sample_knots(three_knots, std::nextafter(1.0, 0.0));
   EXPECT_NEAR(color[0], 1, 1e-15);
   EXPECT_LE(color[0], 1);

@@ -63,7 +63,7 @@ TEST(Plan, NeverComparesTheFactorsOfTwoComponents) {
   EXPECT_EQ(light_of({component(Kind::factor, 4), component(Kind::factor, 4)}), LightPlan::ordered);
 }
 
-TEST(Plan, OrdersWhatEmitsAndAbsorbsByItsOwnColours) {
+TEST(Plan, OrdersWhatEmitsAndAbsorbsByItsOwnColors) {
   EXPECT_EQ(light_of({with_own_absorption(component(Kind::as_emission))}), LightPlan::ordered);
   EXPECT_EQ(light_of({with_own_absorption(component(Kind::factor, 1))}), LightPlan::ordered);
 }

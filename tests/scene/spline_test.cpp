@@ -82,7 +82,7 @@ TEST(NaturalSpline, ConvergesWithTheFourthPower) {
   EXPECT_NEAR(std::log2(error(20) / error(40)), 4, 0.3);
 }
 
-TEST(MonotoneSpline, NeverLeavesTheIntervalOfItsNeighbours) {
+TEST(MonotoneSpline, NeverLeavesTheIntervalOfItsNeighbors) {
   const std::vector<double> values = {0, 0, 100, 101, 1};
   const Spline spline(uneven_knots, values, SplineKind::monotone);
   for (double x = -1; x < 7; x += 0.01) {

@@ -15,7 +15,7 @@ std::vector<float> count_to(int last) {
   return values;
 }
 
-TEST(Percentile, LiesBetweenTheNeighbours) {
+TEST(Percentile, LiesBetweenTheNeighbors) {
   std::vector<double> values = {30, 10, 20};
   EXPECT_EQ(percentile(values, 0), 10);
   EXPECT_EQ(percentile(values, 0.25), 15);

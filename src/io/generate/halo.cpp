@@ -68,9 +68,9 @@ Placed place_in_disc(double scale, double height, double sharpness, double betwe
   }
 }
 
-Placed place_in_ball(const Vec3& centre, const Vec3& speed, double radius, double dispersion,
+Placed place_in_ball(const Vec3& center, const Vec3& speed, double radius, double dispersion,
                      Random& random) {
-  return {centre + random.direction() * radius, speed + random.normal_vector(dispersion)};
+  return {center + random.direction() * radius, speed + random.normal_vector(dispersion)};
 }
 
 // Of a Hernquist sphere, cut at ten scales.
@@ -80,7 +80,7 @@ double bulge_radius(double scale, Random& random) {
 }
 
 struct Satellite {
-  Vec3 centre, speed;
+  Vec3 center, speed;
   double radius = 0;  // its virial radius
   double share = 0;   // of all the satellites' mass, with those before it
 };
@@ -93,7 +93,7 @@ std::vector<Satellite> make_satellites(Random& random) {
     const double mass = 1 / (1.5 + i);  // of the i-th largest
     const double distance = virial_radius * profile.radius(random.uniform(0.15, 1));
     Satellite satellite;
-    satellite.centre = random.direction() * distance;
+    satellite.center = random.direction() * distance;
     satellite.speed = random.normal_vector(halo_speed * M_SQRT1_2);
     satellite.radius = 10 * std::cbrt(mass);
     satellite.share = sum += mass;
@@ -110,7 +110,7 @@ Placed place_in_satellite(const std::vector<Satellite>& all, double extent, Rand
   const auto chosen =
       std::find_if(all.begin(), all.end() - 1, [&](const Satellite& s) { return share < s.share; });
   const double radius = extent * chosen->radius * profile.radius(random.uniform());
-  return place_in_ball(chosen->centre, chosen->speed, radius, 30, random);
+  return place_in_ball(chosen->center, chosen->speed, radius, 30, random);
 }
 
 void add(GeneratedParticles& particles, const Placed& placed) {

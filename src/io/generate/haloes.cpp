@@ -84,15 +84,15 @@ HaloMap::HaloMap(const std::vector<Halo>& haloes, int side)
   for (std::size_t index = haloes.size(); index-- > 0;) {
     const Halo& halo = haloes[index];
     const int reach = static_cast<int>(std::ceil(halo.birth_radius * side)) + 1;
-    int centre[3];
+    int center[3];
     for (int axis = 0; axis < 3; ++axis) {
-      centre[axis] = static_cast<int>(std::floor(halo.birthplace.a[axis] * side));
+      center[axis] = static_cast<int>(std::floor(halo.birthplace.a[axis] * side));
     }
     for (int dx = -reach; dx <= reach; ++dx) {
       for (int dy = -reach; dy <= reach; ++dy) {
         for (int dz = -reach; dz <= reach; ++dz) {
-          const Vec3 cell = {{(centre[0] + dx + 0.5) / side, (centre[1] + dy + 0.5) / side,
-                              (centre[2] + dz + 0.5) / side}};
+          const Vec3 cell = {{(center[0] + dx + 0.5) / side, (center[1] + dy + 0.5) / side,
+                              (center[2] + dz + 0.5) / side}};
           const Vec3 offset = periodic_difference(halo.birthplace, cell);
           if (boost::qvm::mag(offset) >= halo.birth_radius) continue;
           halo_[cell_of(cell)] = static_cast<int>(index);

@@ -11,7 +11,7 @@ namespace splotchcl {
 struct Halo {
   Vec3 birthplace;
   double birth_radius = 0;
-  Vec3 centre;  // where it is today
+  Vec3 center;  // where it is today
 };
 
 // The density's contrast, grown to today, averaged over balls of a radius.

@@ -72,9 +72,9 @@ void settle(PlacedGas& gas, const Halo& halo, const Vec3& birthplace, Random& ra
   const double enclosed = std::min(1.0, std::pow(distance / halo.birth_radius, 3));
   const double radius = virial_radius(halo) * profile.radius(std::min(1.0, 1.25 * enclosed));
   const Vec3 settled = random.direction() * radius;
-  const Vec3 streaming = periodic_difference(halo.centre, gas.place);
+  const Vec3 streaming = periodic_difference(halo.center, gas.place);
   const double share = 1 - smoothstep((enclosed - 0.4) / 0.6);
-  gas.place = halo.centre + settled * share + streaming * (1 - share);
+  gas.place = halo.center + settled * share + streaming * (1 - share);
   gas.speed += thermal_speed(halo, random) * share;
   gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * std::exp(0.25 * random.normal());
 }
@@ -87,7 +87,7 @@ std::vector<Halo> make_haloes(const Web& web, double spacing) {
     throw UsageError("this seed makes a universe in which nothing has collapsed; choose another");
   }
   for (Halo& halo : haloes)
-    halo.centre = web.displaced(halo.birthplace);
+    halo.center = web.displaced(halo.birthplace);
   return haloes;
 }
 
@@ -134,7 +134,7 @@ void add_stars(GeneratedParticles& stars, const std::vector<Halo>& haloes, std::
     const Halo& halo = haloes[static_cast<std::size_t>(chosen - shares.begin())];
     const double enclosed = random.uniform();
     const double radius = star_extent * virial_radius(halo) * profile.radius(enclosed);
-    const Vec3 place = halo.centre + random.direction() * radius;
+    const Vec3 place = halo.center + random.direction() * radius;
     stars.add(into_box(place), thermal_speed(halo, random));
     // Large haloes formed their stars early, and their centres earlier still.
     const double latest =

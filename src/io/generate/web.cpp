@@ -72,7 +72,7 @@ void sharpen_web(std::vector<Vec3>& places, std::vector<Halo>& haloes) {
     for (Vec3& place : places)
       place += step_uphill(density, place, width);
     for (Halo& halo : haloes)
-      halo.centre += step_uphill(density, halo.centre, width);
+      halo.center += step_uphill(density, halo.center, width);
   }
 }
 

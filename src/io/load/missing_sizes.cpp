@@ -14,19 +14,19 @@ Column search(int type, const Column& position, std::optional<double> periodic_b
     progress = [&how, what = fmt::format("finding smoothing lengths of type {}", type)](
                    double fraction) { how.progress(what, fraction); };
   }
-  return find_smoothing_lengths(position, position.size() / 3, periodic_box, how.neighbours,
+  return find_smoothing_lengths(position, position.size() / 3, periodic_box, how.neighbors,
                                 progress);
 }
 
 }  // namespace
 
 MissingSizes missing_sizes(const Scene& scene, const LoadProgress& progress) {
-  return {scene.read.neighbours, scene.read.cache_smoothing_lengths, progress};
+  return {scene.read.neighbors, scene.read.cache_smoothing_lengths, progress};
 }
 
-Column find_sizes_by_neighbours(const SnapshotInfo& info, int type, const Column& position,
-                                std::optional<double> periodic_box, const MissingSizes& how,
-                                const std::function<void(const std::string&)>& say) {
+Column find_sizes_by_neighbors(const SnapshotInfo& info, int type, const Column& position,
+                               std::optional<double> periodic_box, const MissingSizes& how,
+                               const std::function<void(const std::string&)>& say) {
   if (!how.is_cached) return search(type, position, periodic_box, how);
   if (info.particles_per_drawn != 1) {
     say(
@@ -35,7 +35,7 @@ Column find_sizes_by_neighbours(const SnapshotInfo& info, int type, const Column
                     type));
     return search(type, position, periodic_box, how);
   }
-  const SmoothingLengthCache cache(info, type, position, periodic_box, how.neighbours);
+  const SmoothingLengthCache cache(info, type, position, periodic_box, how.neighbors);
   if (const auto kept = cache.read()) {
     say(fmt::format("the smoothing lengths of type {} are those kept in {}", type,
                     cache.path().string()));

@@ -11,7 +11,7 @@ namespace splotchcl {
 
 // How smoothing lengths are found that a file does not have.
 struct MissingSizes {
-  int neighbours = particles_in_sphere;
+  int neighbors = particles_in_sphere;
   bool is_cached = false;
   LoadProgress progress;
 };
@@ -20,8 +20,8 @@ MissingSizes missing_sizes(const Scene& scene, const LoadProgress& progress);
 
 // From the neighbours of each particle of a type, or from the file beside the snapshot where
 // an earlier search has left them. `say` takes what the user should know.
-Column find_sizes_by_neighbours(const SnapshotInfo& info, int type, const Column& position,
-                                std::optional<double> periodic_box, const MissingSizes& how,
-                                const std::function<void(const std::string&)>& say);
+Column find_sizes_by_neighbors(const SnapshotInfo& info, int type, const Column& position,
+                               std::optional<double> periodic_box, const MissingSizes& how,
+                               const std::function<void(const std::string&)>& say);
 
 }  // namespace splotchcl

@@ -35,11 +35,11 @@ class Hash {
 
 SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type,
                                            const Column& position,
-                                           std::optional<double> periodic_box, int neighbours)
+                                           std::optional<double> periodic_box, int neighbors)
     : path_(info.files.front()), count_(position.size() / 3) {
   path_ += fmt::format(".type{}.smoothing_lengths", type);
   Hash hash;
-  hash.add(static_cast<std::uint64_t>(neighbours));
+  hash.add(static_cast<std::uint64_t>(neighbors));
   hash.add(periodic_box.value_or(0));
   hash.add(count_);
   for (std::size_t i = 0; i < position.size(); ++i) {

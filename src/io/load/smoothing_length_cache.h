@@ -15,7 +15,7 @@ namespace splotchcl {
 class SmoothingLengthCache {
  public:
   SmoothingLengthCache(const SnapshotInfo& info, int type, const Column& position,
-                       std::optional<double> periodic_box, int neighbours);
+                       std::optional<double> periodic_box, int neighbors);
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -121,9 +121,9 @@ std::vector<Shift> image_shifts(double box) {
   return shifts;
 }
 
-class NeighbourSearch {
+class NeighborSearch {
  public:
-  NeighbourSearch(const Cloud& cloud, std::optional<double> box)
+  NeighborSearch(const Cloud& cloud, std::optional<double> box)
       : cloud_(cloud), tree_(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
     if (box) shifts_ = image_shifts(*box);
   }
@@ -192,8 +192,8 @@ void replace_zeros(std::vector<float>& lengths, double fallback) {
   std::replace(lengths.begin(), lengths.end(), 0.0F, smallest);
 }
 
-void check(const Column& position, std::size_t count, int neighbours) {
-  if (neighbours < 1) throw UsageError("smoothing lengths need at least one neighbour");
+void check(const Column& position, std::size_t count, int neighbors) {
+  if (neighbors < 1) throw UsageError("smoothing lengths need at least one neighbour");
   if (!position.is_array() || position.size() != 3 * count) {
     throw DataError("smoothing lengths need three coordinates for each particle");
   }
@@ -206,16 +206,16 @@ void check(const Column& position, std::size_t count, int neighbours) {
 }  // namespace
 
 Column find_smoothing_lengths(const Column& position, std::size_t count,
-                              std::optional<double> periodic_box, int neighbours,
+                              std::optional<double> periodic_box, int neighbors,
                               const Progress& progress) {
-  check(position, count, neighbours);
+  check(position, count, neighbors);
   const Cloud cloud(position.data(), count);
   const std::size_t points = cloud.kdtree_get_point_count();
   std::vector<float> lengths(count, std::numeric_limits<float>::quiet_NaN());
   if (points == 0) return Column::owning(std::move(lengths));
 
-  const NeighbourSearch search(cloud, periodic_box);
-  const std::size_t k = std::min(static_cast<std::size_t>(neighbours), points - 1);
+  const NeighborSearch search(cloud, periodic_box);
+  const std::size_t k = std::min(static_cast<std::size_t>(neighbors), points - 1);
   for_blocks(
       points, block_size,
       [&](std::size_t first, std::size_t last) {
@@ -232,28 +232,28 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
   return Column::owning(std::move(lengths));
 }
 
-Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbours) {
-  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbours);
+Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbors) {
+  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors);
 }
 
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbours) {
+                                      int neighbors) {
   std::vector<float> lengths(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double volume =
-        neighbours * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+        neighbors * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
     lengths[i] = static_cast<float>(std::cbrt(volume / unit_sphere));
   }
   return Column::owning(std::move(lengths));
 }
 
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbours) {
+                                        std::size_t count, int neighbors) {
   std::vector<float> densities(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double h = static_cast<double>(smoothing_length[i]);
     densities[i] =
-        static_cast<float>(neighbours * static_cast<double>(mass[i]) / (unit_sphere * h * h * h));
+        static_cast<float>(neighbors * static_cast<double>(mass[i]) / (unit_sphere * h * h * h));
   }
   return Column::owning(std::move(densities));
 }

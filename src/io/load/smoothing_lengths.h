@@ -29,20 +29,20 @@ constexpr int particles_in_sphere = 64;
 // zero too, 1.
 Column find_smoothing_lengths(const Column& position, std::size_t count,
                               std::optional<double> periodic_box = std::nullopt,
-                              int neighbours = particles_in_sphere, const Progress& progress = {});
+                              int neighbors = particles_in_sphere, const Progress& progress = {});
 
 // The length whose sphere holds the mass of `neighbours` particles at the particle's density:
 // h = (3 * neighbours m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
 // are.
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbours = particles_in_sphere);
+                                      int neighbors = particles_in_sphere);
 
 // The same for cells of a mesh: m / rho is a cell's volume.
 Column smoothing_lengths_from_volume(const Column& volume, std::size_t count,
-                                     int neighbours = particles_in_sphere);
+                                     int neighbors = particles_in_sphere);
 
 // The inverse: rho = neighbours m / (4 pi h^3 / 3).
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbours = particles_in_sphere);
+                                        std::size_t count, int neighbors = particles_in_sphere);
 
 }  // namespace splotchcl

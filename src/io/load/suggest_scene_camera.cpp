@@ -44,7 +44,7 @@ constexpr double object_margin = 1.6;
 using Sample = std::array<std::vector<double>, 3>;
 
 struct Target {
-  Vec3 centre;
+  Vec3 center;
   double size;  // side of a box; half the width of a picture that shows the object
   bool is_box;
 };
@@ -112,7 +112,7 @@ std::optional<Target> find_cube(Sample& sample) {
     const ValueRange most = extent(sample[axis], 0.05);
     const double side = all.maximum - all.minimum;
     if (!(most.maximum - most.minimum > 0.83 * side)) return std::nullopt;
-    cube.centre.a[axis] = 0.5 * (all.minimum + all.maximum);
+    cube.center.a[axis] = 0.5 * (all.minimum + all.maximum);
     cube.size = std::max(cube.size, side);
     smallest = axis == 0 ? side : std::min(smallest, side);
   }
@@ -156,7 +156,7 @@ Target find_object(const Sample& sample, double aspect) {
   const ValueRange depth = span_along(towards_camera);
   const double size = std::max(half(across), half(upwards) / aspect);
   Target object;
-  object.centre = middle(across) * right + middle(upwards) * up + middle(depth) * towards_camera;
+  object.center = middle(across) * right + middle(upwards) * up + middle(depth) * towards_camera;
   // A single particle, or all in one place: any size will do.
   object.size = size > 0 ? size : 1.0;
   object.is_box = false;
@@ -194,9 +194,9 @@ Camera suggest_camera(const Snapshot& snapshot, const std::vector<int>& types, i
   camera.field_of_view_degrees = suggested_degrees;
   camera.sky = sky;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    camera.look_at.a[axis] = rounded(target.centre.a[axis], target.size);
+    camera.look_at.a[axis] = rounded(target.center.a[axis], target.size);
     camera.position.a[axis] =
-        rounded(target.centre.a[axis] + distance * towards_camera.a[axis], target.size);
+        rounded(target.center.a[axis] + distance * towards_camera.a[axis], target.size);
   }
   return camera;
 }

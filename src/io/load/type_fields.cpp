@@ -146,7 +146,7 @@ Column TypeFields::densities() const {
     const Column h = smoothing_lengths();
     say(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                     type_->type));
-    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbours);
+    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbors);
   });
 }
 
@@ -154,7 +154,7 @@ Column TypeFields::smoothing_lengths() const {
   if (find_field(*type_, "smoothing_length") != nullptr) {
     return snapshot_->read(type_->type, "smoothing_length");
   }
-  return remembered(fmt::format("smoothing_length {}", sizes_.neighbours),
+  return remembered(fmt::format("smoothing_length {}", sizes_.neighbors),
                     [this] { return find_lengths(); });
 }
 
@@ -165,9 +165,9 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
   const Column lengths =
       has_density
           ? smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"),
-                                           count(), sizes_.neighbours)
+                                           count(), sizes_.neighbors)
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
-                                          sizes_.neighbours);
+                                          sizes_.neighbors);
   if (all_are_sizes(lengths)) {
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
                     type_->type, has_density ? "density and mass" : "the volumes of its cells"));
@@ -184,10 +184,10 @@ Column TypeFields::find_lengths() const {
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
                   "reaches to neighbour {}",
-                  type_->type, reason, sizes_.neighbours));
+                  type_->type, reason, sizes_.neighbors));
   const Column position = positions();
-  return find_sizes_by_neighbours(snapshot_->info(), type_->type, position, periodic_box(position),
-                                  sizes_, [this](const std::string& text) { say(text); });
+  return find_sizes_by_neighbors(snapshot_->info(), type_->type, position, periodic_box(position),
+                                 sizes_, [this](const std::string& text) { say(text); });
 }
 
 // The box of the header, unless particles lie outside of one period of it.

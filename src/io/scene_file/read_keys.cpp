@@ -4,7 +4,7 @@ namespace splotchcl::scene_file {
 
 Keys read_keys() {
   constexpr int most = 2147483647;
-  constexpr int most_neighbours = 4096;
+  constexpr int most_neighbors = 4096;
   return {
       key<ReadSettings, std::vector<std::string>>(
           "read.columns", texts(),
@@ -40,7 +40,7 @@ Keys read_keys() {
            "", "all"}),
       key("read.seed", integer(0, most), &ReadSettings::seed,
           {"Another seed chooses other particles for `max_particles`."}),
-      key("read.neighbours", integer(1, most_neighbours), &ReadSettings::neighbours,
+      key("read.neighbours", integer(1, most_neighbors), &ReadSettings::neighbors,
           {"Where the file has no smoothing lengths: how many particles their spheres hold."}),
       key("read.cache_smoothing_lengths", boolean(), &ReadSettings::cache_smoothing_lengths,
           {"Whether smoothing lengths that had to be found are kept in a file beside the "

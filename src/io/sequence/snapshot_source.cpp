@@ -194,14 +194,14 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
 
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
-  ahead_ = std::async(std::launch::async, [listed = list_[next], neighbour = member(edge),
+  ahead_ = std::async(std::launch::async, [listed = list_[next], neighbor = member(edge),
                                            is_forward, settings = settings_] {
     Ahead ahead;
     ahead.member = open_member(listed);
-    read_fields(*ahead.member, neighbour->fields_read());
+    read_fields(*ahead.member, neighbor->fields_read());
     if (settings.interpolation != Interpolation::none) {
-      ahead.pair = is_forward ? make_pair(neighbour, ahead.member, settings)
-                              : make_pair(ahead.member, neighbour, settings);
+      ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
+                              : make_pair(ahead.member, neighbor, settings);
     }
     return ahead;
   });

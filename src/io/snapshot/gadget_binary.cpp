@@ -154,7 +154,7 @@ std::vector<std::uint64_t> GadgetBinarySnapshot::read_ids(int type) const {
 
 class GadgetBinaryFormat : public SnapshotFormat {
  public:
-  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
     return is_gadget_binary(*file);
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,

@@ -17,19 +17,19 @@ constexpr std::uint32_t header_bytes = 256;
 constexpr std::uint32_t label_bytes = 8;  // four letters and the length of what follows
 constexpr std::uint64_t mark_bytes = 4;
 
-struct Recognised {
+struct Recognized {
   int format;
   bool is_swapped;
 };
 
-std::optional<Recognised> recognise(const MappedFile& file) {
+std::optional<Recognized> recognize(const MappedFile& file) {
   if (file.size() < mark_bytes) return std::nullopt;
   std::uint32_t mark = 0;
   std::memcpy(&mark, file.data(), sizeof mark);
   for (const bool is_swapped : {false, true}) {
     const std::uint32_t value = is_swapped ? __builtin_bswap32(mark) : mark;
-    if (value == header_bytes) return Recognised{1, is_swapped};
-    if (value == label_bytes) return Recognised{2, is_swapped};
+    if (value == header_bytes) return Recognized{1, is_swapped};
+    if (value == label_bytes) return Recognized{2, is_swapped};
   }
   return std::nullopt;
 }
@@ -173,30 +173,30 @@ constexpr std::size_t most_blocks = 10000;
 }  // namespace
 
 bool is_gadget_binary(const MappedFile& file) {
-  return recognise(file).has_value();
+  return recognize(file).has_value();
 }
 
 GadgetBinaryFile read_gadget_records(std::shared_ptr<const MappedFile> file) {
-  const std::optional<Recognised> recognised = recognise(*file);
-  if (!recognised) {
+  const std::optional<Recognized> recognized = recognize(*file);
+  if (!recognized) {
     throw DataError(fmt::format(
         "{}: not in Gadget format 1 or 2, as the other files of its snapshot are; check the name",
         file->path().string()));
   }
-  const Numbers numbers(file, recognised->is_swapped);
+  const Numbers numbers(file, recognized->is_swapped);
   RecordWalker walker(*file, numbers);
   const auto next_block = [&] {
-    if (recognised->format == 1) return walker.next();
+    if (recognized->format == 1) return walker.next();
     std::string label = read_label(*file, walker.next());
     GadgetRecord record = walker.next();
     record.label = std::move(label);
     return record;
   };
   GadgetBinaryFile result;
-  result.format = recognised->format;
-  result.is_swapped = recognised->is_swapped;
+  result.format = recognized->format;
+  result.is_swapped = recognized->is_swapped;
   const GadgetRecord header = next_block();
-  check_header_record(*file, recognised->format, header);
+  check_header_record(*file, recognized->format, header);
   result.header = read_header(header, numbers);
   while (!walker.is_at_end()) {
     result.records.push_back(next_block());

@@ -7,7 +7,7 @@ namespace {
 
 class Hdf5Formats : public SnapshotFormat {
  public:
-  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
     return Hdf5File::has_signature(file->data(), file->size());
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,

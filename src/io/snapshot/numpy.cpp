@@ -295,7 +295,7 @@ bool is_zip(const MappedFile& file) {
 
 class NumpyFormat : public SnapshotFormat {
  public:
-  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
     return is_numpy_array(file->data(), file->size()) || is_zip(*file);
   }
   std::unique_ptr<Snapshot> open(const fs::path& path,

@@ -172,7 +172,7 @@ std::vector<const SnapshotFormat*> snapshot_formats() {
 const SnapshotFormat* find_format(const fs::path& path) {
   const auto file = MappedFile::open(path);
   for (const SnapshotFormat* const format : snapshot_formats()) {
-    if (format->recognises(file)) return format;
+    if (format->recognizes(file)) return format;
   }
   return nullptr;
 }

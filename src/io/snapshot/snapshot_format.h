@@ -17,7 +17,7 @@ class SnapshotFormat {
 
   // Judges by the first bytes, never by the name. A damaged file of the format is
   // recognised too, so that open() can say what is wrong with it.
-  virtual bool recognises(const std::shared_ptr<const MappedFile>& file) const = 0;
+  virtual bool recognizes(const std::shared_ptr<const MappedFile>& file) const = 0;
 
   // `path` is any file of a multi-file set. Throws DataError.
   virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path,

@@ -328,7 +328,7 @@ const char* separator_name(char separator) {
 
 class TextTableFormat : public SnapshotFormat {
  public:
-  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
     return find_layout(*file).has_value();
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,

@@ -228,7 +228,7 @@ std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {
 
 class TipsyFormat : public SnapshotFormat {
  public:
-  bool recognises(const std::shared_ptr<const MappedFile>& file) const override {
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
     return find_header(file).has_value();
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,

@@ -1,4 +1,4 @@
-#include "galaxy/centre.h"
+#include "galaxy/center.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ bool has_light(const Image& picture) {
 
 }  // namespace
 
-std::array<double, 2> find_centre(const Image& picture) {
+std::array<double, 2> find_center(const Image& picture) {
   if (!has_light(picture)) {
     throw DataError("the picture has no light above its sky, expected a galaxy");
   }
