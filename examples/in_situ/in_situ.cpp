@@ -11,6 +11,7 @@
 
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"

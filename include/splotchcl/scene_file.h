@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "splotchcl/palette_file.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl {
@@ -21,10 +22,5 @@ Scene apply_settings(const Scene& scene, const std::vector<std::string>& setting
 
 // The scene as a scene file; parse_scene(format_scene(s)) is s.
 std::string format_scene(const Scene& scene);
-
-// `name` is a file (.pal of the original program, or a palette file of ours), or the
-// name of one in the palettes folder. Throws UsageError with the nearest names.
-Palette load_palette(const std::string& name, const std::filesystem::path& relative_to = {});
-std::vector<std::string> palette_names();
 
 }  // namespace splotchcl

@@ -8,7 +8,7 @@
 #include "cli/command_builder.h"
 #include "cli/commands.h"
 #include "cli/galaxy_commands.h"
-#include "io/common/nearest_name.h"
+#include "common/nearest_name.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_argument.h"
-#include "io/common/unfinished_file.h"
+#include "common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"

@@ -8,11 +8,12 @@
 #include <system_error>
 #include <vector>
 
-#include "io/scene_file/file_names.h"
-#include "io/sequence/snapshot_list.h"
+#include "scene_file/file_names.h"
+#include "snapshot/snapshot_list.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/sequence.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl::cli {
 namespace {

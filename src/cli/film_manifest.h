@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/path/film_path.h"
+#include "film/path/film_path.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl::cli {

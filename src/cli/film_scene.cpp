@@ -8,8 +8,10 @@
 #include <set>
 
 #include "cli/scene_argument.h"
-#include "io/sequence/snapshot_list.h"
+#include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
+#include "splotchcl/snapshot_source.h"
 
 namespace splotchcl::cli {
 namespace {

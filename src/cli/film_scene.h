@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "io/load/film_snapshots.h"
-#include "io/path/film_path.h"
-#include "io/picture/other_scenes.h"
+#include "film/path/film_path.h"
+#include "pictures/other_scenes.h"
+#include "sequence/film_snapshots.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 

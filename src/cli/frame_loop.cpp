@@ -8,6 +8,7 @@
 
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::cli {

@@ -8,7 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/film_scene.h"
-#include "io/movie/frame_files.h"
+#include "film/movie/frame_files.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "io/common/unfinished_file.h"
+#include "common/unfinished_file.h"
 
 namespace splotchcl::cli {
 

@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "io/load/derived_fields.h"
-#include "io/snapshot/field_statistics.h"
-#include "io/snapshot/particle_types.h"
+#include "load/derived_fields.h"
+#include "snapshot/field_statistics.h"
+#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/command_line.h"
 #include "cli/console.h"
-#include "io/common/shrink_guard.h"
+#include "common/shrink_guard.h"
 #include "splotchcl/error.h"
 
 namespace {

@@ -6,9 +6,10 @@
 
 #include "cli/commands.h"
 #include "cli/film_scene.h"
-#include "io/path_plot/path_plot.h"
+#include "film/path_plot/path_plot.h"
 #include "scene/statistics.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 
 namespace splotchcl::cli {

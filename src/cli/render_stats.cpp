@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/common/unfinished_file.h"
+#include "common/unfinished_file.h"
 
 namespace splotchcl::cli {
 namespace {

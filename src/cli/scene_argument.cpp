@@ -5,10 +5,13 @@
 #include <fstream>
 #include <iterator>
 
-#include "io/common/words.h"
-#include "io/snapshot/snapshot_format.h"
+#include "common/words.h"
+#include "formats/snapshot_format.h"
+#include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
+#include "splotchcl/snapshot_source.h"
 
 namespace splotchcl::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "galaxy/check_settings.h"
 #include "galaxy/kinds.h"
-#include "io/load/smoothing_lengths.h"
+#include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "io/snapshot/gadget_hdf5_writer.h"
+#include "formats/hdf5/gadget_hdf5_writer.h"
 #include "splotchcl/galaxy.h"
 
 namespace splotchcl {

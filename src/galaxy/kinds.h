@@ -2,7 +2,7 @@
 
 #include "galaxy/bulge_profile.h"
 #include "galaxy/light_map.h"
-#include "io/generate/random.h"
+#include "generate/random.h"
 #include "splotchcl/galaxy.h"
 
 // The kinds of matter that a galaxy is made of: places, colours and orbits. Each draws from a

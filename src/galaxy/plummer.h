@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "io/generate/random.h"
+#include "generate/random.h"
 
 namespace splotchcl {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/common/text_file.h"
+#include "common/text_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "io/snapshot/field_names.h"
-#include "io/snapshot/gadget_hdf5_writer.h"
+#include "formats/hdf5/gadget_hdf5_writer.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

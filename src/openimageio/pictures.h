@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "io/image/image_library.h"
+#include "image/image_library.h"
 
 namespace splotchcl {
 
-// What ImageLibrary is made of (io/image/image_library.h says what each does).
+// What ImageLibrary is made of (image/image_library.h says what each does).
 std::vector<unsigned char> encode(const std::filesystem::path& path, const std::string& ending,
                                   const StoredPicture& picture);
 Image read_stored(const std::filesystem::path& path);

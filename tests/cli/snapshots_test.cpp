@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 #include "io/real_snapshots.h"
-#include "io/snapshot/snapshot_files.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/image_file.h"
 
 namespace splotchcl::testing {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "components/particles.h"
-#include "io/load/derived_fields.h"
+#include "load/derived_fields.h"
 
 namespace splotchcl::test {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "io/memory_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 
 namespace splotchcl::test {
 

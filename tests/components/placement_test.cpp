@@ -1,5 +1,5 @@
 // Particles of a snapshot of their own, put into a scene.
-#include "io/load/placement.h"
+#include "load/placement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "device/pictures.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/plan.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {

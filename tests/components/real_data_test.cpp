@@ -6,7 +6,9 @@
 #include <fstream>
 
 #include "components/particles.h"
+#include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "components/particles.h"
-#include "io/select/condition.h"
+#include "select/condition.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {

@@ -12,10 +12,12 @@
 
 #include "device/scene_maker.h"
 #include "projections/wide_scene_maker.h"
+#include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/load/cached_snapshot.h"
+#include "snapshot/cached_snapshot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include "io/memory_snapshot.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

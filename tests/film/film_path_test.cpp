@@ -1,4 +1,4 @@
-#include "io/path/film_path.h"
+#include "film/path/film_path.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "io/movie/frame_range.h"
+#include "film/movie/frame_range.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

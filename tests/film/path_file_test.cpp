@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "film/path/film_path.h"
 #include "film/path_messages.h"
-#include "io/path/film_path.h"
 #include "splotchcl/scene_file.h"
 #include "temporary_folder.h"
 

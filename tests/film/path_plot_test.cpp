@@ -1,4 +1,4 @@
-#include "io/path_plot/path_plot.h"
+#include "film/path_plot/path_plot.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "io/path_plot/plot_panel.h"
+#include "film/path_plot/plot_panel.h"
 
 namespace splotchcl {
 namespace {

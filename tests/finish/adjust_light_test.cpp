@@ -1,4 +1,4 @@
-#include "io/finish/adjust_light.h"
+#include "finish/adjust_light.h"
 
 #include <gtest/gtest.h>
 

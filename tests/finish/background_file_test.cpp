@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "finish/finish_pictures.h"
-#include "io/image/background_image.h"
+#include "image/background_image.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "temporary_folder.h"

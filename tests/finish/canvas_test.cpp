@@ -1,4 +1,4 @@
-#include "io/finish/canvas.h"
+#include "finish/canvas.h"
 
 #include <gtest/gtest.h>
 

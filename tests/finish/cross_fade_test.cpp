@@ -1,17 +1,18 @@
-#include "io/finish/cross_fade.h"
+#include "finish/cross_fade.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "finish/finish_picture.h"
 #include "finish/finish_pictures.h"
-#include "io/finish/finish_picture.h"
-#include "io/picture/other_scenes.h"
+#include "pictures/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {

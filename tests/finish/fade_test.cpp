@@ -1,4 +1,4 @@
-#include "io/finish/fade.h"
+#include "finish/fade.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/finish/finish_picture.h"
+#include "finish/finish_picture.h"
 #include "reference/frames.h"
 #include "splotchcl/image.h"
 #include "splotchcl/scene.h"

@@ -1,4 +1,4 @@
-#include "io/finish/layout.h"
+#include "finish/layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

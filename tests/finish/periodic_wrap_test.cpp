@@ -1,4 +1,4 @@
-#include "io/load/periodic_wrap.h"
+#include "load/periodic_wrap.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 
 #include "io/memory_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/snapshot.h"
 

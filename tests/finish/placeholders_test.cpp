@@ -1,4 +1,4 @@
-#include "io/finish/placeholders.h"
+#include "finish/placeholders.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

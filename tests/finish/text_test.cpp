@@ -1,4 +1,4 @@
-#include "io/image/text.h"
+#include "image/text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "io/finish/text_style.h"
+#include "finish/text_style.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::test {

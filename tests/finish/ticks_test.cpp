@@ -1,4 +1,4 @@
-#include "io/finish/ticks.h"
+#include "finish/ticks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,9 @@
 #include "formats/hdf5_values.h"
 #include "io/snapshot_checks.h"
 #include "io/snapshot_hdf5_writer.h"
+#include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -1,5 +1,5 @@
 // The reader of docs/add-a-reader.md.
-#include "io/snapshot/snapshot_format.h"
+#include "formats/snapshot_format.h"
 #include "io/snapshot_checks.h"
 #include "temporary_folder.h"
 

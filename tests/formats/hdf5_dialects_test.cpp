@@ -1,6 +1,7 @@
 #include "formats/hdf5_values.h"
 #include "io/snapshot_checks.h"
 #include "io/snapshot_hdf5_writer.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

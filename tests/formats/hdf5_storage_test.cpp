@@ -1,6 +1,7 @@
 // How HDF5 stores a dataset, and what of it is not there.
 #include "formats/hdf5_values.h"
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

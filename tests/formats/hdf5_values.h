@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/snapshot/hdf5_file.h"
+#include "formats/hdf5/hdf5_file.h"
 
 namespace splotchcl::testing {
 

@@ -1,10 +1,12 @@
 #include <cmath>
 #include <random>
 
-#include "io/load/smoothing_lengths.h"
 #include "io/memory_snapshot.h"
 #include "io/snapshot_checks.h"
+#include "smoothing/smoothing_lengths.h"
+#include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

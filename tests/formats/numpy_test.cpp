@@ -4,6 +4,7 @@
 
 #include "formats/numpy_writer.h"
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

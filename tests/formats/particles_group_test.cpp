@@ -1,5 +1,6 @@
 #include "formats/hdf5_values.h"
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

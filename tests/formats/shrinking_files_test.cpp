@@ -1,5 +1,6 @@
-#include "io/common/shrink_guard.h"
+#include "common/shrink_guard.h"
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

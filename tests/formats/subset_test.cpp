@@ -2,9 +2,10 @@
 #include <random>
 #include <set>
 
-#include "io/load/subset_snapshot.h"
 #include "io/memory_snapshot.h"
 #include "io/snapshot_checks.h"
+#include "snapshot/subset_snapshot.h"
+#include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/scene_file.h"
 

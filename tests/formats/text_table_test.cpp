@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

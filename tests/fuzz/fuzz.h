@@ -12,8 +12,9 @@
 #include <string>
 #include <system_error>
 
-#include "io/snapshot/snapshot_format.h"
+#include "formats/snapshot_format.h"
 #include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
 
 // libFuzzer calls LLVMFuzzerTestOneInput with bytes of its own making. A finding is a crash, a
 // report of a sanitizer, an exception that is no Error of ours, or more memory than the limit

@@ -1,5 +1,5 @@
 #include "fuzz/fuzz.h"
-#include "io/palette/palette_file.h"
+#include "palette/palette_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -1,5 +1,5 @@
+#include "film/path/path_table.h"
 #include "fuzz/fuzz.h"
-#include "io/path/path_table.h"
 #include "splotchcl/scene_file.h"
 
 // A path file, and the scene of each of its frames.

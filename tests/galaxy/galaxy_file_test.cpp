@@ -3,6 +3,7 @@
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::testing {

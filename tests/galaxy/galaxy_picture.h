@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/generate/random.h"
+#include "generate/random.h"
 #include "splotchcl/galaxy.h"
 
 namespace splotchcl::testing {

@@ -8,6 +8,7 @@
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::testing {

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/generate/random.h"
-#include "io/generate/waves.h"
+#include "generate/random.h"
+#include "generate/waves.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

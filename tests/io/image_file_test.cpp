@@ -11,7 +11,7 @@
 #include <csignal>
 #include <limits>
 
-#include "io/common/unfinished_file.h"
+#include "common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/snapshot/field_names.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl::test {

@@ -1,4 +1,4 @@
-#include "io/palette/palette_file.h"
+#include "palette/palette_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

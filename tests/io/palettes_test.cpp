@@ -7,8 +7,9 @@
 #include <fstream>
 #include <string>
 
-#include "io/palette/palette_file.h"
+#include "palette/palette_file.h"
 #include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {

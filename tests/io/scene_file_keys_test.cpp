@@ -6,7 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "io/scene_file/keys.h"
+#include "scene_file/keys.h"
+#include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {

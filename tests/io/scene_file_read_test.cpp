@@ -7,6 +7,7 @@
 
 #include "io/scene_file_equality.h"
 #include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {

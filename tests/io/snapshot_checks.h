@@ -9,6 +9,7 @@
 #include "io/snapshot_writer.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl::testing {
 

@@ -4,9 +4,9 @@
 #include <set>
 #include <sstream>
 
-#include "io/snapshot/field_names.h"
-#include "io/snapshot/snapshot_files.h"
-#include "io/snapshot/unit_names.h"
+#include "formats/unit_names.h"
+#include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 
 namespace splotchcl {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "io/snapshot/field_statistics.h"
+#include "snapshot/field_statistics.h"
 
 namespace splotchcl {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "io/snapshot_checks.h"
 #include "io/snapshot_writer.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

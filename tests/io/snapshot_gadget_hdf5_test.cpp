@@ -1,9 +1,10 @@
 #include <hdf5.h>
 
-#include "io/snapshot/hdf5_file.h"
+#include "formats/hdf5/hdf5_file.h"
 #include "io/snapshot_checks.h"
 #include "io/snapshot_hdf5_writer.h"
 #include "io/snapshot_writer.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "io/snapshot/hdf5_file.h"
+#include "formats/hdf5/hdf5_file.h"
 
 namespace splotchcl::testing {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "io/common/mapped_file.h"
+#include "common/mapped_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -1,7 +1,8 @@
 #include <cmath>
 
-#include "io/snapshot/hdf5_file.h"
+#include "formats/hdf5/hdf5_file.h"
 #include "io/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <set>
 
-#include "io/snapshot/position_origin.h"
+#include "formats/position_origin.h"
 
 namespace splotchcl {
 namespace {

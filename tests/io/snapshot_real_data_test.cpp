@@ -1,10 +1,11 @@
 // Real snapshots of public codes. What is expected of them was found with other programs.
 #include <cmath>
 
-#include "io/load/smoothing_lengths.h"
 #include "io/real_snapshots.h"
-#include "io/snapshot/field_statistics.h"
 #include "io/snapshot_checks.h"
+#include "smoothing/smoothing_lengths.h"
+#include "snapshot/field_statistics.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "io/load/smoothing_lengths.h"
+#include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

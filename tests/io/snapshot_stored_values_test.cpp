@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "io/snapshot/stored_values.h"
+#include "formats/stored_values.h"
 #include "io/snapshot_writer.h"
 #include "temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/snapshot/stored_values.h"
+#include "formats/stored_values.h"
 
 namespace splotchcl::testing {
 

@@ -8,7 +8,9 @@
 
 #include "io/memory_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/reference.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl {
 namespace {

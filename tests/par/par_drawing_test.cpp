@@ -6,10 +6,11 @@
 #include <fstream>
 #include <random>
 
+#include "film/path/film_path.h"
 #include "io/memory_snapshot.h"
-#include "io/path/film_path.h"
 #include "original_drawing.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/reference.h"
 #include "temporary_folder.h"

@@ -1,5 +1,5 @@
 // The lines of a parameter file.
-#include "io/par/par_file.h"
+#include "par/par_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

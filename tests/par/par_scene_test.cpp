@@ -7,6 +7,7 @@
 
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 #include "temporary_folder.h"

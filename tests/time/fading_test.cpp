@@ -4,6 +4,7 @@
 
 #include "moving_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 
 namespace splotchcl {
 namespace {

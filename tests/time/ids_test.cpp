@@ -6,6 +6,7 @@
 #include "io/snapshot_writer.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

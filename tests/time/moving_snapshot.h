@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/memory_snapshot.h"
-#include "io/sequence/interpolated_snapshot.h"
-#include "io/sequence/sequence_member.h"
+#include "sequence/interpolated_snapshot.h"
+#include "sequence/sequence_member.h"
 
 namespace splotchcl::test {
 

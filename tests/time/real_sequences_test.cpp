@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "io/sequence/interpolated_snapshot.h"
+#include "sequence/interpolated_snapshot.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 
 namespace splotchcl {
 namespace {

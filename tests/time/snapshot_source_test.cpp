@@ -1,15 +1,19 @@
 // Sequences of files: which snapshots a moment needs, and that reading ahead changes nothing.
+#include "splotchcl/snapshot_source.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "io/sequence/snapshot_list.h"
 #include "io/snapshot_writer.h"
+#include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splotchcl/read_settings.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// What a file does not say of itself.
+struct SnapshotOptions {
+  // Names for the columns of a text table or a plain NumPy array, in their order, instead of
+  // those in its header; "-" for a column that is not needed. Empty: the file's own.
+  std::vector<std::string> columns;
+};
+
+// Recognises the format by content. `path` may be any member or the base name of a
+// multi-file set. Throws DataError.
+std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path,
+                                        const SnapshotOptions& options = {});
+// The snapshot, or the part of it, that a scene's [read] asks for.
+std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
+                                            const ReadSettings& read);
+
+}  // namespace splotchcl

@@ -1,0 +1,97 @@
+#include "common/shrink_guard.h"
+
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+
+namespace splotchcl {
+namespace {
+
+struct Mapping {
+  std::atomic<const std::byte*> begin{nullptr};  // set last, cleared first
+  std::atomic<std::uint64_t> size{0};
+  std::atomic<const char*> path{nullptr};
+  std::atomic<bool> is_taken{false};
+};
+
+std::array<Mapping, 1024>& mappings() {
+  static std::array<Mapping, 1024> all;
+  return all;
+}
+
+// Only what POSIX lets a signal handler do: no memory, no streams.
+void say(const char* text) {
+  static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text)));
+}
+
+void say(std::uint64_t number) {
+  char digits[24];
+  char* first = digits + sizeof digits - 1;
+  *first = '\0';
+  do {
+    *--first = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number > 0);
+  say(first);
+}
+
+void end_for_shrunken_file(const Mapping& mapping) {
+  const char* const path = mapping.path.load();
+  struct stat status = {};
+  const bool is_known = ::stat(path, &status) == 0;
+  say("splotchcl: ");
+  say(path);
+  say(": became shorter while it was read: found ");
+  say(is_known ? static_cast<std::uint64_t>(status.st_size) : 0);
+  say(" bytes, expected ");
+  say(mapping.size.load());
+  say("; wait until it is completely written and try again\n");
+  ::_exit(1);
+}
+
+extern "C" void handle_bus_error(int signal, siginfo_t* info, void*) {
+  const auto* const place = static_cast<const std::byte*>(info->si_addr);
+  for (const Mapping& mapping : mappings()) {
+    const std::byte* const begin = mapping.begin.load();
+    const bool is_inside =
+        begin != nullptr && place >= begin && place < begin + mapping.size.load();
+    if (is_inside) end_for_shrunken_file(mapping);
+  }
+  ::signal(signal, SIG_DFL);  // not ours: on return it strikes again
+}
+
+}  // namespace
+
+void guard_mapped_files() {
+  mappings();  // made before a handler needs it
+  struct sigaction action = {};
+  action.sa_sigaction = handle_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
+void register_mapping(const std::byte* begin, std::uint64_t size, const char* path) {
+  for (Mapping& mapping : mappings()) {
+    if (mapping.is_taken.exchange(true)) continue;
+    mapping.size = size;
+    mapping.path = path;
+    mapping.begin = begin;
+    return;
+  }
+}
+
+void forget_mapping(const std::byte* begin) {
+  for (Mapping& mapping : mappings()) {
+    if (mapping.begin.load() != begin) continue;
+    mapping.begin = nullptr;
+    mapping.is_taken = false;
+    return;
+  }
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,175 @@
+#include "film/movie/frame_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/printf.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "common/text_file.h"
+#include "common/unfinished_file.h"
+#include "film/movie/encoder.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
+
+namespace splotchcl {
+namespace {
+
+// Of %d, %4d or %04d at the place of the '%'; 0: none of these.
+std::size_t length_of_number(const std::string& name, std::size_t percent) {
+  std::size_t end = percent + 1;
+  while (end < name.size() && end - percent < 4 &&
+         std::isdigit(static_cast<unsigned char>(name[end])) != 0) {
+    ++end;
+  }
+  return end < name.size() && name[end] == 'd' ? end + 1 - percent : 0;
+}
+
+void check_pattern(const std::filesystem::path& output) {
+  const std::string name = output.filename().string();
+  const std::size_t percent = name.find('%');
+  const bool is_one = std::count(name.begin(), name.end(), '%') == 1;
+  if (is_one && length_of_number(name, percent) > 0) return;
+  throw UsageError(output.string() +
+                   ": found no film or numbered images, expected a film (.mp4, .mov, .mkv, .webm) "
+                   "or a name with one number in it, such as frame_%04d.png");
+}
+
+// The first line in which two texts differ, for a message.
+std::string difference(const std::string& found, const std::string& expected) {
+  std::istringstream a(found), b(expected);
+  std::string line_a, line_b;
+  for (;;) {
+    const bool has_a = static_cast<bool>(std::getline(a, line_a));
+    const bool has_b = static_cast<bool>(std::getline(b, line_b));
+    if (!has_a) line_a = "nothing";
+    if (!has_b) line_b = "nothing";
+    if (line_a != line_b || (!has_a && !has_b)) break;
+  }
+  return fmt::format("made with '{}' where this film has '{}'", line_a, line_b);
+}
+
+}  // namespace
+
+FrameFiles::FrameFiles(const std::filesystem::path& output, std::vector<std::string> suffixes)
+    : output_(output), suffixes_(std::move(suffixes)), is_film_(is_film_path(output)) {
+  if (is_film_) {
+    folder_ = output.string() + ".frames";
+    manifest_ = folder_ / "movie.txt";
+    return;
+  }
+  check_pattern(output);
+  folder_ = output.has_parent_path() ? output.parent_path() : ".";
+  manifest_ = output.string() + ".movie.txt";
+}
+
+std::filesystem::path FrameFiles::film(const std::string& suffix) const {
+  return picture_path(output_, suffix);
+}
+
+std::filesystem::path FrameFiles::picture(int frame, const std::string& suffix) const {
+  if (is_film_) return folder_ / fmt::format("frame_{:06d}{}.png", frame, suffix);
+  const std::string name = fmt::sprintf(output_.filename().string(), frame);
+  return picture_path(output_.parent_path() / name, suffix);
+}
+
+void FrameFiles::check() const {
+  for (const std::string& suffix : suffixes_) {
+    if (is_film_) {
+      check_output_path(film(suffix));
+    } else {
+      check_image_path(picture(0, suffix));
+    }
+  }
+}
+
+bool FrameFiles::is_begun() const {
+  std::error_code error;
+  return std::filesystem::exists(manifest_, error);
+}
+
+bool FrameFiles::is_complete(const std::vector<int>& frames) const {
+  const auto exists = [](const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+  };
+  return !is_begun() &&
+         std::all_of(suffixes_.begin(), suffixes_.end(), [&](const std::string& suffix) {
+           if (is_film_) return exists(film(suffix));
+           return std::all_of(frames.begin(), frames.end(),
+                              [&](int frame) { return exists(picture(frame, suffix)); });
+         });
+}
+
+void FrameFiles::open(const std::string& manifest) {
+  if (is_begun()) {
+    const std::string found = read_text_file(manifest_);
+    if (found == manifest) return;
+    throw UsageError(fmt::format(
+        "{}: found frames of another film, {}; remove {} to draw all of them anew, or choose "
+        "another output",
+        manifest_.string(), difference(found, manifest), is_film_ ? "the folder" : "this file"));
+  }
+  std::error_code error;
+  if (is_film_ && !std::filesystem::create_directories(folder_, error) && error) {
+    throw DataError(folder_.string() + ": cannot be created: " + error.message());
+  }
+  UnfinishedFile file(manifest_);
+  file.write(manifest.data(), manifest.size());
+  file.finish();
+}
+
+bool FrameFiles::has(int frame) const {
+  return std::all_of(suffixes_.begin(), suffixes_.end(), [&](const std::string& suffix) {
+    std::error_code error;
+    const std::filesystem::path path = picture(frame, suffix);
+    if (!std::filesystem::is_regular_file(path, error)) return false;
+    if (is_film_) return true;
+    // Images of the same name may be left from an older film.
+    return std::filesystem::last_write_time(path, error) >=
+           std::filesystem::last_write_time(manifest_, error);
+  });
+}
+
+void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
+  std::set<std::string> names;
+  for (const int frame : frames) {
+    for (const std::string& suffix : suffixes_)
+      names.insert(picture(frame, suffix).filename().string());
+  }
+  splotchcl::remove_leftovers(folder_, names);
+}
+
+void FrameFiles::close() {
+  std::error_code ignored;
+  if (is_film_) {
+    std::filesystem::remove_all(folder_, ignored);
+  } else {
+    std::filesystem::remove(manifest_, ignored);
+  }
+}
+
+FrameFiles::Lock::Lock(const FrameFiles& files) {
+  const int descriptor = ::open(files.manifest_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+    descriptor_ = descriptor;
+  } else {
+    ::close(descriptor);
+  }
+}
+
+FrameFiles::Lock::~Lock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+}  // namespace splotchcl

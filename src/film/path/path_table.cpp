@@ -1,0 +1,186 @@
+#include "film/path/path_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "common/text_file.h"
+#include "common/words.h"
+#include "film/path/path_words.h"
+#include "scene/scalar_map.h"
+#include "scene_file/file_names.h"
+#include "scene_file/values.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using scene_file::one_line;
+using scene_file::write_number;
+using scene_file::write_text;
+
+// A value of the file as TOML. Words are left to the key, which knows what it takes, but for
+// names of files, which stand relative to the file.
+std::optional<std::string> read_value(const std::string& word, const PathColumn& column,
+                                      const std::filesystem::path& folder) {
+  std::optional<double> number = parse_number(word);
+  if (!number) {
+    if (column.axis || column.undo || column.factor != 1) return std::nullopt;
+    return scene_file::with_file_name(
+        column.path, word, [&folder](const std::string& name) { return (folder / name).string(); });
+  }
+  if (column.undo) number = unscaled(*number, *column.undo);
+  *number *= column.factor;
+  if (!std::isfinite(*number)) return std::nullopt;
+  return write_number(*number);
+}
+
+}  // namespace
+
+PathTable::PathTable(const std::filesystem::path& path, const Scene& scene) : path_(path) {
+  read_text(read_text_file(path), scene);
+}
+
+void PathTable::read_text(const std::string& text, const Scene& scene) {
+  std::istringstream lines(text);
+  int line = 0;
+  for (std::string content; std::getline(lines, content);) {
+    ++line;
+    const std::vector<std::string> words = path_words(content);
+    if (words.empty()) continue;
+    const bool is_first = columns_.empty();
+    const bool is_header = is_first && is_path_header(words);
+    if (is_first)
+      read_header(is_header ? words : std::vector<std::string>(words.size()), line, scene);
+    if (!is_header) rows_.push_back(read_row(words, line));
+  }
+  if (rows_.empty()) {
+    throw UsageError(path_.string() + ": found no row of values, expected one for each frame");
+  }
+}
+
+// Without names the words are empty.
+void PathTable::read_header(const std::vector<std::string>& words, int line, const Scene& scene) {
+  std::vector<std::string> names = words;
+  if (names.front().empty()) {
+    const std::vector<std::string>& expected = path_columns_without_header();
+    const std::size_t full = expected.size();
+    if (names.size() != full && names.size() + 1 != full) {
+      throw UsageError(fmt::format(
+          "{}: found {} columns and no line that names them, expected 9 (x, y and z of camera, "
+          "look-at and sky), 10 (and the index of the snapshot), or a first line such as {}",
+          at_line(line), names.size(), fmt::join(expected, " ")));
+    }
+    std::copy_n(expected.begin(), names.size(), names.begin());
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string where = fmt::format("{}: column {}", at_line(line), i + 1);
+    columns_.push_back(find_path_column(names[i], scene, where));
+  }
+  check_columns(line);
+}
+
+void PathTable::check_columns(int line) const {
+  std::map<std::string, std::set<std::size_t>> axes;
+  std::set<std::string> whole;
+  for (const PathColumn& column : columns_) {
+    const bool is_new = column.axis ? axes[column.label].insert(*column.axis).second
+                                    : whole.insert(column.label).second;
+    if (is_new && !(column.axis && whole.count(column.label) > 0)) continue;
+    throw UsageError(fmt::format("{}: found a second column for {}, {}, expected one",
+                                 at_line(line), column.label, write_text(column.name)));
+  }
+  for (const auto& [label, found] : axes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (found.count(axis) > 0) continue;
+      throw UsageError(fmt::format("{}: found {} of the 3 columns of {}, expected {}.{} as well",
+                                   at_line(line), found.size(), label, label, "xyz"[axis]));
+    }
+  }
+}
+
+PathTable::Row PathTable::read_row(const std::vector<std::string>& words, int line) const {
+  if (words.size() != columns_.size()) {
+    std::vector<std::string> names;
+    for (const PathColumn& column : columns_)
+      names.push_back(column.name);
+    throw UsageError(fmt::format("{}: found {} values, expected {}, one for each of {}",
+                                 at_line(line), words.size(), columns_.size(),
+                                 fmt::join(names, " ")));
+  }
+  Row row = {line, {}};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::optional<std::string> value = read_value(words[i], columns_[i], path_.parent_path());
+    if (!value) {
+      throw UsageError(fmt::format("{}: column {} ({}): found {}, expected a finite number",
+                                   at_line(line), i + 1, columns_[i].name,
+                                   write_text(one_line(words[i]))));
+    }
+    row.values.push_back(*value);
+  }
+  return row;
+}
+
+std::vector<std::string> PathTable::settings(int row) const {
+  const Row& from = rows_.at(static_cast<std::size_t>(row));
+  std::vector<std::string> settings;
+  std::map<std::string, std::array<std::string, 3>> vectors;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const PathColumn& column = columns_[i];
+    if (column.key.empty()) continue;
+    if (column.axis) {
+      vectors[column.key][*column.axis] = from.values[i];
+    } else {
+      settings.push_back(column.key + "=" + from.values[i]);
+    }
+  }
+  for (const auto& [key, values] : vectors)
+    settings.push_back(fmt::format("{}=[{}]", key, fmt::join(values, ", ")));
+  return settings;
+}
+
+std::string PathTable::where(int row, const std::string& label) const {
+  const std::string line = at_line(rows_.at(static_cast<std::size_t>(row)).line);
+  std::vector<std::string> numbers, names;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].label != label) continue;
+    numbers.push_back(std::to_string(i + 1));
+    names.push_back(columns_[i].name);
+  }
+  if (names.empty()) return line;
+  return fmt::format("{}: column{} {} ({})", line, names.size() > 1 ? "s" : "",
+                     fmt::join(numbers, ", "), fmt::join(names, ", "));
+}
+
+bool PathTable::sets(const std::string& key) const {
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [&key](const PathColumn& column) { return column.key == key; });
+}
+
+void PathTable::drop(const std::string& key) {
+  for (PathColumn& column : columns_) {
+    if (column.key == key) column.key.clear();
+  }
+}
+
+bool PathTable::is_constant(const std::string& key) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].key != key) continue;
+    const bool is_same = std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) {
+      return row.values[i] == rows_.front().values[i];
+    });
+    if (!is_same) return false;
+  }
+  return true;
+}
+
+std::string PathTable::at_line(int line) const {
+  return fmt::format("{}:{}", path_.string(), line);
+}
+
+}  // namespace splotchcl

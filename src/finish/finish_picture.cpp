@@ -1,0 +1,102 @@
+#include "finish/finish_picture.h"
+
+#include <memory>
+
+#include "finish/adjust_light.h"
+#include "finish/color_bar.h"
+#include "finish/cross_fade.h"
+#include "finish/placeholders.h"
+#include "finish/scale_bar.h"
+
+namespace splotchcl {
+namespace {
+
+struct NamedText {
+  const char* key;
+  const TextSettings& text;
+  double default_size;  // in text sizes
+};
+
+std::vector<NamedText> texts_of(const FinishSettings& finish) {
+  return {{"finish.title", finish.title, 1.5},
+          {"finish.label", finish.label, 1},
+          {"finish.caption", finish.caption, 1}};
+}
+
+bool has_text(const FinishSettings& finish) {
+  bool has_any = finish.color_bar.show || finish.scale_bar.show;
+  for (const NamedText& named : texts_of(finish))
+    has_any = has_any || !named.text.text.empty();
+  return has_any;
+}
+
+TextAlignment alignment_at(Place place) {
+  if (is_at_right(place)) return TextAlignment::right;
+  return is_at_left(place) ? TextAlignment::left : TextAlignment::center;
+}
+
+std::string words_of(const NamedText& named, const FinishSettings& finish,
+                     const SnapshotInfo& snapshot) {
+  return replace_placeholders(named.text.text, snapshot, finish.frame.value_or(0),
+                              std::string(named.key) + ".text");
+}
+
+Overlay make_text(const NamedText& named, const FinishSettings& finish,
+                  const SnapshotInfo& snapshot, const TextStyle& style, Layout& layout) {
+  const double size =
+      named.text.size ? *named.text.size * layout.unit() : named.default_size * style.size();
+  const ShadedText text =
+      style.draw(words_of(named, finish, snapshot), size, alignment_at(named.text.at));
+  const Box box =
+      layout.place(named.text.at, text.letters.box_width, text.letters.box_height, named.key);
+  return [=](Canvas& canvas) { style.put(canvas, text, box.left, box.top); };
+}
+
+}  // namespace
+
+void check_finish(const Scene& scene, const SnapshotInfo& snapshot) {
+  const FinishSettings& finish = scene.finish;
+  if (has_text(finish)) {
+    const TextStyle style(finish, scene.image.gamma, 1000);
+    for (const NamedText& named : texts_of(finish)) {
+      if (!named.text.text.empty()) style.draw(words_of(named, finish, snapshot), 10);
+    }
+  }
+  if (finish.color_bar.show) (void)components_with_bars(scene);
+  if (finish.inset.show) check_inset(scene);
+  check_cross_fade(scene);
+}
+
+PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                             std::optional<Eye> eye)
+    : settings_(scene.finish), gamma_(scene.image.gamma), crop_(frame.crop) {
+  Layout layout(frame.width, frame.height);
+  if (settings_.inset.show) inset_ = make_inset(scene, frame, eye, layout);
+  if (!has_text(settings_)) return;
+  const TextStyle style(settings_, gamma_, layout.unit());
+  for (const NamedText& named : texts_of(settings_)) {
+    if (named.text.text.empty()) continue;
+    overlays_.push_back(make_text(named, settings_, snapshot, style, layout));
+  }
+  if (settings_.scale_bar.show) {
+    overlays_.push_back(make_scale_bar(settings_.scale_bar, frame, snapshot, style, layout));
+  }
+  if (settings_.color_bar.show) {
+    for (const Overlay& bar : make_color_bars(scene, frame, snapshot, style, layout))
+      overlays_.push_back(bar);
+  }
+}
+
+void PictureFinish::apply(Image& image, const DrawFrame& draw) const {
+  adjust_light(image, settings_, gamma_);
+  Canvas canvas(image, crop_);
+  if (inset_) {
+    Image picture = draw(inset_->frame);
+    adjust_light(picture, settings_, gamma_);
+    put(canvas, *inset_, picture);
+  }
+  for (const Overlay& overlay : overlays_)
+    overlay(canvas);
+}
+
+}  // namespace splotchcl

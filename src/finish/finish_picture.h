@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "finish/inset.h"
+#include "finish/text_style.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/views.h"
+
+namespace splotchcl {
+
+// What can be told to be wrong with a scene's [finish] before particles are read: fonts,
+// placeholders, names of components, the scene to fade to. Throws UsageError.
+void check_finish(const Scene& scene, const SnapshotInfo& snapshot);
+
+// What is done to one picture between its drawing and its file, up to the texts
+// (splotchcl/finish.h). Everything is prepared, and refused if it cannot be, before the
+// picture is drawn. Nothing is done for a scene that asks for nothing.
+class PictureFinish {
+ public:
+  // The frame is that of the middle between the eyes where the picture is one eye's. Throws
+  // UsageError.
+  PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                std::optional<Eye> eye = std::nullopt);
+
+  // `image` is the frame's, or the eye's, picture; `draw` draws the inset.
+  void apply(Image& image, const DrawFrame& draw) const;
+
+ private:
+  FinishSettings settings_;
+  double gamma_;
+  Rectangle crop_;
+  std::optional<Inset> inset_;
+  std::vector<Overlay> overlays_;
+};
+
+}  // namespace splotchcl

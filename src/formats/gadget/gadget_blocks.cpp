@@ -1,0 +1,209 @@
+#include "formats/gadget/gadget_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "formats/gadget/gadget_block_order.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+constexpr std::uint64_t description_bytes = 40;  // label, type name, dimensions, six flags
+
+std::uint32_t load_uint32(const GadgetBinaryFile& file, std::uint64_t offset) {
+  return static_cast<std::uint32_t>(
+      number_at(file.file, offset, ValueKind::uint32, file.is_swapped));
+}
+
+std::string text_at(const GadgetBinaryFile& file, std::uint64_t offset, std::size_t length) {
+  std::string text(reinterpret_cast<const char*>(file.file->data()) + offset, length);
+  text.erase(text.find_last_not_of(std::string("\0 ", 2)) + 1);
+  return text;
+}
+
+ValueKind kind_of_name(const std::string& name) {
+  if (name == "LONG") return ValueKind::uint32;
+  if (name == "LLONG") return ValueKind::uint64;
+  if (name == "DOUBLE" || name == "DOUBLEN") return ValueKind::float64;
+  return ValueKind::float32;
+}
+
+BlockDescription read_description(const GadgetBinaryFile& file, std::uint64_t offset) {
+  BlockDescription description;
+  description.label = text_at(file, offset, 4);
+  description.layout.kind = kind_of_name(text_at(file, offset + 4, 8));
+  constexpr std::uint32_t beyond_any_block = 1U << 20;  // fits no block's length
+  description.layout.values_per_particle =
+      static_cast<int>(std::min(load_uint32(file, offset + 12), beyond_any_block));
+  for (unsigned type = 0; type < 6; ++type) {
+    if (load_uint32(file, offset + 16 + 4 * type) != 0) description.layout.types |= 1U << type;
+  }
+  return description;
+}
+
+std::vector<BlockDescription> read_descriptions(const GadgetBinaryFile& file) {
+  std::vector<BlockDescription> descriptions;
+  for (const GadgetRecord& record : file.records) {
+    if (record.label != "INFO" || record.bytes % description_bytes != 0) continue;
+    for (std::uint64_t at = 0; at < record.bytes; at += description_bytes) {
+      descriptions.push_back(read_description(file, record.offset + at));
+    }
+  }
+  return descriptions;
+}
+
+std::string list_counts(const GadgetHeader& header) {
+  return fmt::format("{}", fmt::join(header.counts, " "));
+}
+
+[[noreturn]] void throw_bad_length(const GadgetBinaryFile& file, const std::string& label,
+                                   std::uint64_t bytes) {
+  throw DataError(fmt::format(
+      "{}: block {} has {} bytes, which contradicts the header's numbers of particles ({} of types "
+      "0 to 5); the file is damaged or its header is wrong",
+      file.file->path().string(), label, bytes, list_counts(file.header)));
+}
+
+[[noreturn]] void throw_no_positions(const GadgetBinaryFile& file) {
+  Notes labels;
+  for (const GadgetRecord& record : file.records)
+    labels.push_back(record.label);
+  const std::string found =
+      labels.empty() ? "no blocks at all" : fmt::format("only {}", fmt::join(labels, ", "));
+  throw DataError(
+      fmt::format("{}: no positions: the file has {}; expected a block POS: the file is "
+                  "incomplete, or no snapshot",
+                  file.file->path().string(), found));
+}
+
+std::uint64_t position_bytes(const GadgetBinaryFile& file) {
+  const auto found =
+      std::find_if(file.records.begin(), file.records.end(),
+                   [&](const GadgetRecord& r) { return file.format == 1 || r.label == "POS"; });
+  if (found == file.records.end()) throw_no_positions(file);
+  return found->bytes;
+}
+
+// A block whose meaning only its length tells.
+void add_by_length(const BlockLayouts& layouts, const GadgetRecord& record,
+                   const std::string& label, std::vector<GadgetBlock>& blocks, Notes& notes) {
+  bool is_ambiguous = false;
+  const auto layout = layouts.fit_any(record.bytes, is_ambiguous);
+  if (!layout) {
+    notes.push_back(
+        fmt::format("block {} left out: its {} bytes fit one or three values of no set of particle "
+                    "types",
+                    label, record.bytes));
+    return;
+  }
+  if (is_ambiguous) {
+    std::vector<int> types;
+    for (int type = 0; type < 6; ++type) {
+      if ((layout->types >> type & 1U) != 0) types.push_back(type);
+    }
+    notes.push_back(
+        fmt::format("block {} fits several sets of particle types by its length; taken for type {}",
+                    label, fmt::join(types, " and ")));
+  }
+  blocks.push_back({label, record.offset, *layout});
+}
+
+std::vector<GadgetBlock> understand_labelled(const GadgetBinaryFile& file,
+                                             const BlockLayouts& layouts, Notes& notes) {
+  std::vector<GadgetBlock> blocks;
+  std::vector<std::string> seen;
+  for (const GadgetRecord& record : file.records) {
+    if (record.bytes == 0 || record.label == "INFO") continue;
+    if (std::find(seen.begin(), seen.end(), record.label) != seen.end()) {
+      notes.push_back(
+          fmt::format("block {} occurs more than once; the first is used", record.label));
+      continue;
+    }
+    seen.push_back(record.label);
+    auto layout = layouts.fit_description(record.label, record.bytes);
+    const bool is_drawable =
+        !layout || layout->values_per_particle == 1 || layout->values_per_particle == 3;
+    if (!is_drawable && !is_standard_block(record.label)) {
+      notes.push_back(fmt::format("block {} left out: it has {} values per particle, not 1 or 3",
+                                  record.label, layout->values_per_particle));
+      continue;
+    }
+    if (!layout || !is_drawable) layout = layouts.fit_standard(record.label, record.bytes);
+    if (layout) {
+      blocks.push_back({record.label, record.offset, *layout});
+    } else if (is_standard_block(record.label)) {
+      throw_bad_length(file, record.label, record.bytes);
+    } else {
+      add_by_length(layouts, record, record.label, blocks, notes);
+    }
+  }
+  return blocks;
+}
+
+std::vector<GadgetBlock> understand_unlabelled(const GadgetBinaryFile& file,
+                                               const BlockLayouts& layouts, Notes& notes) {
+  OrderedBlocks found = order_blocks(file, layouts);
+  const bool has_positions = !found.standard.empty() && found.standard.front().label == "POS";
+  if (!has_positions) {
+    throw_bad_length(file, "POS (the first of the file)", file.records.front().bytes);
+  }
+  std::string order = describe_order(found, layouts);
+  if (!order.empty()) notes.push_back(std::move(order));
+  std::vector<GadgetBlock> blocks = std::move(found.standard);
+  const std::size_t known = blocks.size();
+  for (const std::size_t i : found.others) {
+    add_by_length(layouts, file.records[i], fmt::format("block_{}", i + 1), blocks, notes);
+  }
+  if (blocks.size() > known) {
+    Notes names;
+    for (std::size_t i = known; i < blocks.size(); ++i)
+      names.push_back(blocks[i].label);
+    notes.push_back(fmt::format("format 1 has no labels: the blocks after the usual ones are {}",
+                                fmt::join(names, ", ")));
+  }
+  return blocks;
+}
+
+}  // namespace
+
+void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
+  GadgetHeader& header = file.header;
+  if (header.particles() > 0 || header.files > 1 || file.records.empty()) return;
+  const auto bytes_of = [&](std::string_view label, std::size_t place) -> std::uint64_t {
+    for (std::size_t i = 0; i < file.records.size(); ++i) {
+      const bool is_it = file.format == 1 ? i == place : file.records[i].label == label;
+      if (is_it) return file.records[i].bytes;
+    }
+    return 0;
+  };
+  const std::uint64_t positions = bytes_of("POS", 0), ids = bytes_of("ID", 2);
+  // In single precision unless the identifiers fit only doubles.
+  for (const std::uint64_t bytes : {std::uint64_t{12}, std::uint64_t{24}}) {
+    const std::uint64_t particles = positions / bytes;
+    const bool fits_ids =
+        ids == 0 || ids == 4 * particles || ids == 6 * particles || ids == 8 * particles;
+    if (particles == 0 || positions % bytes != 0 || !fits_ids) continue;
+    // All are gas where the blocks of gas have a value for each.
+    const bool is_gas = file.format == 2 && bytes_of("U", 0) == particles * bytes / 3;
+    header.counts[is_gas ? 0 : 1] = particles;
+    std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
+    notes.push_back(fmt::format(
+        "the header counts no particles; by their positions there are {}, taken for type {}",
+        particles, is_gas ? 0 : 1));
+    return;
+  }
+}
+
+std::vector<GadgetBlock> understand_records(const GadgetBinaryFile& file, Notes& notes) {
+  if (file.header.particles() == 0) return {};
+  const BlockLayouts layouts(file.header, position_bytes(file), read_descriptions(file));
+  return file.format == 1 ? understand_unlabelled(file, layouts, notes)
+                          : understand_labelled(file, layouts, notes);
+}
+
+}  // namespace splotchcl

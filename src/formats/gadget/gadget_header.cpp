@@ -1,0 +1,137 @@
+#include "formats/gadget/gadget_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+std::uint64_t sum(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+void check_same_snapshot(const GadgetHeader& first, const GadgetHeader& other,
+                         const std::filesystem::path& first_path,
+                         const std::filesystem::path& other_path) {
+  const char* difference = nullptr;
+  if (other.counts.size() != first.counts.size()) difference = "number of particle types";
+  if (other.table_masses != first.table_masses) difference = "mass table";
+  if (other.total_counts != first.total_counts) difference = "total number of particles";
+  if (other.files != first.files) difference = "number of files";
+  if (other.time != first.time) difference = "time";
+  if (difference == nullptr) return;
+  throw DataError(
+      fmt::format("{}: its header has another {} than that of {}; the files belong to different "
+                  "snapshots: keep those of one snapshot together",
+                  other_path.string(), difference, first_path.filename().string()));
+}
+
+// Gadget keeps the scale factor as the time of a cosmological run. One without cosmology may
+// have a density parameter in its header all the same.
+bool is_cosmological(const GadgetHeader& header) {
+  constexpr double rounding = 1e-4;
+  return header.omega_matter > 0 && header.time > 0 &&
+         std::abs(header.time * (1 + header.redshift) - 1) < rounding;
+}
+
+}  // namespace
+
+std::uint64_t GadgetHeader::particles() const {
+  return sum(counts);
+}
+
+void check_header(const GadgetHeader& header, const std::filesystem::path& path) {
+  for (std::size_t type = 0; type < header.table_masses.size(); ++type) {
+    const double mass = header.table_masses[type];
+    if (std::isfinite(mass) && mass >= 0) continue;
+    throw DataError(fmt::format(
+        "{}: the header's mass table holds {} for type {}; expected 0 or a mass: the header is "
+        "damaged, or the file is no snapshot",
+        path.string(), mass, type));
+  }
+  if (header.particles() == 0 && header.files <= 1) {
+    throw DataError(fmt::format(
+        "{}: its header counts no particles of any type; expected a snapshot with particles",
+        path.string()));
+  }
+}
+
+bool is_complete_alone(const GadgetHeader& header) {
+  return header.files <= 1 || (header.particles() > 0 && header.counts == header.total_counts);
+}
+
+GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
+                           const std::vector<std::filesystem::path>& paths,
+                           std::vector<std::string>& notes) {
+  GadgetHeader merged = headers.front();
+  for (std::size_t i = 1; i < headers.size(); ++i) {
+    check_same_snapshot(headers.front(), headers[i], paths.front(), paths[i]);
+    for (std::size_t type = 0; type < merged.counts.size(); ++type) {
+      merged.counts[type] += headers[i].counts[type];
+    }
+  }
+  if (merged.particles() == 0) {
+    throw DataError(fmt::format("{}: the headers of its {} files count no particles of any type",
+                                paths.front().string(), paths.size()));
+  }
+  if (headers.size() == 1 && merged.files > 1) {
+    notes.push_back(
+        fmt::format("the header speaks of {} files, but this one is complete", merged.files));
+  }
+  if (sum(merged.total_counts) == 0 || merged.total_counts == merged.counts) return merged;
+  if (headers.size() > 1) {
+    throw DataError(fmt::format(
+        "{}: the {} files together hold {} particles, but their headers say {}; a file may be "
+        "exchanged or damaged: restore the set",
+        paths.front().string(), paths.size(), merged.particles(), sum(merged.total_counts)));
+  }
+  notes.push_back(fmt::format(
+      "the header's total number of particles ({}) is not the number in the file ({}); ignored",
+      sum(merged.total_counts), merged.particles()));
+  return merged;
+}
+
+void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::string>& notes) {
+  const bool has_own_masses = std::any_of(
+      type.fields.begin(), type.fields.end(),
+      [](const FieldInfo& field) { return canonical_field_name(field.file_name) == "mass"; });
+  if (has_own_masses) {
+    type.table_mass.reset();
+  } else if (type.table_mass) {
+    type.fields.push_back({"", label, 1, ""});
+  } else {
+    notes.push_back(fmt::format(
+        "particles of type {} have no masses: neither their own nor in the header's mass table",
+        type.type));
+  }
+}
+
+void describe(const GadgetHeader& header, SnapshotInfo& info) {
+  info.time = header.time;
+  // Runs without cosmology write a redshift of 0 that means nothing.
+  if (header.omega_matter > 0 || header.redshift != 0) info.redshift = header.redshift;
+  if (std::isfinite(header.box_size) && header.box_size > 0) info.box_size = header.box_size;
+  if (header.hubble_parameter > 0) info.hubble_parameter = header.hubble_parameter;
+  if (is_cosmological(header)) {
+    // kpc/h and km/s, as most have them: the header does not say.
+    constexpr double hubble_rate = 0.1;
+    info.cosmology =
+        Cosmology{header.time, header.omega_matter, header.omega_lambda, hubble_rate, 0.5};
+  }
+  for (std::size_t type = 0; type < header.counts.size(); ++type) {
+    if (header.counts[type] == 0) continue;
+    ParticleTypeInfo particles;
+    particles.type = static_cast<int>(type);
+    particles.count = header.counts[type];
+    if (header.table_masses[type] > 0) particles.table_mass = header.table_masses[type];
+    info.types.push_back(std::move(particles));
+  }
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,182 @@
+// HDF5 snapshots with groups Header and PartType0, PartType1, ...: Gadget 2 to 4, AREPO and
+// their relatives, SWIFT.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "formats/gadget/gadget_members.h"
+#include "formats/hdf5/gadget_hdf5_fields.h"
+#include "formats/hdf5/gadget_hdf5_header.h"
+#include "formats/hdf5/hdf5_column.h"
+#include "formats/hdf5/hdf5_formats.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct Member {
+  std::filesystem::path path;
+  GadgetHeader own_header;
+  std::map<int, std::vector<Hdf5Field>> fields;  // of the types with particles
+
+  const GadgetHeader& header() const { return own_header; }
+  const Hdf5Field* find_field(int type, const std::string& label) const {
+    const auto of_type = fields.find(type);
+    if (of_type == fields.end()) return nullptr;
+    const auto found = std::find_if(of_type->second.begin(), of_type->second.end(),
+                                    [&](const Hdf5Field& field) { return field.label == label; });
+    return found == of_type->second.end() ? nullptr : &*found;
+  }
+};
+
+Member read_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  const Hdf5File file(path);
+  Member member;
+  member.path = path;
+  member.own_header = read_hdf5_header(file, notes);
+  count_rows_without_header(file, member.own_header, notes);
+  leave_out_tracers(file, member.own_header, notes);
+  check_header(member.header(), path);
+  check_hdf5_groups(file, member.header());
+  for (std::size_t type = 0; type < member.header().counts.size(); ++type) {
+    if (member.header().counts[type] == 0) continue;
+    const auto number = static_cast<int>(type);
+    member.fields[number] = find_hdf5_fields(file, member.header(), number, notes);
+  }
+  return member;
+}
+
+class GadgetHdf5Snapshot : public Snapshot {
+ public:
+  explicit GadgetHdf5Snapshot(const std::filesystem::path& path);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
+  Vec3 position_origin() const override { return origin_; }
+
+ private:
+  void read_dialect();
+  void read_motion();
+  void find_fields(ParticleTypeInfo& type);
+  bool is_in_every_member(int type, const Hdf5Field& field) const;
+  std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
+  void choose_origin();
+
+  std::vector<Member> members_;
+  SnapshotInfo info_;
+  Vec3 origin_ = {{0, 0, 0}};
+  double smoothing_length_factor_ = 1;  // from what the file has to the support radius
+};
+
+GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
+  members_ = read_members(path, read_member, info_);
+  read_dialect();
+  for (ParticleTypeInfo& type : info_.types)
+    find_fields(type);
+  read_motion();
+  choose_origin();
+}
+
+void GadgetHdf5Snapshot::read_dialect() {
+  const Hdf5File file(members_.front().path);
+  const bool is_swift = is_swift_file(file);
+  info_.format = hdf5_dialect(file);
+  if (!is_swift) return;
+  // SWIFT stores the kernel's scale, not its support.
+  const auto gamma = file.number("HydroScheme", "Kernel gamma");
+  smoothing_length_factor_ = gamma.value_or(1);
+  if (gamma || !file.has("PartType0")) return;
+  info_.notes.push_back(
+      "HydroScheme does not say SWIFT's Kernel gamma: smoothing lengths are taken as they are, "
+      "though SWIFT's end before its kernel does");
+}
+
+void GadgetHdf5Snapshot::read_motion() {
+  const ParticleTypeInfo& type = info_.types.front();
+  const auto path_of = [&type](const char* name) {
+    const FieldInfo* const field = find_field(type, name);
+    return fmt::format("/PartType{}/{}", type.type, field == nullptr ? name : field->file_name);
+  };
+  const auto member = std::find_if(members_.begin(), members_.end(),
+                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  info_.cosmology = read_cosmology(Hdf5File(member->path), member->header(), path_of("position"),
+                                   path_of("velocity"));
+}
+
+bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
+  return std::all_of(members_.begin(), members_.end(), [&](const Member& member) {
+    if (member.fields.count(type) == 0) return true;
+    const Hdf5Field* const own = member.find_field(type, field.label);
+    return own != nullptr && own->values_per_particle == field.values_per_particle;
+  });
+}
+
+void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
+  const auto member = std::find_if(members_.begin(), members_.end(),
+                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  const Hdf5File file(member->path);
+  const BaseUnits units = read_base_units(file);
+  for (const Hdf5Field& field : member->fields.at(type.type)) {
+    if (!is_in_every_member(type.type, field)) {
+      info_.notes.push_back(
+          fmt::format("dataset {} left out: not every file of the snapshot has it in the same form",
+                      field.dataset.path));
+      continue;
+    }
+    const std::string unit = unit_name(read_unit_powers(file, field.dataset), units);
+    type.fields.push_back({"", field.label, field.values_per_particle, unit});
+  }
+  add_table_mass(type, "MassTable", info_.notes);
+  name_fields(type);
+}
+
+std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {
+  std::vector<Hdf5Values> parts;
+  for (const Member& member : members_) {
+    const Hdf5Field* const field = member.find_field(type, label);
+    if (field != nullptr) parts.push_back({member.path, field->dataset});
+  }
+  return parts;
+}
+
+void GadgetHdf5Snapshot::choose_origin() {
+  std::vector<Hdf5Values> positions;
+  for (const ParticleTypeInfo& type : info_.types) {
+    const FieldInfo* const field = find_field(type, "position");
+    if (field == nullptr || field->values_per_particle != 3) return;  // will be refused
+    for (Hdf5Values& part : find_parts(type.type, field->file_name)) {
+      positions.push_back(std::move(part));
+    }
+  }
+  origin_ = find_position_origin(positions);
+}
+
+Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  const std::optional<double> table_mass = require_type(info_, type).table_mass;
+  if (field.name == "mass" && table_mass) {
+    return Column::uniform(static_cast<float>(*table_mass));
+  }
+  const auto parts = find_parts(type, field.file_name);
+  if (field.name == "position") return read_column(parts, origin_);
+  if (field.name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
+  return read_column(parts);
+}
+
+std::vector<std::uint64_t> GadgetHdf5Snapshot::read_ids(int type) const {
+  const FieldInfo& field = require_ids(info_, type);
+  auto ids = read_integers(find_parts(type, field.file_name));
+  if (!ids) refuse_ids(info_, type, field);
+  return std::move(*ids);
+}
+
+}  // namespace
+
+std::unique_ptr<Snapshot> open_gadget_hdf5(const std::filesystem::path& path) {
+  return std::make_unique<GadgetHdf5Snapshot>(path);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,198 @@
+#include "formats/hdf5/gadget_hdf5_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double kpc_in_cm = 3.0856775814913673e21;
+
+struct Place {
+  const char* object;
+  const char* attribute;
+};
+
+// The first of the places that has a number.
+double find_number(const Hdf5File& file, const std::vector<Place>& places, double otherwise) {
+  for (const Place& place : places) {
+    if (const auto number = file.number(place.object, place.attribute)) return *number;
+  }
+  return otherwise;
+}
+
+// Whole numbers of at least 0; none, and a note, where one is something else. The datasets
+// themselves tell how many particles there are.
+std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribute,
+                                       std::vector<std::string>& notes) {
+  constexpr double largest = 9007199254740992.0;  // beyond 2^53 a double is not exact
+  std::vector<std::uint64_t> counts;
+  for (const double number : file.numbers("Header", attribute).value_or(std::vector<double>())) {
+    if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
+      notes.push_back(
+          fmt::format("Header/{} holds {} as a number of particles; ignored", attribute, number));
+      return {};
+    }
+    counts.push_back(static_cast<std::uint64_t>(number));
+  }
+  return counts;
+}
+
+std::vector<std::uint64_t> read_total_counts(const Hdf5File& file, std::size_t types,
+                                             std::vector<std::string>& notes) {
+  auto totals = read_counts(file, "NumPart_Total", notes);
+  const auto high = read_counts(file, "NumPart_Total_HighWord", notes);
+  totals.resize(types, 0);
+  for (std::size_t type = 0; type < std::min(types, high.size()); ++type) {
+    totals[type] += high[type] << 32;
+  }
+  return totals;
+}
+
+// One length for all axes; 0 when they differ.
+double read_box_size(const Hdf5File& file) {
+  auto sides = file.numbers("Header", "BoxSize");
+  if (!sides) sides = file.numbers("Parameters", "BoxSize");
+  if (!sides) return 0;
+  const bool is_cube = std::all_of(sides->begin(), sides->end(),
+                                   [&](double side) { return side == sides->front(); });
+  return is_cube ? sides->front() : 0;
+}
+
+bool is_without_cosmology(const Hdf5File& file) {
+  return find_number(file,
+                     {{"Parameters", "ComovingIntegrationOn"}, {"Cosmology", "Cosmological run"}},
+                     1) == 0;
+}
+
+}  // namespace
+
+GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes) {
+  constexpr std::size_t most_types = 32;  // more than any code has
+  const auto counts = read_counts(file, "NumPart_ThisFile", notes);
+  const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
+  if (!has_header || counts.size() > most_types) {
+    throw DataError(
+        fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
+                    "groups are: {}); expected a snapshot of Gadget or SWIFT",
+                    file.path().string(), fmt::join(file.groups("/"), ", ")));
+  }
+  GadgetHeader header;
+  header.counts = counts;
+  constexpr std::size_t usual_types = 6;
+  if (header.counts.empty()) header.counts.resize(usual_types, 0);
+  const std::size_t types = header.counts.size();
+  header.total_counts = read_total_counts(file, types, notes);
+  header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
+  header.table_masses.resize(types, 0);
+  header.time = file.number("Header", "Time").value_or(0);
+  const double files = file.number("Header", "NumFilesPerSnapshot").value_or(1);
+  header.files = files >= 1 && files <= 1e9 ? static_cast<int>(files) : 1;
+  header.box_size = read_box_size(file);
+  header.hubble_parameter = find_number(
+      file, {{"Header", "HubbleParam"}, {"Parameters", "HubbleParam"}, {"Cosmology", "h"}}, 0);
+  if (is_without_cosmology(file)) return header;
+  header.redshift = file.number("Header", "Redshift").value_or(0);
+  header.omega_matter = find_number(
+      file, {{"Header", "Omega0"}, {"Parameters", "Omega0"}, {"Cosmology", "Omega_m"}}, 0);
+  header.omega_lambda = find_number(
+      file,
+      {{"Header", "OmegaLambda"}, {"Parameters", "OmegaLambda"}, {"Cosmology", "Omega_lambda"}}, 0);
+  return header;
+}
+
+std::string hdf5_dialect(const Hdf5File& file) {
+  if (is_swift_file(file)) return "SWIFT HDF5";
+  if (file.number("Header", "GIZMO_version")) return "GIZMO HDF5";
+  // A moving mesh has cells with centres and volumes, and no kernel.
+  const bool is_mesh = (file.has("/PartType0/CenterOfMass") || file.has("/PartType0/Volume")) &&
+                       !file.has("/PartType0/SmoothingLength");
+  return is_mesh ? "AREPO HDF5" : "Gadget HDF5";
+}
+
+bool is_swift_file(const Hdf5File& file) {
+  return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+}
+
+std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader& header,
+                                        const std::string& positions,
+                                        const std::string& velocities) {
+  const bool is_swift = is_swift_file(file);
+  Cosmology cosmology;
+  // SWIFT's time is a time; all others of this family keep the scale factor there.
+  const auto scale_factor = file.number("Header", "Scale-factor");
+  cosmology.scale_factor =
+      scale_factor.value_or(is_swift ? 1 / (1 + header.redshift) : header.time);
+  cosmology.omega_matter = header.omega_matter;
+  cosmology.omega_lambda = header.omega_lambda;
+  constexpr double rounding = 1e-4;
+  const bool is_cosmological =
+      header.omega_matter > 0 && cosmology.scale_factor > 0 &&
+      std::abs(cosmology.scale_factor * (1 + header.redshift) - 1) < rounding;
+  if (!is_cosmological) return std::nullopt;
+
+  const auto power = [&file](const std::string& dataset, const char* gadget, const char* swift) {
+    const auto value = file.number(dataset, gadget);
+    return value ? value : file.number(dataset, swift);
+  };
+  cosmology.velocity_power =
+      power(velocities, "a_scaling", "a-scale exponent").value_or(is_swift ? 0 : 0.5);
+  const double hubble_power =
+      power(positions, "h_scaling", "h-scale exponent").value_or(is_swift ? 0 : -1);
+  const BaseUnits units = read_base_units(file);
+  const double length = units.length_in_cm > 0 ? units.length_in_cm : kpc_in_cm;
+  const double velocity = units.velocity_in_cm_per_s > 0 ? units.velocity_in_cm_per_s : 1e5;
+  // 100 h km/s/Mpc, with the powers of h that the units themselves contain.
+  const double h = header.hubble_parameter > 0 ? header.hubble_parameter : 1;
+  cosmology.hubble_rate =
+      1e7 / (1e3 * kpc_in_cm) * std::pow(h, 1 + hubble_power) * length / velocity;
+  return cosmology;
+}
+
+BaseUnits read_base_units(const Hdf5File& file) {
+  BaseUnits units;
+  units.length_in_cm = find_number(file,
+                                   {{"Parameters", "UnitLength_in_cm"},
+                                    {"Header", "UnitLength_in_cm"},
+                                    {"Units", "UnitLength_in_cm"},
+                                    {"Units", "Unit length in cgs (U_L)"}},
+                                   0);
+  units.mass_in_g = find_number(file,
+                                {{"Parameters", "UnitMass_in_g"},
+                                 {"Header", "UnitMass_in_g"},
+                                 {"Units", "UnitMass_in_g"},
+                                 {"Units", "Unit mass in cgs (U_M)"}},
+                                0);
+  units.velocity_in_cm_per_s = find_number(file,
+                                           {{"Parameters", "UnitVelocity_in_cm_per_s"},
+                                            {"Header", "UnitVelocity_in_cm_per_s"},
+                                            {"Units", "UnitVelocity_in_cm_per_s"}},
+                                           0);
+  const double time = file.number("Units", "Unit time in cgs (U_t)").value_or(0);
+  if (time > 0) units.velocity_in_cm_per_s = units.length_in_cm / time;
+  return units;
+}
+
+UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset) {
+  const auto power = [&](const char* gadget, const char* swift) {
+    const auto value = file.number(dataset.path, gadget);
+    return value ? *value : file.number(dataset.path, swift).value_or(0);
+  };
+  UnitPowers powers;
+  powers.mass = power("mass_scaling", "U_M exponent");
+  powers.scale_factor = power("a_scaling", "a-scale exponent");
+  powers.hubble = power("h_scaling", "h-scale exponent");
+  powers.temperature = power("temperature_scaling", "U_T exponent");
+  // A time is a length over a velocity.
+  const double time = file.number(dataset.path, "U_t exponent").value_or(0);
+  powers.length = power("length_scaling", "U_L exponent") + time;
+  powers.velocity = file.number(dataset.path, "velocity_scaling").value_or(0) - time;
+  return powers;
+}
+
+}  // namespace splotchcl

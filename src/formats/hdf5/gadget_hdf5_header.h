@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/gadget/gadget_header.h"
+#include "formats/hdf5/hdf5_file.h"
+#include "formats/unit_names.h"
+
+namespace splotchcl {
+
+// Reads the group Header of Gadget 2 to 4, SWIFT and their relatives: attributes may be
+// scalars or arrays of any length, and cosmology may be in other groups. Throws DataError.
+GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes);
+
+bool is_swift_file(const Hdf5File& file);
+// "SWIFT HDF5", "GIZMO HDF5", "AREPO HDF5", or "Gadget HDF5" for Gadget and all others.
+std::string hdf5_dialect(const Hdf5File& file);
+
+// The cosmology and what the velocities are, where the run follows the expansion: from the
+// header and the attributes of the datasets of positions and velocities (paths). Units that
+// the file does not state are kpc/h and km/s.
+std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader& header,
+                                        const std::string& positions,
+                                        const std::string& velocities);
+
+// The units the file states; zeros where it states none.
+BaseUnits read_base_units(const Hdf5File& file);
+UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset);
+
+}  // namespace splotchcl

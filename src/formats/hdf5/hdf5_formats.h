@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "formats/hdf5/hdf5_file.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// Dialects of HDF5; which one a file speaks is decided in hdf5_formats.cpp.
+std::unique_ptr<Snapshot> open_gadget_hdf5(const std::filesystem::path& path);
+
+bool is_phantom_hdf5(const Hdf5File& file);
+std::unique_ptr<Snapshot> open_phantom_hdf5(const std::filesystem::path& path);
+
+}  // namespace splotchcl

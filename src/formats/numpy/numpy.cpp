@@ -1,0 +1,319 @@
+// NumPy: a single array (.npy), structured or of rows, or an archive of arrays (.npz), packed
+// or not.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "formats/numpy/numpy_array.h"
+#include "formats/numpy/zip_archive.h"
+#include "formats/snapshot_format.h"
+#include "formats/table.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_columns = 4096;
+
+// Where the values of a column lie in an array.
+struct NumpyColumn {
+  std::size_t array = 0;
+  StoredValues values;  // without its file
+};
+
+struct NumpyArray {
+  std::string name;  // in an archive
+  NumpyHeader header;
+};
+
+// The values of one member in every record of an array that has `rows` of them.
+NumpyColumn member_column(std::size_t array, const NumpyHeader& header, const NumpyMember& member) {
+  NumpyColumn column;
+  column.array = array;
+  column.values.offset = header.data_offset + member.offset;
+  column.values.particles = header.rows();
+  column.values.values_per_particle = static_cast<int>(member.values);
+  column.values.stride = header.record_bytes;
+  column.values.kind = member.kind;
+  column.values.is_swapped = member.is_swapped;
+  return column;
+}
+
+// `width` columns of a plain array of two dimensions, from `first` on.
+NumpyColumn plain_column(std::size_t array, const NumpyHeader& header, std::uint64_t first,
+                         std::uint64_t width) {
+  NumpyColumn column = member_column(array, header, header.members.front());
+  const std::uint64_t bytes = header.record_bytes;
+  const std::uint64_t columns = header.shape.size() > 1 ? header.shape[1] : 1;
+  column.values.values_per_particle = static_cast<int>(width);
+  column.values.stride = header.is_fortran_order ? bytes : bytes * columns;
+  column.values.axis_stride = header.is_fortran_order ? bytes * header.rows() : bytes;
+  column.values.offset += first * column.values.axis_stride;
+  return column;
+}
+
+class NumpyTable : public Table {
+ public:
+  NumpyTable(const fs::path& path, const std::vector<std::string>& names, SnapshotInfo& info);
+
+  const std::vector<TableColumn>& columns() const override { return columns_; }
+  std::uint64_t rows() const override { return rows_; }
+  void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
+
+ private:
+  void open_archive(std::vector<std::string>& notes);
+  void read_numbers(SnapshotInfo& info);
+  void choose_rows();
+  void add_array(std::size_t array, const std::vector<std::string>& names);
+  void add_members(std::size_t array);
+  void add_plain(std::size_t array, const std::vector<std::string>& names);
+  void add_named(std::size_t array, const std::vector<std::string>& names);
+  void add(const std::string& name, NumpyColumn column);
+  std::shared_ptr<const MappedFile> content(std::size_t array) const;
+
+  fs::path path_;
+  std::unique_ptr<ZipArchive> archive_;
+  std::shared_ptr<const MappedFile> file_;  // of a single array
+  std::vector<NumpyArray> arrays_;
+  std::vector<std::size_t> entries_;  // of the archive, for each array
+  std::vector<TableColumn> columns_;
+  std::vector<NumpyColumn> places_;
+  std::vector<std::string> left_out_;
+  std::uint64_t rows_ = 0;
+};
+
+NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& names,
+                       SnapshotInfo& info)
+    : path_(path), file_(MappedFile::open(path)) {
+  if (is_numpy_array(file_->data(), file_->size())) {
+    info.format = "NumPy array";
+    arrays_.push_back(
+        {"", read_numpy_header(file_->data(), file_->size(), file_->size(), path.string())});
+  } else {
+    info.format = "NumPy archive";
+    open_archive(info.notes);
+    read_numbers(info);
+  }
+  if (!names.empty() && arrays_.size() > 1) {
+    throw DataError(path.string() +
+                    ": an archive of several arrays, which have names; leave read.columns out");
+  }
+  choose_rows();
+  for (std::size_t array = 0; array < arrays_.size(); ++array)
+    add_array(array, names);
+  if (!left_out_.empty()) {
+    info.notes.push_back(
+        fmt::format("left out, as they are not one or three numbers for each of {} particles: {}",
+                    rows_, fmt::join(left_out_, ", ")));
+  }
+  if (rows_ == 0) throw DataError(path.string() + ": the arrays have no rows; expected particles");
+}
+
+void NumpyTable::open_archive(std::vector<std::string>& notes) {
+  archive_ = std::make_unique<ZipArchive>(path_);
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < archive_->entries().size(); ++i) {
+    const ZipArchive::Entry& entry = archive_->entries()[i];
+    constexpr std::uint64_t longest_header = 1U << 17;
+    const std::vector<std::byte> start = archive_->read(entry, longest_header);
+    if (!is_numpy_array(start.data(), start.size())) {
+      others.push_back(entry.name);
+      continue;
+    }
+    std::string name = entry.name;
+    if (name.size() > 4 && name.substr(name.size() - 4) == ".npy") name.resize(name.size() - 4);
+    arrays_.push_back({name, read_numpy_header(start.data(), start.size(), entry.bytes,
+                                               path_.string() + ": " + entry.name)});
+    entries_.push_back(i);
+  }
+  if (arrays_.empty()) {
+    throw DataError(path_.string() +
+                    ": a zip archive without NumPy arrays; unpack it, or give an .npz file");
+  }
+  if (!others.empty()) {
+    notes.push_back(fmt::format("left out of the archive, as they are no NumPy arrays: {}",
+                                fmt::join(others, ", ")));
+  }
+}
+
+// Single numbers that say something about the whole.
+void NumpyTable::read_numbers(SnapshotInfo& info) {
+  for (std::size_t array = 0; array < arrays_.size(); ++array) {
+    const NumpyHeader& header = arrays_[array].header;
+    const bool is_number =
+        header.shape.empty() && !header.is_structured && header.members.front().is_usable;
+    if (!is_number) continue;
+    StoredValues stored = plain_column(array, header, 0, 1).values;
+    stored.file = content(array);
+    const double value = value_at(stored, 0, 0);
+    const std::string& name = arrays_[array].name;
+    if (equal_ignoring_case(name, "time")) info.time = value;
+    if (equal_ignoring_case(name, "redshift")) info.redshift = value;
+    const bool is_box =
+        equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
+    if (is_box && value > 0) info.box_size = value;
+  }
+}
+
+// As many as the positions have, or the first array.
+void NumpyTable::choose_rows() {
+  bool is_known = false;
+  for (const NumpyArray& array : arrays_) {
+    if (array.header.shape.empty()) continue;
+    const bool is_position =
+        canonical_field_name(array.name) == "position" || equal_ignoring_case(array.name, "x");
+    if (is_known && !is_position) continue;
+    rows_ = array.header.rows();
+    is_known = true;
+    if (is_position) return;
+  }
+}
+
+void NumpyTable::add(const std::string& name, NumpyColumn column) {
+  const int width = column.values.values_per_particle;
+  if ((width != 1 && width != 3) || columns_.size() >= most_columns) {
+    left_out_.push_back(name);
+    return;
+  }
+  columns_.push_back({name, width});
+  places_.push_back(std::move(column));
+}
+
+void NumpyTable::add_array(std::size_t array, const std::vector<std::string>& names) {
+  const NumpyHeader& header = arrays_[array].header;
+  if (header.shape.empty()) return;  // a single number
+  const bool fits = header.rows() == rows_ && header.shape.size() <= (header.is_structured ? 1 : 2);
+  if (!fits) {
+    left_out_.push_back(arrays_[array].name);
+  } else if (header.is_structured) {
+    if (!names.empty()) {
+      throw DataError(path_.string() + ": its columns have names; leave read.columns out");
+    }
+    add_members(array);
+  } else if (!header.members.front().is_usable) {
+    left_out_.push_back(arrays_[array].name);
+  } else {
+    add_plain(array, names);
+  }
+}
+
+void NumpyTable::add_members(std::size_t array) {
+  const NumpyHeader& header = arrays_[array].header;
+  for (const NumpyMember& member : header.members) {
+    const bool is_usable = member.is_usable && (member.values == 1 || member.values == 3);
+    if (is_usable) {
+      add(member.name, member_column(array, header, member));
+    } else if (!member.name.empty()) {
+      left_out_.push_back(member.name);
+    }
+  }
+}
+
+void NumpyTable::add_plain(std::size_t array, const std::vector<std::string>& names) {
+  const NumpyHeader& header = arrays_[array].header;
+  const std::uint64_t width = header.shape.size() > 1 ? header.shape[1] : 1;
+  if (!names.empty()) {
+    add_named(array, names);
+  } else if (!arrays_[array].name.empty()) {
+    if (width == 1 || width == 3) {
+      add(arrays_[array].name, plain_column(array, header, 0, width));
+    } else {
+      left_out_.push_back(arrays_[array].name);
+    }
+  } else if (width >= 3) {
+    add("position", plain_column(array, header, 0, 3));
+    for (std::uint64_t i = 3; i < std::min<std::uint64_t>(width, most_columns); ++i) {
+      add(fmt::format("column_{}", i + 1), plain_column(array, header, i, 1));
+    }
+  } else {
+    throw DataError(fmt::format(
+        "{}: an array of {} columns, expected at least three, x, y and z{}", path_.string(), width,
+        header.rows() == 3 ? ": save its transpose" : " or an array of records with names"));
+  }
+}
+
+void NumpyTable::add_named(std::size_t array, const std::vector<std::string>& names) {
+  const NumpyHeader& header = arrays_[array].header;
+  const std::uint64_t width = header.shape.size() > 1 ? header.shape[1] : 1;
+  if (names.size() != width) {
+    throw DataError(
+        fmt::format("{}: an array of {} columns, but read.columns names {}; name each of "
+                    "them (\"-\" for those that are not needed)",
+                    path_.string(), width, names.size()));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] != "-") add(names[i], plain_column(array, header, i, 1));
+  }
+}
+
+std::shared_ptr<const MappedFile> NumpyTable::content(std::size_t array) const {
+  if (!archive_) {
+    file_->check_size();
+    return file_;
+  }
+  const ZipArchive::Entry& entry = archive_->entries()[entries_[array]];
+  auto bytes = archive_->read(entry, entry.bytes);
+  return MappedFile::of_bytes(path_, std::move(bytes));
+}
+
+void NumpyTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
+  std::map<std::size_t, std::shared_ptr<const MappedFile>> contents;
+  std::vector<StoredValues> stored;
+  for (const TableValue& value : wanted) {
+    const NumpyColumn& column = places_[value.column];
+    auto& file = contents[column.array];
+    if (!file) file = content(column.array);
+    stored.push_back(column.values);
+    stored.back().file = file;
+  }
+  std::vector<double> values(wanted.size());
+  for (std::uint64_t row = 0; row < rows_; ++row) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      values[i] = value_at(stored[i], row, wanted[i].axis);
+    use(values.data());
+  }
+}
+
+std::optional<std::vector<std::uint64_t>> NumpyTable::integers(std::size_t column) const {
+  StoredValues stored = places_[column].values;
+  stored.file = content(places_[column].array);
+  return make_integers({stored});
+}
+
+bool is_zip(const MappedFile& file) {
+  constexpr std::array<char, 4> magic = {'P', 'K', 3, 4};
+  return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+}
+
+class NumpyFormat : public SnapshotFormat {
+ public:
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
+    return is_numpy_array(file->data(), file->size()) || is_zip(*file);
+  }
+  std::unique_ptr<Snapshot> open(const fs::path& path,
+                                 const SnapshotOptions& options) const override {
+    SnapshotInfo info;
+    info.files = {path};
+    auto table = std::make_unique<NumpyTable>(path, options.columns, info);
+    return make_table_snapshot(std::move(table), std::move(info));
+  }
+  bool has_columns() const override { return true; }
+};
+
+}  // namespace
+
+const SnapshotFormat& numpy_format() {
+  static const NumpyFormat format;
+  return format;
+}
+
+}  // namespace splotchcl

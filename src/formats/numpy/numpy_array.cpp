@@ -1,0 +1,163 @@
+#include "formats/numpy/numpy_array.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "formats/numpy/python_literal.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr char magic[] = {'\x93', 'N', 'U', 'M', 'P', 'Y'};
+
+[[noreturn]] void fail(const std::string& name, const std::string& what) {
+  throw DataError(
+      fmt::format("{}: {}; the file is truncated or damaged: write it again", name, what));
+}
+
+struct KindName {
+  std::string_view code;
+  ValueKind kind;
+};
+constexpr KindName kind_names[] = {
+    {"f4", ValueKind::float32}, {"f8", ValueKind::float64}, {"i1", ValueKind::int8},
+    {"i2", ValueKind::int16},   {"i4", ValueKind::int32},   {"i8", ValueKind::int64},
+    {"u1", ValueKind::uint8},   {"u2", ValueKind::uint16},  {"u4", ValueKind::uint32},
+    {"u8", ValueKind::uint64},  {"b1", ValueKind::uint8}};
+
+// "<f4": endianness, kind, bytes. Kinds that are not read still have a length.
+NumpyMember parse_type(const std::string& text, const std::string& name) {
+  NumpyMember member;
+  if (text.size() < 3) fail(name, fmt::format("the type '{}' is not one of NumPy's", text));
+  const bool is_big = text[0] == '>';
+  const std::string_view code = std::string_view(text).substr(1);
+  for (const KindName& known : kind_names) {
+    if (known.code != code) continue;
+    member.kind = known.kind;
+    member.is_usable = true;
+  }
+  const char* const end = code.data() + code.size();
+  const auto [stop, error] = std::from_chars(code.data() + 1, end, member.bytes);
+  // Dates have a unit after their length: M8[ns].
+  const bool is_length = error == std::errc() && (stop == end || *stop == '[');
+  constexpr std::uint64_t longest = 1U << 20;
+  if (!is_length || member.bytes > longest) {
+    fail(name, fmt::format("the type '{}' is not one of NumPy's", text));
+  }
+  if (code[0] == 'U') member.bytes *= 4;
+  if (member.is_usable) member.is_swapped = is_big == is_little_endian_host() && text[0] != '|';
+  if (member.bytes == 1) member.is_swapped = false;
+  return member;
+}
+
+std::uint64_t multiply(std::uint64_t a, std::uint64_t b, const std::string& name) {
+  std::uint64_t product = 0;
+  if (__builtin_mul_overflow(a, b, &product)) fail(name, "the array's shape overflows");
+  return product;
+}
+
+std::vector<std::uint64_t> parse_shape(const PythonLiteral& literal, const std::string& name) {
+  std::vector<std::uint64_t> shape;
+  if (literal.kind == PythonLiteral::Kind::integer) return {literal.integer};
+  if (literal.kind != PythonLiteral::Kind::sequence) fail(name, "the array's shape is no tuple");
+  for (const PythonLiteral& side : literal.items) {
+    if (side.kind != PythonLiteral::Kind::integer)
+      fail(name, "the array's shape is not of numbers");
+    shape.push_back(side.integer);
+  }
+  return shape;
+}
+
+// ("name", "<f4") or ("name", "<f4", (3,)). The name may be ("title", "name").
+NumpyMember parse_member(const PythonLiteral& literal, const std::string& name) {
+  using Kind = PythonLiteral::Kind;
+  const bool is_member =
+      literal.kind == Kind::sequence && literal.items.size() >= 2 && literal.items.size() <= 3;
+  if (!is_member) fail(name, "a member of its records has no name and type");
+  const PythonLiteral* label = &literal.items[0];
+  if (label->kind == Kind::sequence && label->items.size() == 2) label = &label->items[1];
+  if (label->kind != Kind::text || literal.items[1].kind != Kind::text) {
+    fail(name, "a member of its records is made of other records, or has no name; flatten it");
+  }
+  NumpyMember member = parse_type(literal.items[1].text, name);
+  member.name = label->text;
+  if (literal.items.size() < 3) return member;
+  for (const std::uint64_t side : parse_shape(literal.items[2], name)) {
+    member.values = multiply(member.values, side, name);
+  }
+  return member;
+}
+
+void read_types(const PythonLiteral& literal, const std::string& name, NumpyHeader& header) {
+  if (literal.kind == PythonLiteral::Kind::text) {
+    header.members = {parse_type(literal.text, name)};
+  } else if (literal.kind == PythonLiteral::Kind::sequence) {
+    header.is_structured = true;
+    for (const PythonLiteral& item : literal.items)
+      header.members.push_back(parse_member(item, name));
+  } else {
+    fail(name, "its header has no type of values");
+  }
+  for (NumpyMember& member : header.members) {
+    member.offset = header.record_bytes;
+    const std::uint64_t bytes = multiply(member.bytes, member.values, name);
+    if (__builtin_add_overflow(header.record_bytes, bytes, &header.record_bytes)) {
+      fail(name, "the length of its records overflows");
+    }
+  }
+  if (header.record_bytes == 0) fail(name, "its records have no bytes");
+}
+
+const PythonLiteral& require(const PythonLiteral& dictionary, const char* key,
+                             const std::string& name) {
+  const PythonLiteral* const found = dictionary.find(key);
+  if (found == nullptr) fail(name, fmt::format("its header has no '{}'", key));
+  return *found;
+}
+
+}  // namespace
+
+bool is_numpy_array(const std::byte* data, std::uint64_t size) {
+  return size >= sizeof magic && std::memcmp(data, magic, sizeof magic) == 0;
+}
+
+NumpyHeader read_numpy_header(const std::byte* data, std::uint64_t size, std::uint64_t file_size,
+                              const std::string& name) {
+  const auto byte = [&](std::uint64_t at) { return std::to_integer<std::uint32_t>(data[at]); };
+  constexpr std::uint64_t shortest = 12;
+  if (!is_numpy_array(data, size) || size < shortest) fail(name, "no header of a NumPy array");
+  const std::uint32_t version = byte(6);
+  if (version < 1 || version > 3) {
+    fail(name, fmt::format("version {} of NumPy's format, expected 1, 2 or 3", version));
+  }
+  const std::uint64_t start = version == 1 ? 10 : 12;
+  std::uint64_t length = byte(8) + (byte(9) << 8);
+  if (version > 1) length += (byte(10) << 16) + (std::uint64_t{byte(11)} << 24);
+  if (length > size - start) {
+    fail(name, fmt::format("a header of {} bytes, but only {} are there", length, size - start));
+  }
+  const std::string text(reinterpret_cast<const char*>(data) + start, length);
+  const std::optional<PythonLiteral> literal = parse_python_literal(text);
+  if (!literal) fail(name, "its header cannot be understood");
+  NumpyHeader header;
+  header.data_offset = start + length;
+  read_types(require(*literal, "descr", name), name, header);
+  header.shape = parse_shape(require(*literal, "shape", name), name);
+  header.is_fortran_order = require(*literal, "fortran_order", name).is_true;
+  std::uint64_t bytes = header.record_bytes;
+  for (const std::uint64_t side : header.shape)
+    bytes = multiply(bytes, side, name);
+  if (file_size - header.data_offset != bytes) {
+    fail(name, fmt::format("{} bytes of values, expected {} for an array of shape ({})",
+                           file_size - header.data_offset, bytes, fmt::join(header.shape, ", ")));
+  }
+  return header;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/mapped_file.h"
+#include "formats/stored_values.h"
+
+namespace splotchcl {
+
+// A member of a structured array's records, or what a plain array is made of.
+struct NumpyMember {
+  std::string name;  // empty in a plain array
+  ValueKind kind = ValueKind::float32;
+  bool is_swapped = false;
+  bool is_usable = false;    // a number of a kind that is read
+  std::uint64_t offset = 0;  // in the record
+  std::uint64_t values = 1;  // more for members that are arrays
+  std::uint64_t bytes = 0;   // of one value
+};
+
+// The header of an array in NumPy's format (.npy, versions 1 to 3).
+struct NumpyHeader {
+  std::vector<NumpyMember> members;
+  bool is_structured = false;
+  bool is_fortran_order = false;
+  std::vector<std::uint64_t> shape;  // empty: a single value
+  std::uint64_t record_bytes = 0;
+  std::uint64_t data_offset = 0;
+
+  std::uint64_t rows() const { return shape.empty() ? 1 : shape.front(); }
+};
+
+bool is_numpy_array(const std::byte* data, std::uint64_t size);
+
+// Reads a header from the first bytes of an array; `name` is for messages. `file_size` is that
+// of the whole array, which must be what its shape needs. Throws DataError.
+NumpyHeader read_numpy_header(const std::byte* data, std::uint64_t size, std::uint64_t file_size,
+                              const std::string& name);
+
+}  // namespace splotchcl

@@ -1,0 +1,182 @@
+#include "splotchcl/snapshot_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "formats/snapshot_format.h"
+#include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
+#include "snapshot/subset_snapshot.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* what_is_expected =
+    "expected Gadget format 1 or 2, HDF5 of Gadget, SWIFT, Phantom and the like, Tipsy, NumPy, or "
+    "a "
+    "table as text";
+
+struct FamiliarFile {
+  std::string_view start;
+  const char* what;
+};
+
+// What a file that is no snapshot is, where its first bytes tell, and what to do.
+std::string describe_other(const fs::path& path) {
+  using namespace std::string_view_literals;
+  static constexpr FamiliarFile known[] = {
+      {"\x1f\x8b"sv, "a gzip archive; unpack it first"},
+      {"BZh"sv, "a bzip2 archive; unpack it first"},
+      {"\xfd\x37zXZ\0"sv, "an xz archive; unpack it first"},
+      {"\x28\xb5\x2f\xfd"sv, "a zstd archive; unpack it first"},
+      {"7z\xbc\xaf\x27\x1c"sv, "a 7z archive; unpack it first"},
+      {"\x89PNG"sv, "a PNG image"},
+      {"\xff\xd8\xff"sv, "a JPEG image"},
+      {"GIF8"sv, "a GIF image"},
+      {"\x76\x2f\x31\x01"sv, "an EXR image"},
+      {"II*\0"sv, "a TIFF image"},
+      {"%PDF"sv, "a PDF document"},
+      {"\x7f\x45LF"sv, "a program"},
+      {"SIMPLE  ="sv, "a FITS file; convert it to HDF5 or to a NumPy array"}};
+  const auto file = MappedFile::open(path);
+  const std::string_view content(reinterpret_cast<const char*>(file->data()), file->size());
+  for (const FamiliarFile& other : known) {
+    if (content.substr(0, other.start.size()) == other.start) return other.what;
+  }
+  constexpr std::size_t tar_mark = 257;
+  if (content.size() >= tar_mark + 5 && content.substr(tar_mark, 5) == "ustar") {
+    return "a tar archive; unpack it first";
+  }
+  const std::string_view start = content.substr(0, 4096);
+  const bool is_text = std::all_of(start.begin(), start.end(), [](char c) {
+    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 32;
+  });
+  return is_text ? "text, but no table with three or more numbers in each line" : "";
+}
+
+std::string first_bytes(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  std::string text;
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(file->size(), 8); ++i) {
+    text += fmt::format("{}{:02x}", i == 0 ? "" : " ", std::to_integer<unsigned>(file->data()[i]));
+  }
+  return text;
+}
+
+// Whatever else may be missing: without positions there is nothing to draw.
+void check_positions(const SnapshotInfo& info) {
+  for (const ParticleTypeInfo& type : info.types) {
+    const FieldInfo* const position = find_field(type, "position");
+    if (position != nullptr && position->values_per_particle == 3) continue;
+    throw DataError(
+        fmt::format("{}: particles of type {} have no positions of three coordinates in every file "
+                    "of the snapshot; the snapshot is incomplete or damaged",
+                    info.files.front().string(), type.type));
+  }
+}
+
+std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions& options) {
+  const SnapshotFormat* const format = find_format(path);
+  if (format != nullptr) {
+    auto snapshot = format->open(path, options);
+    if (!options.columns.empty() && !format->has_columns()) {
+      throw UsageError(
+          fmt::format("{}: read.columns is for tables, but this is {}, whose fields have "
+                      "names; leave read.columns out",
+                      path.string(), snapshot->info().format));
+    }
+    check_positions(snapshot->info());
+    return snapshot;
+  }
+  if (fs::file_size(path) == 0) {
+    throw DataError(fmt::format(
+        "{}: the file is empty; expected a snapshot: copy or write it again", path.string()));
+  }
+  const std::string other = describe_other(path);
+  if (!other.empty()) {
+    const bool says_what_to_do = other.find(';') != std::string::npos;
+    throw DataError(fmt::format("{}: not a snapshot: it is {}{}", path.string(), other,
+                                says_what_to_do ? "" : fmt::format("; {}", what_is_expected)));
+  }
+  throw DataError(fmt::format("{}: not a known snapshot format (it starts with the bytes {}); {}",
+                              path.string(), first_bytes(path), what_is_expected));
+}
+
+// The snapshots of a folder: files by the name that they share. Tables of text do not count:
+// simulations write many that are no particles.
+std::map<fs::path, std::vector<fs::path>> find_sets(const fs::path& folder) {
+  std::map<fs::path, std::vector<fs::path>> sets;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    const SnapshotFormat* const format = find_format(entry.path());
+    if (format == nullptr || format == &text_table_format()) continue;
+    const auto member = parse_member_name(entry.path());
+    // The ending keeps snapshot.0 and snapshot.0.hdf5 apart.
+    const fs::path key =
+        member ? fs::path(member->base.string() + ".*" + member->ending) : entry.path();
+    sets[key].push_back(entry.path());
+  }
+  for (auto& [key, files] : sets)
+    std::sort(files.begin(), files.end());
+  return sets;
+}
+
+std::unique_ptr<Snapshot> open_folder(const fs::path& folder, const SnapshotOptions& options) {
+  const auto sets = find_sets(folder);
+  if (sets.empty()) {
+    throw DataError(fmt::format("{}: no snapshot in this folder; give the path of a snapshot file",
+                                folder.string()));
+  }
+  if (sets.size() > 1) {
+    throw DataError(fmt::format(
+        "{}: the folder holds {} snapshots ({}, {}{}); give the path of one of them",
+        folder.string(), sets.size(), sets.begin()->first.filename().string(),
+        std::next(sets.begin())->first.filename().string(), sets.size() > 2 ? ", ..." : ""));
+  }
+  const std::vector<fs::path>& files = sets.begin()->second;
+  auto snapshot = open_file(files.front(), options);
+  if (snapshot->info().files.size() != files.size()) {
+    throw DataError(fmt::format(
+        "{}: the folder holds {} files named {}, but the header of {} says that it belongs to a "
+        "snapshot of {}; give the path of one file",
+        folder.string(), files.size(), sets.begin()->first.filename().string(),
+        files.front().filename().string(), snapshot->info().files.size()));
+  }
+  return snapshot;
+}
+
+}  // namespace
+
+std::vector<const SnapshotFormat*> snapshot_formats() {
+  return {&gadget_binary_format(), &hdf5_formats(), &numpy_format(), &tipsy_format(),
+          &text_table_format()};
+}
+
+const SnapshotFormat* find_format(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  for (const SnapshotFormat* const format : snapshot_formats()) {
+    if (format->recognizes(file)) return format;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOptions& options) try {
+  if (fs::is_directory(path)) return open_folder(path, options);
+  return open_file(fs::exists(path) ? path : find_by_base_name(path), options);
+} catch (const fs::filesystem_error& error) {
+  throw DataError(fmt::format("{}: cannot be read: {}; check the path and its permissions",
+                              path.string(), error.code().message()));
+}
+
+std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
+                                            const ReadSettings& read) {
+  std::unique_ptr<Snapshot> whole = open_snapshot(path, SnapshotOptions{read.columns});
+  if (read.every == 1 && !read.max_particles) return whole;
+  return std::make_unique<SubsetSnapshot>(std::move(whole), read);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "common/mapped_file.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+
+// A file format. To add one: write its file, declare it here and list it in
+// snapshot_formats().
+class SnapshotFormat {
+ public:
+  virtual ~SnapshotFormat() = default;
+
+  // Judges by the first bytes, never by the name. A damaged file of the format is
+  // recognised too, so that open() can say what is wrong with it.
+  virtual bool recognizes(const std::shared_ptr<const MappedFile>& file) const = 0;
+
+  // `path` is any file of a multi-file set. Throws DataError.
+  virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                         const SnapshotOptions& options) const = 0;
+
+  // Whether SnapshotOptions::columns means something for it.
+  virtual bool has_columns() const { return false; }
+};
+
+const SnapshotFormat& gadget_binary_format();  // formats 1 and 2
+const SnapshotFormat& hdf5_formats();          // Gadget and its relatives, Phantom
+const SnapshotFormat& numpy_format();          // .npy and .npz
+const SnapshotFormat& tipsy_format();
+const SnapshotFormat& text_table_format();
+
+// In the order in which they are asked.
+std::vector<const SnapshotFormat*> snapshot_formats();
+
+// The format of a file; null where it has none of them. Throws DataError when the file cannot
+// be opened.
+const SnapshotFormat* find_format(const std::filesystem::path& path);
+
+}  // namespace splotchcl

@@ -1,0 +1,163 @@
+#include "formats/stored_values.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace splotchcl {
+namespace {
+
+struct SixBytes {};  // stands for uint48 where a type is asked for
+
+template <typename T>
+T load_as(const std::byte* bytes, bool is_swapped) {
+  std::byte copy[sizeof(T)];
+  std::memcpy(copy, bytes, sizeof copy);
+  if (is_swapped) std::reverse(copy, copy + sizeof copy);
+  T value;
+  std::memcpy(&value, copy, sizeof value);
+  return value;
+}
+
+template <typename T>
+auto load(const std::byte* bytes, bool is_swapped) {
+  if constexpr (std::is_same_v<T, SixBytes>) {
+    std::byte wide[8] = {};
+    const bool is_big = is_swapped == is_little_endian_host();
+    std::memcpy(is_big ? wide + 2 : wide, bytes, 6);
+    return load_as<std::uint64_t>(wide, is_swapped);
+  } else {
+    return load_as<T>(bytes, is_swapped);
+  }
+}
+
+// Calls `use` with a null pointer of the type that `kind` stands for.
+template <typename Use>
+auto with_value_type(ValueKind kind, Use&& use) {
+  switch (kind) {
+    case ValueKind::float32:
+      return use(static_cast<const float*>(nullptr));
+    case ValueKind::float64:
+      return use(static_cast<const double*>(nullptr));
+    case ValueKind::int8:
+      return use(static_cast<const std::int8_t*>(nullptr));
+    case ValueKind::int16:
+      return use(static_cast<const std::int16_t*>(nullptr));
+    case ValueKind::int32:
+      return use(static_cast<const std::int32_t*>(nullptr));
+    case ValueKind::int64:
+      return use(static_cast<const std::int64_t*>(nullptr));
+    case ValueKind::uint8:
+      return use(static_cast<const std::uint8_t*>(nullptr));
+    case ValueKind::uint16:
+      return use(static_cast<const std::uint16_t*>(nullptr));
+    case ValueKind::uint32:
+      return use(static_cast<const std::uint32_t*>(nullptr));
+    case ValueKind::uint48:
+      return use(static_cast<const SixBytes*>(nullptr));
+    case ValueKind::uint64:
+      break;
+  }
+  return use(static_cast<const std::uint64_t*>(nullptr));
+}
+
+std::uint64_t stride_of(const StoredValues& part) {
+  return part.stride != 0 ? part.stride : part.packed_bytes_per_particle();
+}
+
+std::uint64_t axis_stride_of(const StoredValues& part) {
+  return part.axis_stride != 0 ? part.axis_stride : size_of(part.kind);
+}
+
+constexpr Vec3 zero = {{0, 0, 0}};
+
+bool can_point_into_file(const StoredValues& part) {
+  const std::byte* const first = part.file->data() + part.offset;
+  return part.kind == ValueKind::float32 && !part.is_swapped &&
+         stride_of(part) == part.packed_bytes_per_particle() &&
+         axis_stride_of(part) == sizeof(float) &&
+         reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0;
+}
+
+template <typename T>
+float* convert_as(const StoredValues& part, const Vec3& origin, float* out) {
+  const bool has_origin = part.values_per_particle == 3 && origin != zero;
+  const std::byte* particle = part.file->data() + part.offset;
+  const std::uint64_t stride = stride_of(part);
+  const std::uint64_t axis_stride = axis_stride_of(part);
+  for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride) {
+    for (int axis = 0; axis < part.values_per_particle; ++axis) {
+      const auto value =
+          load<T>(particle + static_cast<std::uint64_t>(axis) * axis_stride, part.is_swapped);
+      *out++ = has_origin ? static_cast<float>(static_cast<double>(value) - origin.a[axis])
+                          : static_cast<float>(value);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_little_endian_host() {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+double value_at(const StoredValues& values, std::uint64_t particle, int axis) {
+  const std::byte* const bytes = values.file->data() + values.offset +
+                                 particle * stride_of(values) +
+                                 static_cast<std::uint64_t>(axis) * axis_stride_of(values);
+  return with_value_type(values.kind, [&](auto* type) {
+    using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
+    return static_cast<double>(load<T>(bytes, values.is_swapped));
+  });
+}
+
+double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t offset,
+                 ValueKind kind, bool is_swapped) {
+  return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped, 0}, 0, 0);
+}
+
+Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origin) {
+  std::vector<StoredValues> parts;
+  std::copy_if(all_parts.begin(), all_parts.end(), std::back_inserter(parts),
+               [](const StoredValues& part) { return part.particles > 0; });
+  std::size_t size = 0;
+  for (const StoredValues& part : parts) {
+    part.file->check_size();
+    size += part.particles * static_cast<std::size_t>(part.values_per_particle);
+  }
+  if (parts.size() == 1 && can_point_into_file(parts[0]) && origin == zero) {
+    const std::byte* const first = parts[0].file->data() + parts[0].offset;
+    return Column(parts[0].file, reinterpret_cast<const float*>(first), size);
+  }
+  std::vector<float> values(size);
+  float* out = values.data();
+  for (const StoredValues& part : parts) {
+    out = with_value_type(part.kind, [&](auto* type) {
+      return convert_as<std::remove_cv_t<std::remove_pointer_t<decltype(type)>>>(part, origin, out);
+    });
+  }
+  return Column::owning(std::move(values));
+}
+
+std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts) {
+  std::vector<std::uint64_t> values;
+  for (const StoredValues& part : parts) {
+    const bool is_integer = part.kind != ValueKind::float32 && part.kind != ValueKind::float64;
+    if (!is_integer || part.values_per_particle != 1) return std::nullopt;
+    part.file->check_size();
+    const std::byte* particle = part.file->data() + part.offset;
+    with_value_type(part.kind, [&](auto* type) {
+      using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
+      for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride_of(part)) {
+        values.push_back(static_cast<std::uint64_t>(load<T>(particle, part.is_swapped)));
+      }
+    });
+  }
+  return values;
+}
+
+}  // namespace splotchcl

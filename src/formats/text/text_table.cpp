@@ -1,0 +1,356 @@
+// Delimited text: a header with the names of the columns, then a line of numbers for each
+// particle, separated by commas, semicolons or white space.
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "formats/snapshot_format.h"
+#include "formats/table.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+constexpr std::size_t most_columns = 4096;
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
+
+std::string_view trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+bool is_comment(std::string_view line) {
+  return line.front() == '#' || line.front() == '%' || line.front() == '!' ||
+         line.substr(0, 2) == "//";
+}
+
+// Goes through the lines of a file that are not blank.
+class Lines {
+ public:
+  explicit Lines(const MappedFile& file, std::uint64_t offset = 0, std::uint64_t number = 0)
+      : data_(reinterpret_cast<const char*>(file.data())),
+        size_(file.size()),
+        offset_(offset),
+        number_(number) {
+    if (offset_ == 0 &&
+        std::string_view(data_, size_).substr(0, byte_order_mark.size()) == byte_order_mark) {
+      offset_ = byte_order_mark.size();
+    }
+  }
+
+  bool next() {
+    while (offset_ < size_) {
+      start_ = offset_;
+      const void* const end = std::memchr(data_ + offset_, '\n', size_ - offset_);
+      const std::uint64_t stop =
+          end == nullptr ? size_
+                         : static_cast<std::uint64_t>(static_cast<const char*>(end) - data_);
+      offset_ = stop + 1;
+      ++number_;
+      line_ = trim(std::string_view(data_ + start_, stop - start_));
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+  std::string_view line() const { return line_; }
+  std::uint64_t number() const { return number_; }  // from 1
+  std::uint64_t start() const { return start_; }
+
+ private:
+  const char* data_;
+  std::uint64_t size_, offset_, number_;
+  std::uint64_t start_ = 0;
+  std::string_view line_;
+};
+
+// The separator of a line: a comma or semicolon outside of quotes, else white space.
+char find_separator(std::string_view line) {
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') is_quoted = !is_quoted;
+    if (!is_quoted && (c == ',' || c == ';')) return c;
+  }
+  return ' ';
+}
+
+// Takes the next cell off the line, without quotes and blanks around it.
+std::string_view take_cell(std::string_view& line, char separator, bool& has_more) {
+  if (separator == ' ') line = trim(line);
+  std::size_t end = 0;
+  bool is_quoted = false;
+  for (; end < line.size(); ++end) {
+    const char c = line[end];
+    if (c == '"') is_quoted = !is_quoted;
+    if (is_quoted) continue;
+    if (separator == ' ' ? c == ' ' || c == '\t' : c == separator) break;
+  }
+  std::string_view cell = trim(line.substr(0, end));
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
+    cell = trim(cell.substr(1, cell.size() - 2));
+  }
+  has_more = end < line.size();
+  line.remove_prefix(has_more ? end + 1 : end);
+  return cell;
+}
+
+std::vector<std::string_view> split(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  for (bool has_more = true; has_more && cells.size() < most_columns;) {
+    cells.push_back(take_cell(line, separator, has_more));
+  }
+  return cells;
+}
+
+bool is_missing(std::string_view cell) {
+  constexpr std::array<std::string_view, 6> words = {"na", "n/a", "null", "none", "--", "masked"};
+  return cell.empty() || std::any_of(words.begin(), words.end(), [cell](std::string_view word) {
+           return equal_ignoring_case(cell, word);
+         });
+}
+
+std::optional<double> parse_plain(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+// A number; not-a-number where the cell says that there is none.
+std::optional<double> parse_number(std::string_view cell) {
+  if (is_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
+  if (cell.front() == '+') cell.remove_prefix(1);
+  if (const auto value = parse_plain(cell)) return value;
+  // Fortran's double precision: 1.5D+03.
+  const std::size_t exponent = cell.find_first_of("dD");
+  if (exponent == std::string_view::npos || exponent == 0 || cell.size() > 64) return std::nullopt;
+  std::string with_e(cell);
+  with_e[exponent] = 'e';
+  return parse_plain(with_e);
+}
+
+struct Layout {
+  char separator = ' ';
+  std::vector<std::string> names;       // from the header; empty where there is none
+  std::vector<std::string_view> cells;  // of the first row
+  std::uint64_t first_row = 0;          // its place in the file
+  std::uint64_t lines_before = 0;
+};
+
+// The words of a line as names of columns; none where they are not as many as wanted.
+std::vector<std::string> names_in(std::string_view line, std::size_t wanted) {
+  for (const char candidate : {',', ';', ' '}) {
+    const std::vector<std::string_view> words = split(line, candidate);
+    const bool is_complete =
+        words.size() == wanted && std::none_of(words.begin(), words.end(),
+                                               [](std::string_view word) { return word.empty(); });
+    if (is_complete) return {words.begin(), words.end()};
+  }
+  return {};
+}
+
+bool is_row(const std::vector<std::string_view>& cells) {
+  constexpr std::ptrdiff_t fewest = 3;
+  return std::count_if(cells.begin(), cells.end(), [](std::string_view cell) {
+           return !is_missing(cell) && parse_number(cell).has_value();
+         }) >= fewest;
+}
+
+// The first row of numbers, after comments and at most one other line, and the names before
+// it. None where the file is not a table.
+std::optional<Layout> find_layout(const MappedFile& file) {
+  constexpr std::uint64_t farthest_row = 1U << 20;  // a text that is no table is given up
+  std::string_view header;
+  bool has_plain_header = false;
+  Lines lines(file);
+  while (lines.next() && lines.start() < farthest_row) {
+    std::string_view line = lines.line();
+    if (line.find('\0') != std::string_view::npos) return std::nullopt;
+    if (is_comment(line)) {
+      if (has_plain_header) continue;
+      line.remove_prefix(line.substr(0, 2) == "//" ? 2 : 1);
+      if (!trim(line).empty()) header = trim(line);
+      continue;
+    }
+    Layout layout;
+    layout.separator = find_separator(line);
+    layout.cells = split(line, layout.separator);
+    if (is_row(layout.cells)) {
+      layout.first_row = lines.start();
+      layout.lines_before = lines.number() - 1;
+      if (!header.empty()) layout.names = names_in(header, layout.cells.size());
+      if (has_plain_header && layout.names.empty()) return std::nullopt;
+      return layout;
+    }
+    if (has_plain_header) return std::nullopt;
+    has_plain_header = true;
+    header = line;
+  }
+  return std::nullopt;
+}
+
+class TextTable : public Table {
+ public:
+  TextTable(std::shared_ptr<const MappedFile> file, const std::vector<std::string>& names,
+            std::vector<std::string>& notes);
+
+  const std::vector<TableColumn>& columns() const override { return columns_; }
+  std::uint64_t rows() const override { return rows_; }
+  void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
+
+ private:
+  struct WantedCell {
+    std::size_t cell;
+    std::size_t place;  // among the wanted values
+  };
+  void read_row(const Lines& line, const std::vector<WantedCell>& wanted, double* values) const;
+  [[noreturn]] void fail(const Lines& line, const std::string& what) const;
+
+  std::shared_ptr<const MappedFile> file_;
+  Layout layout_;
+  std::vector<TableColumn> columns_;
+  std::vector<std::size_t> cells_;  // which cell of a row each column is
+  std::uint64_t rows_ = 0;
+};
+
+TextTable::TextTable(std::shared_ptr<const MappedFile> file, const std::vector<std::string>& names,
+                     std::vector<std::string>& notes)
+    : file_(std::move(file)) {
+  const std::string path = file_->path().string();
+  std::optional<Layout> layout = find_layout(*file_);
+  if (!layout) throw DataError(path + ": not a table of numbers any more; is it being written?");
+  layout_ = std::move(*layout);
+  const std::size_t width = layout_.cells.size();
+  const std::vector<std::string>& wanted = names.empty() ? layout_.names : names;
+  if (wanted.empty()) {
+    throw DataError(fmt::format(
+        "{}: a table of {} columns without a header that names them; name them in their order, as "
+        "in read.columns = [\"x\", \"y\", \"z\", \"mass\"]",
+        path, width));
+  }
+  if (wanted.size() != width) {
+    throw DataError(fmt::format(
+        "{}: line {} has {} columns, but read.columns names {}; name each of them (\"-\" for those "
+        "that are not needed)",
+        path, layout_.lines_before + 1, width, wanted.size()));
+  }
+  std::vector<std::string> left_out;
+  for (std::size_t i = 0; i < width; ++i) {
+    if (wanted[i] == "-") continue;
+    if (parse_number(layout_.cells[i])) {
+      columns_.push_back({wanted[i], 1});
+      cells_.push_back(i);
+    } else {
+      left_out.push_back(wanted[i]);
+    }
+  }
+  if (!left_out.empty()) {
+    notes.push_back(fmt::format("columns left out, as they do not hold numbers: {}",
+                                fmt::join(left_out, ", ")));
+  }
+  Lines lines(*file_, layout_.first_row, layout_.lines_before);
+  while (lines.next()) {
+    if (!is_comment(lines.line())) ++rows_;
+  }
+}
+
+void TextTable::fail(const Lines& line, const std::string& what) const {
+  throw DataError(fmt::format("{}: line {}: {}; the file is truncated or damaged: write it again",
+                              file_->path().string(), line.number(), what));
+}
+
+void TextTable::read_row(const Lines& line, const std::vector<WantedCell>& wanted,
+                         double* values) const {
+  std::string_view rest = line.line();
+  auto next = wanted.begin();
+  std::size_t cells = 0;
+  for (bool has_more = true; has_more; ++cells) {
+    const std::string_view cell = take_cell(rest, layout_.separator, has_more);
+    for (; next != wanted.end() && next->cell == cells; ++next) {
+      const std::optional<double> value = parse_number(cell);
+      if (!value) fail(line, fmt::format("found '{}', expected a number", cell.substr(0, 40)));
+      values[next->place] = *value;
+    }
+  }
+  const std::size_t expected = layout_.cells.size();
+  if (cells != expected) {
+    fail(line, fmt::format("found {} values, expected {} as in the first row", cells, expected));
+  }
+}
+
+void TextTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
+  std::vector<WantedCell> cells;
+  for (std::size_t place = 0; place < wanted.size(); ++place) {
+    cells.push_back({cells_[wanted[place].column], place});
+  }
+  std::sort(cells.begin(), cells.end(),
+            [](const WantedCell& a, const WantedCell& b) { return a.cell < b.cell; });
+  std::vector<double> values(wanted.size());
+  file_->check_size();
+  Lines lines(*file_, layout_.first_row, layout_.lines_before);
+  while (lines.next()) {
+    if (is_comment(lines.line())) continue;
+    read_row(lines, cells, values.data());
+    use(values.data());
+  }
+}
+
+std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column) const {
+  std::vector<std::uint64_t> values;
+  Lines lines(*file_, layout_.first_row, layout_.lines_before);
+  while (lines.next()) {
+    if (is_comment(lines.line())) continue;
+    const std::vector<std::string_view> cells = split(lines.line(), layout_.separator);
+    if (cells.size() <= cells_[column]) return std::nullopt;
+    const std::string_view cell = cells[cells_[column]];
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
+}
+
+const char* separator_name(char separator) {
+  if (separator == ',') return "commas";
+  return separator == ';' ? "semicolons" : "white space";
+}
+
+class TextTableFormat : public SnapshotFormat {
+ public:
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
+    return find_layout(*file).has_value();
+  }
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                 const SnapshotOptions& options) const override {
+    auto file = MappedFile::open(path);
+    SnapshotInfo info;
+    const std::optional<Layout> layout = find_layout(*file);
+    info.format = fmt::format("text with {} between columns",
+                              separator_name(layout ? layout->separator : ' '));
+    info.files = {path};
+    auto table = std::make_unique<TextTable>(std::move(file), options.columns, info.notes);
+    return make_table_snapshot(std::move(table), std::move(info));
+  }
+  bool has_columns() const override { return true; }
+};
+
+}  // namespace
+
+const SnapshotFormat& text_table_format() {
+  static const TextTableFormat format;
+  return format;
+}
+
+}  // namespace splotchcl

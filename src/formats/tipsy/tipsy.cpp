@@ -1,0 +1,248 @@
+// Tipsy: a header, then the particles of each type as records of single-precision numbers,
+// in either endianness.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "formats/snapshot_format.h"
+#include "formats/stored_values.h"
+#include "formats/tipsy/tipsy_arrays.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr std::uint64_t unpadded_header_bytes = 28;
+constexpr std::uint64_t header_bytes = 32;
+
+// The auxiliary array of Gasoline and ChaNGa: half of the radius that the kernel reaches.
+constexpr const char* smoothing_label = "smoothlength";
+constexpr double smoothing_length_factor = 2;
+
+struct TipsyField {
+  const char* label;
+  int values_per_particle;
+  std::uint64_t bytes() const { return 4 * static_cast<unsigned>(values_per_particle); }
+};
+
+struct TipsyType {
+  int type;  // Gadget's number
+  std::vector<TipsyField> fields;
+
+  std::uint64_t bytes_per_particle() const {
+    std::uint64_t bytes = 0;
+    for (const TipsyField& field : fields)
+      bytes += field.bytes();
+    return bytes;
+  }
+};
+
+// In the order of the file.
+const std::array<TipsyType, 3>& tipsy_types() {
+  static const std::array<TipsyType, 3> types = {
+      TipsyType{0,
+                {{"mass", 1},
+                 {"pos", 3},
+                 {"vel", 3},
+                 {"rho", 1},
+                 {"temp", 1},
+                 {"hsmooth", 1},
+                 {"metals", 1},
+                 {"phi", 1}}},
+      TipsyType{1, {{"mass", 1}, {"pos", 3}, {"vel", 3}, {"eps", 1}, {"phi", 1}}},
+      TipsyType{4,
+                {{"mass", 1},
+                 {"pos", 3},
+                 {"vel", 3},
+                 {"metals", 1},
+                 {"tform", 1},
+                 {"eps", 1},
+                 {"phi", 1}}}};
+  return types;
+}
+
+struct TipsyHeader {
+  double time = 0;
+  std::uint64_t particles = 0;
+  std::array<std::uint64_t, 3> counts = {};  // gas, dark, stars
+  bool is_swapped = false;
+
+  std::uint64_t particle_bytes() const {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      bytes += counts[i] * tipsy_types()[i].bytes_per_particle();
+    }
+    return bytes;
+  }
+};
+
+// A header in one endianness; none when its numbers do not agree with each other.
+std::optional<TipsyHeader> parse_header(const std::shared_ptr<const MappedFile>& file,
+                                        bool is_swapped) {
+  const auto count = [&](std::uint64_t offset) {
+    return static_cast<std::uint64_t>(number_at(file, offset, ValueKind::uint32, is_swapped));
+  };
+  TipsyHeader header;
+  header.is_swapped = is_swapped;
+  header.time = number_at(file, 0, ValueKind::float64, is_swapped);
+  header.particles = count(8);
+  const std::uint64_t dimensions = count(12);
+  for (std::size_t i = 0; i < 3; ++i)
+    header.counts[i] = count(16 + 4 * i);
+  const std::uint64_t sum = header.counts[0] + header.counts[1] + header.counts[2];
+  if (dimensions != 3 || header.particles == 0 || header.particles != sum) return std::nullopt;
+  return header;
+}
+
+std::optional<TipsyHeader> find_header(const std::shared_ptr<const MappedFile>& file) {
+  if (file->size() < unpadded_header_bytes) return std::nullopt;
+  const auto native = parse_header(file, false);
+  return native ? native : parse_header(file, true);
+}
+
+class TipsySnapshot : public Snapshot {
+ public:
+  explicit TipsySnapshot(const std::filesystem::path& path);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
+
+ private:
+  const TipsyArray* find_array(const std::string& name) const;
+  std::uint64_t first_of(std::size_t group) const;  // among the particles of all types
+  void find_start();
+  void describe_types();
+
+  std::shared_ptr<const MappedFile> file_;
+  TipsyHeader header_;
+  std::uint64_t start_ = header_bytes;  // of the first particle
+  std::vector<TipsyArray> arrays_;      // beside the file
+  SnapshotInfo info_;
+};
+
+TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFile::open(path)) {
+  const std::optional<TipsyHeader> header = find_header(file_);
+  if (!header) {  // it was one when it was recognised
+    throw DataError(path.string() + ": not a Tipsy file any more; is it being written?");
+  }
+  header_ = *header;
+  info_.format = fmt::format("Tipsy, {}-endian",
+                             header_.is_swapped == is_little_endian_host() ? "big" : "little");
+  info_.files = {path};
+  info_.time = header_.time;
+  info_.velocity_doubt = "Tipsy does not tell its units, nor whether its time is the scale factor";
+  find_start();
+  arrays_ = find_tipsy_arrays(path, header_.particles, header_.is_swapped, info_.notes);
+  describe_types();
+}
+
+const TipsyArray* TipsySnapshot::find_array(const std::string& name) const {
+  for (const TipsyArray& array : arrays_) {
+    if (array.name == name) return &array;
+  }
+  return nullptr;
+}
+
+std::uint64_t TipsySnapshot::first_of(std::size_t group) const {
+  return std::accumulate(header_.counts.begin(),
+                         header_.counts.begin() + static_cast<std::ptrdiff_t>(group),
+                         std::uint64_t{0});
+}
+
+void TipsySnapshot::find_start() {
+  const std::uint64_t particle_bytes = header_.particle_bytes();
+  if (file_->size() == particle_bytes + header_bytes) return;
+  if (file_->size() == particle_bytes + unpadded_header_bytes) {
+    start_ = unpadded_header_bytes;
+    return;
+  }
+  throw DataError(fmt::format(
+      "{}: a Tipsy file of {} gas, {} dark and {} star particles should have {} bytes, but has {}; "
+      "it is truncated or damaged: copy or write it again",
+      file_->path().string(), header_.counts[0], header_.counts[1], header_.counts[2],
+      particle_bytes + header_bytes, file_->size()));
+}
+
+void TipsySnapshot::describe_types() {
+  for (std::size_t i = 0; i < header_.counts.size(); ++i) {
+    if (header_.counts[i] == 0) continue;
+    ParticleTypeInfo type;
+    type.type = tipsy_types()[i].type;
+    type.count = header_.counts[i];
+    for (const TipsyField& field : tipsy_types()[i].fields) {
+      type.fields.push_back({"", field.label, field.values_per_particle, ""});
+    }
+    for (const TipsyArray& array : arrays_) {
+      const bool is_new =
+          std::none_of(type.fields.begin(), type.fields.end(),
+                       [&](const FieldInfo& f) { return f.file_name == array.name; });
+      if (is_new) type.fields.push_back({"", array.name, 1, ""});
+    }
+    name_fields(type);
+    info_.types.push_back(std::move(type));
+  }
+  if (header_.counts[0] > 0) {
+    info_.notes.push_back(
+        "Tipsy's hsmooth holds the softening of gravity, as codes write it, and is not taken for a "
+        "smoothing length");
+  }
+}
+
+Column TipsySnapshot::read(int type, const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  std::uint64_t offset = start_;
+  std::size_t i = 0;
+  for (; tipsy_types()[i].type != type; ++i) {
+    offset += header_.counts[i] * tipsy_types()[i].bytes_per_particle();
+  }
+  const TipsyType& layout = tipsy_types()[i];
+  const bool is_own = std::any_of(layout.fields.begin(), layout.fields.end(),
+                                  [&](const TipsyField& f) { return f.label == field.file_name; });
+  if (!is_own) {
+    return read_tipsy_array(*find_array(field.file_name), first_of(i), header_.counts[i],
+                            field.file_name == smoothing_label ? smoothing_length_factor : 1);
+  }
+  for (auto before = layout.fields.begin(); before->label != field.file_name; ++before) {
+    offset += before->bytes();
+  }
+  return make_column({{file_, offset, header_.counts[i], field.values_per_particle,
+                       layout.bytes_per_particle(), ValueKind::float32, header_.is_swapped}});
+}
+
+std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {
+  const FieldInfo& field = require_ids(info_, type);
+  std::size_t group = 0;
+  while (tipsy_types()[group].type != type)
+    ++group;
+  const TipsyArray* const array = find_array(field.file_name);
+  auto ids = array == nullptr ? std::nullopt
+                              : read_tipsy_integers(*array, first_of(group), header_.counts[group]);
+  if (!ids) refuse_ids(info_, type, field);
+  return std::move(*ids);
+}
+
+class TipsyFormat : public SnapshotFormat {
+ public:
+  bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
+    return find_header(file).has_value();
+  }
+  std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
+                                 const SnapshotOptions&) const override {
+    return std::make_unique<TipsySnapshot>(path);
+  }
+};
+
+}  // namespace
+
+const SnapshotFormat& tipsy_format() {
+  static const TipsyFormat format;
+  return format;
+}
+
+}  // namespace splotchcl

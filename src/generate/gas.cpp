@@ -1,0 +1,60 @@
+#include "generate/gas.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "smoothing/smoothing_lengths.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// Record lengths of a Gadget file are 32 bits: positions take 12 bytes a particle.
+constexpr std::uint64_t most_particles = 170'000'000;
+// Fewer could not be told a smoothing length from their neighbours.
+constexpr std::uint64_t least_particles = 1000;
+
+std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double box_size) {
+  const Column position(nullptr, particles.position.data(), particles.position.size());
+  const std::optional<double> period = box_size > 0 ? std::optional(box_size) : std::nullopt;
+  const Column lengths = find_smoothing_lengths(position, particles.count(), period);
+  return {lengths.data(), lengths.data() + lengths.size()};
+}
+
+}  // namespace
+
+ParticleShares share_particles(const GenerateSettings& settings) {
+  if (settings.particles < least_particles || settings.particles > most_particles) {
+    throw UsageError("particles: " + std::to_string(settings.particles) + " is not between " +
+                     std::to_string(least_particles) + " and " + std::to_string(most_particles));
+  }
+  if (!(settings.star_fraction >= 0 && settings.star_fraction <= 0.9)) {
+    throw UsageError("stars: " + std::to_string(settings.star_fraction) +
+                     " is not a fraction of the particles between 0 and 0.9");
+  }
+  ParticleShares shares;
+  shares.stars = static_cast<std::uint64_t>(
+      std::llround(settings.star_fraction * static_cast<double>(settings.particles)));
+  shares.gas = settings.particles - shares.stars;
+  return shares;
+}
+
+void set_mass(GeneratedParticles& particles, double total) {
+  if (particles.count() == 0) return;
+  particles.mass = static_cast<float>(total / static_cast<double>(particles.count()));
+}
+
+void find_density(GeneratedSnapshot& snapshot) {
+  for (GeneratedParticles* particles : {&snapshot.gas, &snapshot.stars}) {
+    if (particles->count() == 0) continue;
+    particles->smoothing_length = smoothing_lengths(*particles, snapshot.box_size);
+  }
+  const std::vector<float>& lengths = snapshot.gas.smoothing_length;
+  const Column density = densities_from_smoothing_lengths(
+      Column::uniform(snapshot.gas.mass), Column(nullptr, lengths.data(), lengths.size()),
+      lengths.size());
+  snapshot.gas.density.assign(density.data(), density.data() + density.size());
+}
+
+}  // namespace splotchcl

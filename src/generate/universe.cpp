@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+
+#include "generate/gas.h"
+#include "generate/haloes.h"
+#include "generate/profile.h"
+#include "generate/web.h"
+#include "splotchcl/error.h"
+#include "splotchcl/generate.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double box = 50000;  // kpc/h
+constexpr double critical_density = cosmology::critical_density;
+constexpr double largest_birth_radius = 0.2;  // of haloes
+constexpr double overdensity = 200;           // of a halo, over the mean
+constexpr double gas_concentration = 7, star_concentration = 12;
+constexpr double star_extent = 0.35;   // of the virial radius
+constexpr double stars_per_gas = 0.1;  // in mass
+constexpr double web_energy = 60;      // (km/s)^2, of gas at the mean density
+
+double virial_radius(const Halo& halo) {
+  return halo.birth_radius / std::cbrt(overdensity);
+}
+
+// 1e10 solar masses/h, dark matter included.
+double mass(const Halo& halo) {
+  return 4 * M_PI / 3 * std::pow(halo.birth_radius * box, 3) * cosmology::matter * critical_density;
+}
+
+double circular_speed(const Halo& halo) {
+  return std::sqrt(gravitational_constant * mass(halo) / (virial_radius(halo) * box));
+}
+
+Vec3 thermal_speed(const Halo& halo, Random& random) {
+  return random.normal_vector(circular_speed(halo) * M_SQRT1_2);
+}
+
+// The i-th of a sequence that fills the unit cube evenly, without a lattice's rows: steps
+// by powers of the root of x^4 = x + 1.
+Vec3 even_place(std::uint64_t i, Random& random, double jitter) {
+  constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  Vec3 place;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value =
+        0.5 + static_cast<double>(i + 1) * steps[axis] + jitter * (random.uniform() - 0.5);
+    place.a[axis] = value - std::floor(value);
+  }
+  return place;
+}
+
+Vec3 into_box(Vec3 place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inside = (place.a[axis] - std::floor(place.a[axis])) * box;
+    // What single precision rounds up to the far face is the near face.
+    place.a[axis] = static_cast<float>(inside) < static_cast<float>(box) ? inside : 0;
+  }
+  return place;
+}
+
+struct PlacedGas {
+  Vec3 place, speed;
+  double heat = 0;  // the part of its internal energy from falling into a halo, (km/s)^2
+};
+
+// Gas born in a halo's ball: the inner part fills the profile; towards the rim it still
+// streams in along the web.
+void settle(PlacedGas& gas, const Halo& halo, const Vec3& birthplace, Random& random) {
+  static const NfwProfile profile(gas_concentration);
+  const double distance = boost::qvm::mag(periodic_difference(halo.birthplace, birthplace));
+  const double enclosed = std::min(1.0, std::pow(distance / halo.birth_radius, 3));
+  const double radius = virial_radius(halo) * profile.radius(std::min(1.0, 1.25 * enclosed));
+  const Vec3 settled = random.direction() * radius;
+  const Vec3 streaming = periodic_difference(halo.center, gas.place);
+  const double share = 1 - smoothstep((enclosed - 0.4) / 0.6);
+  gas.place = halo.center + settled * share + streaming * (1 - share);
+  gas.speed += thermal_speed(halo, random) * share;
+  gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * std::exp(0.25 * random.normal());
+}
+
+// The smallest hold some thirty particles, and are born of peaks that the waves resolve.
+std::vector<Halo> make_haloes(const Web& web, double spacing) {
+  std::vector<Halo> haloes = find_haloes([&](double radius) { return web.contrast(radius); },
+                                         largest_birth_radius, std::clamp(2 * spacing, 0.02, 0.05));
+  if (haloes.empty()) {
+    throw UsageError("this seed makes a universe in which nothing has collapsed; choose another");
+  }
+  for (Halo& halo : haloes)
+    halo.center = web.displaced(halo.birthplace);
+  return haloes;
+}
+
+std::vector<PlacedGas> place_gas(const Web& web, std::vector<Halo>& haloes, std::uint64_t count,
+                                 double spacing, Random& random) {
+  std::vector<Vec3> birthplaces, places;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    birthplaces.push_back(even_place(i, random, 0.5 * spacing));
+    places.push_back(web.displaced(birthplaces.back()));
+  }
+  sharpen_web(places, haloes);
+  const HaloMap map(haloes, 192);
+  std::vector<PlacedGas> all;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    PlacedGas gas;
+    gas.place = places[i];
+    gas.speed = periodic_difference(birthplaces[i], places[i]) *
+                (box * cosmology::hubble * cosmology::growth_rate);
+    const int halo = map.at(birthplaces[i]);
+    if (halo != HaloMap::none) {
+      settle(gas, haloes[static_cast<std::size_t>(halo)], birthplaces[i], random);
+    }
+    all.push_back(gas);
+  }
+  return all;
+}
+
+// Stars by halo: almost in proportion to its mass.
+std::vector<double> cumulated_star_shares(const std::vector<Halo>& haloes) {
+  std::vector<double> shares;
+  double sum = 0;
+  for (const Halo& halo : haloes)
+    shares.push_back(sum += std::pow(mass(halo), 0.8));
+  return shares;
+}
+
+void add_stars(GeneratedParticles& stars, const std::vector<Halo>& haloes, std::uint64_t count,
+               Random& random) {
+  const std::vector<double> shares = cumulated_star_shares(haloes);
+  const NfwProfile profile(star_concentration);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto chosen =
+        std::upper_bound(shares.begin(), shares.end() - 1, random.uniform() * shares.back());
+    const Halo& halo = haloes[static_cast<std::size_t>(chosen - shares.begin())];
+    const double enclosed = random.uniform();
+    const double radius = star_extent * virial_radius(halo) * profile.radius(enclosed);
+    const Vec3 place = halo.center + random.direction() * radius;
+    stars.add(into_box(place), thermal_speed(halo, random));
+    // Large haloes formed their stars early, and their centres earlier still.
+    const double latest =
+        std::clamp(0.9 - 0.12 * std::log10(mass(halo)) + 0.3 * enclosed, 0.1, 1.0);
+    stars.age.push_back(static_cast<float>(latest * std::sqrt(random.uniform())));
+  }
+}
+
+}  // namespace
+
+GeneratedSnapshot generate_universe(const GenerateSettings& settings) {
+  const ParticleShares shares = share_particles(settings);
+  Random random(settings.seed);
+  const Web web(box, random);
+  const double spacing = 1 / std::cbrt(static_cast<double>(shares.gas));
+  std::vector<Halo> haloes = make_haloes(web, spacing);
+  const std::vector<PlacedGas> placed = place_gas(web, haloes, shares.gas, spacing, random);
+
+  GeneratedSnapshot snapshot;
+  snapshot.box_size = box;
+  for (const PlacedGas& gas : placed)
+    snapshot.gas.add(into_box(gas.place), gas.speed);
+  add_stars(snapshot.stars, haloes, shares.stars, random);
+
+  const double mean_density = cosmology::baryons * critical_density;
+  const double gas_mass = mean_density * box * box * box;
+  set_mass(snapshot.gas, gas_mass);
+  set_mass(snapshot.stars, stars_per_gas * gas_mass);
+  find_density(snapshot);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const double contrast = static_cast<double>(snapshot.gas.density[i]) / mean_density;
+    snapshot.gas.internal_energy.push_back(
+        static_cast<float>(web_energy * std::pow(contrast, 0.6) + placed[i].heat));
+  }
+  return snapshot;
+}
+
+}  // namespace splotchcl

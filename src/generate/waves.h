@@ -1,0 +1,103 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "generate/random.h"
+
+namespace splotchcl {
+
+// The eight points of a grid on the periodic unit cube around a place, and the place's
+// share in each.
+class CellCorners {
+ public:
+  CellCorners(const Vec3& place, int side) : side_(side) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double scaled = place.a[axis] * side;
+      cell_[axis] = static_cast<int>(std::floor(scaled));
+      part_[axis] = scaled - cell_[axis];
+    }
+  }
+  std::size_t index(int corner) const {
+    std::size_t index = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int wrapped = ((cell_[axis] + step(corner, axis)) % side_ + side_) % side_;
+      index = index * static_cast<std::size_t>(side_) + static_cast<std::size_t>(wrapped);
+    }
+    return index;
+  }
+  double weight(int corner) const {
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      weight *= step(corner, axis) == 1 ? part_[axis] : 1 - part_[axis];
+    }
+    return weight;
+  }
+
+ private:
+  static int step(int corner, int axis) { return corner >> axis & 1; }
+
+  int side_;
+  int cell_[3];
+  double part_[3];
+};
+
+// A periodic real field on a grid over the unit cube, z fastest, interpolated linearly
+// between.
+class PeriodicGrid {
+ public:
+  PeriodicGrid(int side, std::vector<float> values) : side_(side), values_(std::move(values)) {}
+
+  int side() const { return side_; }
+  float at(int x, int y, int z) const {
+    return values_[(wrapped(x) * static_cast<std::size_t>(side_) + wrapped(y)) *
+                       static_cast<std::size_t>(side_) +
+                   wrapped(z)];
+  }
+  double interpolate(const Vec3& place) const {
+    const CellCorners corners(place, side_);
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      sum += corners.weight(corner) * static_cast<double>(values_[corners.index(corner)]);
+    }
+    return sum;
+  }
+
+ private:
+  std::size_t wrapped(int i) const { return static_cast<std::size_t>((i % side_ + side_) % side_); }
+
+  int side_;
+  std::vector<float> values_;
+};
+
+// Wave numbers are counted per box: n = (x, y, z) stands for exp(2 pi i n.r).
+struct WaveNumber {
+  int x = 0, y = 0, z = 0;
+  double length() const { return std::sqrt(static_cast<double>(x * x + y * y + z * z)); }
+};
+
+// A Gaussian random field: a sum of waves |n| <= longest, z >= 0 (the others follow,
+// because the field is real).
+class RandomWaves {
+ public:
+  // `power` is the variance of a wave's amplitude by |n|.
+  RandomWaves(int longest, const std::function<double(double)>& power, Random& random);
+
+  // The field with each wave's amplitude multiplied by `filter`, on side^3 points.
+  PeriodicGrid evaluate(int side,
+                        const std::function<std::complex<double>(WaveNumber)>& filter) const;
+
+  // The variance of the field with each amplitude multiplied by `filter` of |n|.
+  double variance(const std::function<double(double)>& filter) const;
+
+ private:
+  template <typename Visit>
+  void for_each_wave(Visit&& visit) const;
+
+  int longest_;
+  std::vector<std::complex<double>> amplitudes_;
+};
+
+}  // namespace splotchcl

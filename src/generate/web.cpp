@@ -1,0 +1,79 @@
+#include "generate/web.h"
+
+#include <cmath>
+#include <complex>
+
+#include "generate/gather.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int longest_wave = 24;
+constexpr int grid_side = 96;
+constexpr double web_wave = 6.5;  // waves per box; shorter ones do not move the web
+
+// Bent where radiation ruled: Bardeen et al. (1986), by waves per box.
+double power(double wave, double box_size) {
+  constexpr double shape = 0.2;
+  const double q = 2 * M_PI * wave / (box_size / 1000) / shape;
+  const double polynomial =
+      1 + 3.89 * q + std::pow(16.1 * q, 2) + std::pow(5.46 * q, 3) + std::pow(6.71 * q, 4);
+  const double transfer = std::log1p(2.34 * q) / (2.34 * q) / std::pow(polynomial, 0.25);
+  return wave * transfer * transfer;
+}
+
+// The mean of a wave over a ball.
+double ball(double wave, double radius) {
+  const double x = 2 * M_PI * wave * radius;
+  return x < 1e-3 ? 1 : 3 * (std::sin(x) - x * std::cos(x)) / (x * x * x);
+}
+
+}  // namespace
+
+Web::Web(double box_size, Random& random)
+    : waves_(
+          longest_wave, [box_size](double wave) { return power(wave, box_size); }, random),
+      amplitude_(cosmology::sigma_8 / std::sqrt(waves_.variance([box_size](double wave) {
+                   return ball(wave, 8000 / box_size);
+                 }))),
+      displacement_{displacement(0), displacement(1), displacement(2)} {}
+
+Vec3 Web::displaced(const Vec3& birthplace) const {
+  Vec3 place = birthplace;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place.a[axis] += displacement_[axis].interpolate(birthplace);
+  }
+  return place;
+}
+
+PeriodicGrid Web::contrast(double radius) const {
+  return waves_.evaluate(grid_side, [&](WaveNumber n) {
+    return std::complex<double>(amplitude_ * ball(n.length(), radius));
+  });
+}
+
+// Its divergence is minus the contrast. Short waves, which have collapsed long ago, would
+// only blur the web.
+PeriodicGrid Web::displacement(int axis) const {
+  return waves_.evaluate(grid_side, [&](WaveNumber n) {
+    const int component[3] = {n.x, n.y, n.z};
+    const double length = n.length();
+    const double kept = std::exp(-0.5 * std::pow(length / web_wave, 2));
+    return std::complex<double>(0,
+                                amplitude_ * kept * component[axis] / (2 * M_PI * length * length));
+  });
+}
+
+void sharpen_web(std::vector<Vec3>& places, std::vector<Halo>& haloes) {
+  constexpr int side = 128;
+  constexpr double widths[] = {1.6, 1.3, 1};  // in cells
+  for (const double width : widths) {
+    const PeriodicGrid density = smoothed_density(places, side, width);
+    for (Vec3& place : places)
+      place += step_uphill(density, place, width);
+    for (Halo& halo : haloes)
+      halo.center += step_uphill(density, halo.center, width);
+  }
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "generate/haloes.h"
+#include "generate/waves.h"
+
+namespace splotchcl {
+
+// Cold dark matter in a flat universe, with lengths in kpc/h and masses in 1e10 solar
+// masses/h.
+namespace cosmology {
+constexpr double matter = 0.3, baryons = 0.045;  // in units of the critical density
+constexpr double critical_density = 2.77536e-8;  // per (kpc/h)^3
+constexpr double sigma_8 = 0.9;                  // of the contrast in balls of 8000 kpc/h
+constexpr double hubble = 0.1;                   // km/s per kpc/h
+constexpr double growth_rate = 0.51;             // matter^0.55, of today's linear growth
+}  // namespace cosmology
+
+// Where matter of the early, even universe has gone today, in linear theory: displacements
+// along a Gaussian random field (Zeldovich's approximation). Lengths in units of the box.
+class Web {
+ public:
+  Web(double box_size, Random& random);
+
+  Vec3 displaced(const Vec3& birthplace) const;
+  // The density's contrast, grown to today, averaged over balls of this radius.
+  PeriodicGrid contrast(double radius) const;
+
+ private:
+  PeriodicGrid displacement(int axis) const;
+
+  RandomWaves waves_;
+  double amplitude_;
+  std::array<PeriodicGrid, 3> displacement_;
+};
+
+// Zeldovich's sheets and filaments stay thick, because matter there crosses and runs on;
+// here it sticks. The haloes go along.
+void sharpen_web(std::vector<Vec3>& places, std::vector<Halo>& haloes);
+
+}  // namespace splotchcl

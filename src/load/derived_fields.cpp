@@ -1,0 +1,137 @@
+#include "load/derived_fields.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "common/words.h"
+#include "snapshot/field_names.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double proton_mass_g = 1.67262192369e-24;
+constexpr double boltzmann_erg_per_kelvin = 1.380649e-16;
+constexpr double adiabatic_index = 5.0 / 3;
+
+// "(km/s)^2" or "(2.998e+10 cm/s)^2", as unit_name() writes squares of velocities.
+std::optional<double> squared_velocity(const std::string& text) {
+  if (text == "(km/s)^2") return 1e10;
+  if (text == "(cm/s)^2") return 1.0;
+  const std::string end = " cm/s)^2";
+  if (text.size() <= end.size() || text.front() != '(' ||
+      text.compare(text.size() - end.size(), end.size(), end) != 0) {
+    return std::nullopt;
+  }
+  const auto velocity = parse_number(text.substr(1, text.size() - end.size() - 1));
+  if (!velocity) return std::nullopt;
+  return *velocity * *velocity;
+}
+
+// "a^-2" for the symbol "a": a^-2. Nothing for other words, or where `value` is 0: not known.
+std::optional<double> power_of(const std::string& word, const std::string& symbol, double value) {
+  if (word.compare(0, symbol.size(), symbol) != 0 || !(value > 0)) return std::nullopt;
+  if (word.size() == symbol.size()) return value;
+  if (word[symbol.size()] != '^') return std::nullopt;
+  const auto power = parse_number(word.substr(symbol.size() + 1));
+  if (!power) return std::nullopt;
+  return std::pow(value, *power);
+}
+
+bool begins_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+}  // namespace
+
+Column temperatures(const Column& internal_energy, const Column& electron_abundance,
+                    double energy_unit, std::size_t count) {
+  constexpr double x = hydrogen_mass_fraction;
+  const double per_energy_and_weight =
+      (adiabatic_index - 1) * energy_unit * proton_mass_g / boltzmann_erg_per_kelvin;
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double electrons = electron_abundance.is_absent()
+                                 ? (1 + x) / (2 * x)
+                                 : static_cast<double>(electron_abundance[i]);
+    const double weight = 4 / (1 + 3 * x + 4 * x * electrons);
+    values[i] = static_cast<float>(per_energy_and_weight * weight *
+                                   static_cast<double>(internal_energy[i]));
+  }
+  return Column::owning(std::move(values));
+}
+
+std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field) {
+  if (field.unit.empty()) {
+    // Gadget's own unit, of which its files say nothing.
+    return begins_with(info.format, "Gadget") ? std::optional(1e10) : std::nullopt;
+  }
+  const std::size_t end = field.unit.find(")^2");
+  if (end == std::string::npos) return std::nullopt;
+  std::optional<double> unit = squared_velocity(field.unit.substr(0, end + 3));
+  std::istringstream rest(field.unit.substr(end + 3));
+  const double scale_factor = info.cosmology ? info.cosmology->scale_factor : 0;
+  for (std::string word; unit && rest >> word;) {
+    auto factor = power_of(word, "h", info.hubble_parameter.value_or(0));
+    if (!factor) factor = power_of(word, "a", scale_factor);
+    unit = factor ? std::optional(*unit * *factor) : std::nullopt;
+  }
+  return unit;
+}
+
+Column lengths_of_vectors(const Column& vectors) {
+  std::vector<float> lengths(vectors.size() / 3);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    lengths[i] = std::hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]);
+  }
+  return Column::owning(std::move(lengths));
+}
+
+Column axis_of_vectors(const Column& vectors, std::size_t axis, double added) {
+  std::vector<float> values(vectors.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<float>(added + static_cast<double>(vectors[3 * i + axis]));
+  }
+  return Column::owning(std::move(values));
+}
+
+Column distances(const Column& position, const Vec3& origin, const Vec3& center) {
+  std::vector<float> values(position.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double d[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      d[axis] = (origin.a[axis] - center.a[axis]) + static_cast<double>(position[3 * i + axis]);
+    }
+    values[i] = static_cast<float>(std::hypot(d[0], d[1], d[2]));
+  }
+  return Column::owning(std::move(values));
+}
+
+std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,
+                                                   const std::string& name) {
+  const std::size_t length = name.size();
+  if (length < 3 || name[length - 2] != '_') return {nullptr, 0};
+  const std::size_t axis = std::string("xyz").find(name[length - 1]);
+  if (axis == std::string::npos) return {nullptr, 0};
+  const FieldInfo* const field = find_field(type, name.substr(0, length - 2));
+  if (field == nullptr || field->values_per_particle != 3) return {nullptr, 0};
+  return {field, axis};
+}
+
+std::vector<std::string> derivable_fields(const ParticleTypeInfo& type) {
+  const auto has = [&type](const char* name) { return find_field(type, name) != nullptr; };
+  std::vector<std::string> names;
+  for (const char* const name : {"smoothing_length", "density"}) {
+    if (!has(name)) names.push_back(name);
+  }
+  if (has("internal_energy") && !has("temperature")) names.push_back("temperature");
+  if (has("velocity") && !has("speed")) names.push_back("speed");
+  if (!has("radius")) names.push_back("radius");
+  for (const FieldInfo& field : type.fields) {
+    if (field.values_per_particle != 3) continue;
+    for (const char* const axis : {"_x", "_y", "_z"})
+      names.push_back(field.name + axis);
+  }
+  return names;
+}
+
+}  // namespace splotchcl

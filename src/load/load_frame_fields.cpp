@@ -1,0 +1,207 @@
+#include "load/load_frame_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "snapshot/field_names.h"
+#include "snapshot/load_memory.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// A column and how many particles it is for.
+struct Part {
+  Column column;
+  std::size_t count;
+};
+
+// One after the other, `width` values per particle.
+Column joined(const std::vector<Part>& parts, std::size_t width) {
+  if (parts.size() == 1) return parts.front().column;
+  const Column& first = parts.front().column;
+  const bool all_the_same = std::all_of(parts.begin(), parts.end(), [&first](const Part& part) {
+    return part.column.is_uniform() && part.column.uniform_value() == first.uniform_value();
+  });
+  if (all_the_same) return first;
+  std::size_t total = 0;
+  for (const Part& part : parts)
+    total += part.count;
+  std::vector<float> values;
+  values.reserve(total * width);
+  for (const Part& part : parts) {
+    const std::size_t size = part.count * width;
+    if (part.column.is_uniform()) {
+      values.insert(values.end(), size, part.column.uniform_value());
+    } else {
+      values.insert(values.end(), part.column.data(), part.column.data() + size);
+    }
+  }
+  return Column::owning(std::move(values));
+}
+
+}  // namespace
+
+ComponentFields::ComponentFields(const Component& component, const Snapshot& snapshot,
+                                 const MissingSizes& sizes, std::vector<std::string>& notes)
+    : component_(component), snapshot_(snapshot), notes_(notes) {
+  for (const int type : component.types) {
+    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
+    if (info != nullptr) {
+      types_.emplace_back(
+          snapshot, *info, label(), component.center,
+          [this](const std::string& text) { note(text); }, sizes);
+    } else if (component.types.size() > 1) {
+      note(fmt::format("the snapshot has no particles of type {}", type));
+    }
+  }
+  if (types_.empty()) refuse_types();
+  selected_.resize(types_.size());
+}
+
+void ComponentFields::refuse_types() const {
+  std::vector<int> present;
+  for (const ParticleTypeInfo& type : snapshot_.info().types)
+    present.push_back(type.type);
+  throw UsageError(
+      fmt::format("{}: {} has no particles of type {}, expected types with particles: {}", label(),
+                  snapshot_.info().files.front().string(), fmt::join(component_.types, " or "),
+                  fmt::join(present, ", ")));
+}
+
+void ComponentFields::check(const SortOrder& sort) const {
+  const auto check_scalars = [this](const std::string& field, const char* key) {
+    for (const TypeFields& type : types_) {
+      if (!field.empty()) type.check_scalars(field, key);
+    }
+  };
+  for (const TypeFields& type : types_) {
+    check_selection(component_, type, snapshot_);
+    if (!component_.color_vector.empty()) {
+      type.check_vectors(component_.color_vector, "color.vector");
+    }
+  }
+  if (!component_.size_fixed) check_scalars(component_.size_field, "size.field");
+  check_scalars(component_.color.field, "color.field");
+  check_scalars(component_.intensity.field, "intensity.field");
+  if (sort.by == SortOrder::By::field) check_scalars(sort.field, "sort.by");
+}
+
+void ComponentFields::select() {
+  for (std::size_t t = 0; t < types_.size(); ++t) {
+    selected_[t] = select_particles(component_, types_[t], snapshot_);
+  }
+  if (count() > 0) return;
+  std::size_t total = 0;
+  for (const TypeFields& type : types_)
+    total += type.count();
+  note(fmt::format("select and exclude leave none of its {} particles; nothing of it is drawn",
+                   total));
+}
+
+std::size_t ComponentFields::count_of(std::size_t type) const {
+  return selected_[type] ? selected_[type]->size() : types_[type].count();
+}
+
+std::size_t ComponentFields::count() const {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < types_.size(); ++t)
+    count += count_of(t);
+  return count;
+}
+
+// What had to be put together stays in the snapshot's memory; what is one type's as the
+// file has it is not copied at all.
+Column ComponentFields::collected(const std::string& what, const Read& read,
+                                  std::size_t width) const {
+  if (types_.size() == 1 && !selected_.front()) return read(types_.front());
+  const std::string key = fmt::format("{}: {}", particles_key(), what);
+  return snapshot_.memory().get<Column>(key, [&] {
+    std::vector<Part> parts;
+    for (std::size_t t = 0; t < types_.size(); ++t) {
+      parts.push_back({gather(read(types_[t]), selected_[t].get(), width), count_of(t)});
+    }
+    return joined(parts, width);
+  });
+}
+
+// Stands for the component's particles in the snapshot's memory.
+std::string ComponentFields::particles_key() const {
+  std::string key = "particles of types";
+  for (const TypeFields& type : types_)
+    key += fmt::format(" {}", type.info().type);
+  return fmt::format("{}, {}", key, selection_key(component_));
+}
+
+Vec3 ComponentFields::origin() const {
+  return placed_origin(component_.placement, component_.center, snapshot_.position_origin());
+}
+
+Column ComponentFields::positions() const {
+  const auto as_stored = [this] {
+    return collected(
+        "position", [](const TypeFields& type) { return type.positions(); }, 3);
+  };
+  const Placement& placement = component_.placement;
+  if (only_moves(placement)) return as_stored();
+  const std::string key = fmt::format("{}: placed about {} {} {} by {} scaled {}", particles_key(),
+                                      placement.axis.a[0], placement.axis.a[1], placement.axis.a[2],
+                                      placement.angle_degrees, placement.scale);
+  return snapshot_.memory().get<Column>(key, [&] {
+    return placed_positions(placement, component_.center, snapshot_.position_origin(), as_stored());
+  });
+}
+
+Column ComponentFields::scalars(const std::string& field, const std::string& key) const {
+  return collected("scalar " + field,
+                   [&](const TypeFields& type) { return type.scalars(field, key); });
+}
+
+Column ComponentFields::vectors(const std::string& field, const std::string& key) const {
+  return collected(
+      "vector " + field, [&](const TypeFields& type) { return type.vectors(field, key); }, 3);
+}
+
+bool ComponentFields::masses_are_known() const {
+  return std::all_of(types_.begin(), types_.end(),
+                     [](const TypeFields& type) { return has_masses(type.info()); });
+}
+
+Column ComponentFields::masses() const {
+  return collected("mass", [](const TypeFields& type) { return type.masses(); });
+}
+
+Column ComponentFields::fade() const {
+  const auto fades = [](const TypeFields& type) {
+    const FieldInfo* const field = find_field(type.info(), fade_field);
+    // A file may have a field of that name, which means something else.
+    return field != nullptr && field->file_name.empty();
+  };
+  if (std::none_of(types_.begin(), types_.end(), fades)) return {};
+  return collected("fade", [&fades](const TypeFields& type) {
+    return fades(type) ? type.scalars(fade_field, "fade") : Column::uniform(1);
+  });
+}
+
+Column ComponentFields::smoothing_lengths() const {
+  if (component_.size_fixed) return Column::uniform(static_cast<float>(*component_.size_fixed));
+  if (canonical_field_name(component_.size_field) == "smoothing_length") {
+    return collected("smoothing_length",
+                     [](const TypeFields& type) { return type.smoothing_lengths(); });
+  }
+  return scalars(component_.size_field, "size.field");
+}
+
+void ComponentFields::note(const std::string& text) const {
+  const std::string line = label() + ": " + text;
+  // Two of a component's values may rest on the same fact.
+  if (std::find(notes_.begin(), notes_.end(), line) == notes_.end()) notes_.push_back(line);
+}
+
+std::string ComponentFields::label() const {
+  return "component " + component_.name;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "load/placement.h"
+#include "load/select_particles.h"
+#include "load/type_fields.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// Reads the fields of one component: the particles that it selects of the types that it
+// draws, one type after the other. Messages name the component and the scene's key that
+// asked for the field.
+class ComponentFields {
+ public:
+  // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
+  // the component's types. Reads nothing yet.
+  ComponentFields(const Component& component, const Snapshot& snapshot, const MissingSizes& sizes,
+                  std::vector<std::string>& notes);
+  ComponentFields(const ComponentFields&) = delete;
+  ComponentFields& operator=(const ComponentFields&) = delete;
+
+  // Refuses fields and selections that the particles do not have, before anything is read.
+  void check(const SortOrder& sort) const;
+  // Finds the selected particles; before all that follows.
+  void select();
+
+  const SnapshotInfo& snapshot_info() const { return snapshot_.info(); }
+  std::size_t count() const;  // particles of all types together
+  // As they are placed in the scene: origin() + positions().
+  Vec3 origin() const;
+  Column positions() const;
+  // One value per particle; of a vector field its length. Throws UsageError when a type
+  // does not have the field.
+  Column scalars(const std::string& field, const std::string& key) const;
+  // Three values per particle, of a vector field.
+  Column vectors(const std::string& field, const std::string& key) const;
+  bool masses_are_known() const;
+  Column masses() const;
+  // How much of each particle is there, 0 to 1; absent: all of each.
+  Column fade() const;
+  // h as the scene says, before the placement's scale: a fixed size, a field of the file,
+  // or, for "smoothing_length" where the file has none, found from the particles themselves.
+  Column smoothing_lengths() const;
+
+  // Adds "component NAME: text" to the notes.
+  void note(const std::string& text) const;
+  std::string label() const;  // "component NAME" for messages
+
+ private:
+  using Read = std::function<Column(const TypeFields&)>;
+  Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
+  std::size_t count_of(std::size_t type) const;
+  std::string particles_key() const;
+  [[noreturn]] void refuse_types() const;
+
+  const Component& component_;
+  const Snapshot& snapshot_;
+  std::vector<std::string>& notes_;
+  std::vector<TypeFields> types_;
+  std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
+};
+
+}  // namespace splotchcl

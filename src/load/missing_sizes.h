@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "smoothing/smoothing_lengths.h"
+#include "splotchcl/load.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// How smoothing lengths are found that a file does not have.
+struct MissingSizes {
+  int neighbors = particles_in_sphere;
+  bool is_cached = false;
+  LoadProgress progress;
+};
+
+MissingSizes missing_sizes(const Scene& scene, const LoadProgress& progress);
+
+// From the neighbours of each particle of a type, or from the file beside the snapshot where
+// an earlier search has left them. `say` takes what the user should know.
+Column find_sizes_by_neighbors(const SnapshotInfo& info, int type, const Column& position,
+                               std::optional<double> periodic_box, const MissingSizes& how,
+                               const std::function<void(const std::string&)>& say);
+
+}  // namespace splotchcl

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "load/type_fields.h"
+#include "splotchcl/scene.h"
+
+namespace splotchcl {
+
+// Places of particles in their type's columns, in increasing order.
+using ParticleIndices = std::vector<std::size_t>;
+
+// The particles that component.select and component.exclude leave of a type; null where
+// the component has neither, and all are drawn. Found once per snapshot. Throws UsageError
+// for a field that the type does not have, DataError for ids that cannot be read.
+std::shared_ptr<const ParticleIndices> select_particles(const Component& component,
+                                                        const TypeFields& fields,
+                                                        const Snapshot& snapshot);
+
+// Refuses, before anything is read, what select_particles() would.
+void check_selection(const Component& component, const TypeFields& fields,
+                     const Snapshot& snapshot);
+
+// The text that stands for the component's selection where it is remembered.
+std::string selection_key(const Component& component);
+
+// What is selected of a column with `width` values per particle; the column itself where
+// `selected` is null or it is the same for all.
+Column gather(const Column& column, const ParticleIndices* selected, std::size_t width = 1);
+
+}  // namespace splotchcl

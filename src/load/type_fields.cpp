@@ -1,0 +1,255 @@
+#include "load/type_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/nearest_name.h"
+#include "load/derived_fields.h"
+#include "smoothing/smoothing_lengths.h"
+#include "snapshot/field_names.h"
+#include "snapshot/load_memory.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+bool all_are_sizes(const Column& column) {
+  return std::all_of(column.data(), column.data() + column.size(),
+                     [](float h) { return std::isfinite(h) && h > 0; });
+}
+
+}  // namespace
+
+TypeFields::TypeFields(const Snapshot& snapshot, const ParticleTypeInfo& type, std::string label,
+                       const Vec3& center, std::function<void(const std::string&)> note,
+                       MissingSizes sizes)
+    : snapshot_(&snapshot),
+      type_(&type),
+      label_(std::move(label)),
+      center_(center),
+      note_(std::move(note)),
+      sizes_(std::move(sizes)) {}
+
+Column TypeFields::positions() const {
+  return snapshot_->read(type_->type, "position");
+}
+
+std::vector<std::uint64_t> TypeFields::ids() const {
+  return snapshot_->read_ids(type_->type);
+}
+
+Column TypeFields::scalars(const std::string& field, const std::string& key) const {
+  if (const FieldInfo* const info = find_field(*type_, field)) {
+    if (info->values_per_particle == 1) return snapshot_->read(type_->type, field);
+    if (info->values_per_particle != 3) refuse_width(*info, field, key, "1 or 3");
+    return remembered("length of " + field,
+                      [&] { return lengths_of_vectors(field_column(*info)); });
+  }
+  if (const auto derive = find_derived(field, key)) return (*derive)();
+  refuse_field(field, key);
+}
+
+void TypeFields::check_scalars(const std::string& field, const std::string& key) const {
+  const FieldInfo* const info = find_field(*type_, field);
+  if (info == nullptr && !find_derived(field, key)) refuse_field(field, key);
+}
+
+Column TypeFields::vectors(const std::string& field, const std::string& key) const {
+  return field_column(require_vectors(field, key));
+}
+
+void TypeFields::check_vectors(const std::string& field, const std::string& key) const {
+  require_vectors(field, key);
+}
+
+const FieldInfo& TypeFields::require_vectors(const std::string& field,
+                                             const std::string& key) const {
+  const FieldInfo* const info = find_field(*type_, field);
+  if (info == nullptr) refuse_field(field, key);
+  if (info->values_per_particle != 3) refuse_width(*info, field, key, "3");
+  return *info;
+}
+
+Column TypeFields::field_column(const FieldInfo& field) const {
+  return snapshot_->read(type_->type, field.name);
+}
+
+std::optional<std::function<Column()>> TypeFields::find_derived(const std::string& field,
+                                                                const std::string& key) const {
+  const std::string canonical = canonical_field_name(field);
+  if (canonical == "smoothing_length") return [this] { return smoothing_lengths(); };
+  if (canonical == "density") return [this] { return densities(); };
+  if (canonical == "mass" && type_->table_mass) return [this] { return masses(); };
+  if (canonical == "temperature" && find_field(*type_, "internal_energy") != nullptr) {
+    return [this, key] {
+      return remembered("temperature", [&] { return derived_temperatures(key); });
+    };
+  }
+  if (equal_ignoring_case(field, "speed") && find_field(*type_, "velocity") != nullptr) {
+    return [this, key] { return scalars("velocity", key); };
+  }
+  if (equal_ignoring_case(field, "radius")) {
+    return [this] {
+      const auto& c = center_.a;
+      return remembered(fmt::format("radius from {} {} {}", c[0], c[1], c[2]), [&] {
+        return distances(positions(), snapshot_->position_origin(), center_);
+      });
+    };
+  }
+  if (const auto [vector, axis] = find_axis(*type_, field); vector != nullptr) {
+    return [this, info = vector, a = axis] {
+      const double added = info->name == "position" ? snapshot_->position_origin().a[a] : 0;
+      return remembered(fmt::format("axis {} of {}", a, info->name),
+                        [&] { return axis_of_vectors(field_column(*info), a, added); });
+    };
+  }
+  return std::nullopt;
+}
+
+Column TypeFields::derived_temperatures(const std::string& key) const {
+  const FieldInfo& energy = *find_field(*type_, "internal_energy");
+  const std::optional<double> unit = energy_unit_in_cgs(snapshot_->info(), energy);
+  if (!unit) {
+    throw UsageError(fmt::format(
+        "{}: {} is \"temperature\", which needs the unit of internal_energy, but {} has {}, "
+        "expected the square of a velocity; use internal_energy itself",
+        label_, key, file(), energy.unit.empty() ? "none" : "\"" + energy.unit + "\""));
+  }
+  const FieldInfo* const electrons = find_field(*type_, "electron_abundance");
+  std::string assumed;
+  if (energy.unit.empty()) assumed = "internal energies taken to be in (km/s)^2, Gadget's unit";
+  if (electrons == nullptr) {
+    assumed += fmt::format("{}all gas to be ionised", assumed.empty() ? "" : ", and ");
+  }
+  say(fmt::format("type {} has no temperature in the file; it follows from internal_energy{}{}",
+                  type_->type, assumed.empty() ? "" : ", with ", assumed));
+  return temperatures(field_column(energy),
+                      electrons != nullptr ? field_column(*electrons) : Column(), *unit, count());
+}
+
+Column TypeFields::masses() const {
+  if (find_field(*type_, "mass") != nullptr) return snapshot_->read(type_->type, "mass");
+  if (type_->table_mass) return Column::uniform(static_cast<float>(*type_->table_mass));
+  throw UsageError(fmt::format(
+      "{}: weight is \"mass\", but particles of type {} in {} have no masses; set weight to "
+      "\"constant\"",
+      label_, type_->type, file()));
+}
+
+Column TypeFields::densities() const {
+  return remembered("density", [this] {
+    const Column mass = has_masses(*type_) ? masses() : Column::uniform(1);
+    const Column h = smoothing_lengths();
+    say(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
+                    type_->type));
+    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbors);
+  });
+}
+
+Column TypeFields::smoothing_lengths() const {
+  if (find_field(*type_, "smoothing_length") != nullptr) {
+    return snapshot_->read(type_->type, "smoothing_length");
+  }
+  return remembered(fmt::format("smoothing_length {}", sizes_.neighbors),
+                    [this] { return find_lengths(); });
+}
+
+// From densities and masses or the volumes of cells, where they give all particles a size.
+std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) const {
+  const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
+  if (!has_density && find_field(*type_, "volume") == nullptr) return std::nullopt;
+  const Column lengths =
+      has_density
+          ? smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"),
+                                           count(), sizes_.neighbors)
+          : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
+                                          sizes_.neighbors);
+  if (all_are_sizes(lengths)) {
+    say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
+                    type_->type, has_density ? "density and mass" : "the volumes of its cells"));
+    return lengths;
+  }
+  reason = has_density ? ", and some of its densities or masses are not above 0"
+                       : ", and some of its volumes are not above 0";
+  return std::nullopt;
+}
+
+Column TypeFields::find_lengths() const {
+  const char* reason = "";
+  if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
+  say(
+      fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
+                  "reaches to neighbour {}",
+                  type_->type, reason, sizes_.neighbors));
+  const Column position = positions();
+  return find_sizes_by_neighbors(snapshot_->info(), type_->type, position, periodic_box(position),
+                                 sizes_, [this](const std::string& text) { say(text); });
+}
+
+// The box of the header, unless particles lie outside of one period of it.
+std::optional<double> TypeFields::periodic_box(const Column& position) const {
+  const std::optional<double> box = snapshot_->info().box_size;
+  if (!box || !(*box > 0)) return std::nullopt;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    float lowest = std::numeric_limits<float>::infinity();
+    float highest = -lowest;
+    for (std::size_t i = axis; i < position.size(); i += 3) {
+      if (!std::isfinite(position[i])) continue;
+      lowest = std::min(lowest, position[i]);
+      highest = std::max(highest, position[i]);
+    }
+    if (static_cast<double>(highest) - static_cast<double>(lowest) > *box) return std::nullopt;
+  }
+  return box;
+}
+
+// Notes go with what they are about: whoever finds it in the memory hears them, too.
+Column TypeFields::remembered(const std::string& what, const std::function<Column()>& make) const {
+  const std::string key = fmt::format("type {}: {}", type_->type, what);
+  const Made& made = snapshot_->memory().get<Made>(key, [&] {
+    const auto first = static_cast<std::ptrdiff_t>(said_.size());
+    Made fresh;
+    fresh.column = make();
+    fresh.notes.assign(said_.begin() + first, said_.end());
+    return fresh;
+  });
+  for (const std::string& note : made.notes)
+    say(note);
+  return made.column;
+}
+
+void TypeFields::say(const std::string& text) const {
+  said_.push_back(text);
+  note_(text);
+}
+
+void TypeFields::refuse_field(const std::string& field, const std::string& key) const {
+  std::vector<std::string> names;
+  for (const FieldInfo& known : type_->fields)
+    names.push_back(known.name);
+  const std::vector<std::string> derived = derivable_fields(*type_);
+  std::vector<std::string> all = names;
+  all.insert(all.end(), derived.begin(), derived.end());
+  throw UsageError(fmt::format(
+      "{}: {} is \"{}\", which particles of type {} in {} do not have, expected one of {}, or, "
+      "derived, {}{}",
+      label_, key, field, type_->type, file(), fmt::join(names, ", "), fmt::join(derived, ", "),
+      did_you_mean(nearest_name(field, all))));
+}
+
+void TypeFields::refuse_width(const FieldInfo& info, const std::string& field,
+                              const std::string& key, const char* expected) const {
+  throw UsageError(fmt::format(
+      "{}: {} is \"{}\", which has {} value{} per particle, expected a field with {}", label_, key,
+      field, info.values_per_particle, info.values_per_particle == 1 ? "" : "s", expected));
+}
+
+std::string TypeFields::file() const {
+  return snapshot_->info().files.front().string();
+}
+
+}  // namespace splotchcl

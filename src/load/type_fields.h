@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "load/missing_sizes.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// The fields of all particles of one type: those of the file, and what follows from them
+// (docs/scene.md, Fields). What had to be computed stays in the snapshot's memory.
+class TypeFields {
+ public:
+  // `label` begins messages; `note` takes what the user should know. `center` is where
+  // `radius` is measured from.
+  TypeFields(const Snapshot& snapshot, const ParticleTypeInfo& type, std::string label,
+             const Vec3& center, std::function<void(const std::string&)> note,
+             MissingSizes sizes = {});
+
+  const ParticleTypeInfo& info() const { return *type_; }
+  std::size_t count() const { return static_cast<std::size_t>(type_->count); }
+
+  // One value per particle; of a vector field its length. Throws UsageError when the type
+  // has no such field: `key` is the scene's that asked for it.
+  Column scalars(const std::string& field, const std::string& key) const;
+  // Three values per particle.
+  Column vectors(const std::string& field, const std::string& key) const;
+  Column positions() const;
+  Column masses() const;
+  // The file's; else from densities or neighbours.
+  Column smoothing_lengths() const;
+  std::vector<std::uint64_t> ids() const;
+
+  // Refuse what scalars() and vectors() would, and read nothing.
+  void check_scalars(const std::string& field, const std::string& key) const;
+  void check_vectors(const std::string& field, const std::string& key) const;
+
+ private:
+  struct Made {
+    Column column;
+    std::vector<std::string> notes;
+  };
+  Column remembered(const std::string& what, const std::function<Column()>& make) const;
+  Column field_column(const FieldInfo& field) const;
+  const FieldInfo& require_vectors(const std::string& field, const std::string& key) const;
+  std::optional<std::function<Column()>> find_derived(const std::string& field,
+                                                      const std::string& key) const;
+  Column derived_temperatures(const std::string& key) const;
+  Column densities() const;
+  Column find_lengths() const;
+  std::optional<Column> lengths_from_volumes(const char*& reason) const;
+  std::optional<double> periodic_box(const Column& position) const;
+  void say(const std::string& text) const;
+  [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;
+  [[noreturn]] void refuse_width(const FieldInfo& info, const std::string& field,
+                                 const std::string& key, const char* expected) const;
+  std::string file() const;
+
+  const Snapshot* snapshot_;
+  const ParticleTypeInfo* type_;
+  std::string label_;
+  Vec3 center_;
+  std::function<void(const std::string&)> note_;
+  MissingSizes sizes_;
+  mutable std::vector<std::string> said_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,151 @@
+#include "par/translate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace splotchcl::par {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+void translate_eyes(const std::string& projection, Translation& t) {
+  const double separation = t.par.number("EyeSeparation").value_or(0);
+  if (separation == 0) return;
+  const bool is_flat = projection == "orthographic";
+  if (is_flat) {
+    t.note(
+        "EyeSeparation with a flat projection, whose parallel views are the same for both eyes: "
+        "each eye looks at the look-at point instead");
+  }
+  t.scene.set_number("stereo.angle", separation);
+  t.scene.set_text("stereo.mode", is_flat ? "toe_in" : "off_axis");
+  t.scene.set_text("stereo.eyes", "centered");
+}
+
+void translate_center(Translation& t) {
+  bool is_elsewhere = false;
+  for (const std::string axis : {"x", "y", "z"}) {
+    const auto center = t.par.number("center_" + axis);
+    is_elsewhere = is_elsewhere || (center && center != t.par.number("camera_" + axis));
+  }
+  if (is_elsewhere) {
+    t.note(
+        "center_x, center_y and center_z are not carried over: the look-at point is in the "
+        "middle of the picture");
+  }
+}
+
+// "perspective" and its like.
+std::string projection(Translation& t) {
+  const bool is_perspective = t.par.boolean("projection").value_or(true);
+  const bool is_dome = t.par.boolean("dome").value_or(false);
+  const bool is_panorama = t.par.boolean("panorama").value_or(false);
+  if (is_dome && is_panorama) t.par.refuse("panorama", "F, since dome is T");
+  if (is_dome) return "fisheye";
+  if (is_panorama) return "cube";
+  return is_perspective ? "perspective" : "orthographic";
+}
+
+// x, y and z of "camera", "lookat" or "sky".
+std::vector<std::optional<double>> coordinates(const std::string& name, Translation& t) {
+  std::vector<std::optional<double>> all;
+  for (const char* const axis : {"_x", "_y", "_z"})
+    all.push_back(t.number_at_start(name + axis));
+  return all;
+}
+
+bool has_any(const std::vector<std::optional<double>>& values) {
+  return std::any_of(values.begin(), values.end(), [](const auto& value) { return bool(value); });
+}
+
+void set_vector(const std::string& key, const std::vector<std::optional<double>>& from,
+                double otherwise_z, Translation& t) {
+  t.scene.set_vector(key, from[0].value_or(0), from[1].value_or(0), from[2].value_or(otherwise_z));
+}
+
+}  // namespace
+
+std::filesystem::path Translation::file(const std::string& name) const {
+  const std::filesystem::path path = name;
+  if (path.is_absolute()) return path;
+  // Palettes often lie beside the parameter file, though it names their folder.
+  for (const auto& candidate : {folder / path, path, folder / path.filename()}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(candidate, ignored)) return candidate;
+  }
+  return folder / path;
+}
+
+std::optional<double> Translation::number_at_start(const std::string& key) {
+  const std::optional<double> own = par.number(key);
+  const auto of_path = path_row.find(key);
+  return own || of_path == path_row.end() ? own : of_path->second;
+}
+
+void translate_camera(Translation& t) {
+  translate_center(t);
+  const std::string name = projection(t);
+  translate_eyes(name, t);
+  const std::vector<std::optional<double>> place = coordinates("camera", t);
+  const std::vector<std::optional<double>> look_at = coordinates("lookat", t);
+  const std::vector<std::optional<double>> sky = coordinates("sky", t);
+  const auto angle = t.par.number("fov"), near = t.par.number("zmin"), far = t.par.number("zmax");
+  if (!has_any(place)) {
+    t.note(
+        "no camera_x, camera_y and camera_z: the camera is chosen from the data, and what else the "
+        "file says of it is not carried over");
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!look_at[i]) t.par.refuse(std::string("lookat_") + "xyz"[i], "a number, beside camera_x");
+  }
+  set_vector("camera.position", place, 0, t);
+  set_vector("camera.look_at", look_at, 0, t);
+  set_vector("camera.sky", sky, has_any(sky) ? 0 : 1, t);
+  t.scene.set_text("camera.projection", name);
+  if (name == "fisheye") {
+    t.scene.set_number("camera.field_of_view", 180);
+  } else if (name == "cube") {
+    t.scene.set_text("camera.cube", "files");
+  } else {
+    t.scene.set_number("camera.field_of_view", angle.value_or(45));
+  }
+  t.scene.set_number("camera.near", near.value_or(0));
+  if (far) t.scene.set_number("camera.far", *far);
+}
+
+void translate_picture(Translation& t) {
+  constexpr int largest = 65536;
+  const int old_name = t.par.integer("resolution", 1, largest).value_or(800);
+  const int width = t.par.integer("xres", 1, largest).value_or(old_name);
+  const int height = t.par.integer("yres", 1, largest).value_or(width);
+  t.scene.set("image.size", fmt::format("[{}, {}]", width, height));
+  t.scene.set_text("image.convention", "original");
+
+  const double gamma = t.par.number("pic_gamma").value_or(1);
+  if (!(gamma > 0)) t.par.refuse("pic_gamma", "a number > 0");
+  if (gamma != 1) t.scene.set_number("image.gamma", 1 / gamma);
+  const double contrast = t.par.number("pic_contrast").value_or(1);
+  if (!(contrast > 0)) t.par.refuse("pic_contrast", "a number > 0");
+  // contrast c^gamma = (2^x c)^gamma
+  if (contrast != 1) t.scene.set_number("finish.exposure", std::log2(contrast) / gamma);
+  if (t.par.number("pic_brightness").value_or(0) != 0) {
+    t.note("pic_brightness is not carried over: nothing here adds light to the whole picture");
+  }
+  if (t.par.boolean("colorbar").value_or(false)) {
+    t.scene.set("finish.color_bar.show", "true");
+    t.scene.set_text("finish.color_bar.at", "bottom");
+    t.note("colorbar: the bars are drawn in this program's own way, with ticks");
+  }
+
+  // The cloud is exp(-d^2 / sigma^2) with sigma = 0.5 pi^(-1/6) r', r' = sqrt((2 h)^2 + minrad^2).
+  const double width_over_h = std::pow(pi, -1.0 / 6);
+  t.scene.set_number("kernel.width", width_over_h);
+  t.scene.set_number("kernel.cut", 1.5 / width_over_h);  // 0.75 r'
+  t.scene.set_text("kernel.sampling", "center");
+  t.scene.set_number("kernel.min_radius", 0.5 * t.par.number("minrad_pix").value_or(1));
+}
+
+}  // namespace splotchcl::par

@@ -1,0 +1,221 @@
+#include "scene_file/builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "common/nearest_name.h"
+#include "scene_file/values.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+std::string join(const std::string& table, const std::string& name) {
+  return table.empty() ? name : table + "." + name;
+}
+
+std::string last_name(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+// A key in another table that has this name, or nearly.
+std::optional<std::string> nearest_key_anywhere(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Key& key : all_keys())
+    names.push_back(last_name(key.path));
+  const std::optional<std::string> nearest = nearest_name(name, names);
+  if (!nearest) return std::nullopt;
+  for (const Key& key : all_keys()) {
+    if (last_name(key.path) == *nearest) return key.path;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_unknown(const Place& table, const std::string& name,
+                                 const std::string& where) {
+  const std::vector<std::string> known = names_in_table(table.path);
+  std::optional<std::string> nearest = nearest_name(name, known);
+  nearest = nearest ? join(table.label, *nearest) : nearest_key_anywhere(name);
+  refuse(where, one_line(join(table.label, name)), "an unknown key",
+         fmt::format("one of {}", fmt::join(known, ", ")), did_you_mean(nearest));
+}
+
+// The innermost known table of a path: {"camera", "fov"} of "camera.fov".
+[[noreturn]] void refuse_unknown_path(const Place& place, const std::string& where) {
+  std::string table = place.path;
+  do {
+    const std::size_t dot = table.rfind('.');
+    table = dot == std::string::npos ? "" : table.substr(0, dot);
+  } while (!is_table(table));
+  const std::size_t rest = place.path.size() - table.size();
+  Place parent = place;
+  parent.path = table;
+  parent.label = table.empty() ? "" : place.label.substr(0, place.label.size() - rest);
+  refuse_unknown(parent, place.path.substr(table.empty() ? 0 : table.size() + 1), where);
+}
+
+bool is_known(const std::string& path) {
+  return find_key(path) != nullptr || is_table(path);
+}
+
+// A table's entries in the order of the file, so that its first mistake is reported first.
+std::vector<std::pair<const toml::key*, const toml::node*>> in_file_order(
+    const toml::table& table) {
+  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
+  for (auto it = table.cbegin(); it != table.cend(); ++it) {
+    entries.emplace_back(&it->first, &it->second);
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return a.first->source().begin < b.first->source().begin;
+  });
+  return entries;
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(Scene scene, const std::string& name_for_messages)
+    : scene_(std::move(scene)) {
+  origins_.name = name_for_messages;
+}
+
+void SceneBuilder::read_text(const std::string& text) {
+  is_reading_file_ = true;
+  assigned_.clear();
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw UsageError(fmt::format("{}: found no valid TOML, expected a scene file: {}",
+                                 where_in_file(error.source()),
+                                 one_line(std::string(error.description()), 300)));
+  }
+  assign_table({}, {root, origins_.name});
+  refuse_exclusions();
+}
+
+void SceneBuilder::apply_settings(const std::vector<std::string>& settings) {
+  is_reading_file_ = false;
+  assigned_.clear();
+  for (const std::string& setting : settings)
+    apply_setting(setting);
+  refuse_exclusions();
+}
+
+Scene SceneBuilder::finish() const {
+  if (camera_is_new_) {
+    for (const char* label : {"camera.position", "camera.look_at"}) {
+      if (origins_.contains(label)) continue;
+      refuse(origins_.at("camera"), label, "nothing",
+             find_key(label)->expected + ", since a scene with a camera says where it is");
+    }
+  }
+  check_scene(scene_, origins_);
+  return scene_;
+}
+
+void SceneBuilder::apply_setting(const std::string& setting) {
+  const Setting parts = split_setting(setting);
+  const std::string where = fmt::format("setting \"{}\"", one_line(setting));
+  const Place place = locate(parts.key, scene_, where);
+  if (!is_known(place.path)) refuse_unknown_path(place, where);
+  const toml::table table = parse_value(parts.text);
+  assign(place, {*table.get("value"), where, &parts.text});
+}
+
+void SceneBuilder::assign(const Place& place, const Value& value) {
+  if (const Key* key = find_key(place.path)) {
+    assign_key(*key, place, value);
+  } else if (place.label == "component") {
+    assign_components(value);
+  } else {
+    assign_table(place, value);
+  }
+}
+
+void SceneBuilder::assign_key(const Key& key, const Place& place, const Value& value) {
+  for (const Assignment& earlier : assigned_) {
+    if (earlier.place.label != place.label) continue;
+    refuse(value.where, place.label, "it for the second time", "each key once");
+  }
+  need_camera(place, value.where);
+  need_stereo(place);
+  bool is_set = key.set(scene_, place.component, value.node);
+  if (!is_set && value.bare_text != nullptr) {
+    is_set = key.set(scene_, place.component, toml::value<std::string>(*value.bare_text));
+  }
+  if (!is_set) refuse(value.where, place.label, describe(value.node), key.expected);
+  origins_.where[place.label] = value.where;
+  assigned_.push_back({&key, place});
+}
+
+void SceneBuilder::assign_table(const Place& place, const Value& value) {
+  const toml::table* table = value.node.as_table();
+  if (table == nullptr) {
+    refuse(
+        value.where, place.label, describe(value.node),
+        fmt::format("a table with keys such as {}", fmt::join(names_in_table(place.path), ", ")));
+  }
+  need_camera(place, value.where);
+  need_stereo(place);
+  for (const auto& [key, node] : in_file_order(*table)) {
+    const std::string name(key->str());
+    const std::string where = is_reading_file_ ? where_in_file(key->source()) : value.where;
+    const Place child = {join(place.path, name), join(place.label, name), place.component};
+    const bool is_one_name = name.find('.') == std::string::npos && !name.empty();
+    if (!is_one_name || !is_known(child.path)) refuse_unknown(place, name, where);
+    assign(child, {*node, where});
+  }
+}
+
+void SceneBuilder::assign_components(const Value& value) {
+  const toml::array* components = value.node.as_array();
+  if (!is_reading_file_ || components == nullptr || !components->is_array_of_tables()) {
+    refuse(value.where, "component", describe(value.node),
+           is_reading_file_ ? "a table for each component: write [[component]] above its keys"
+                            : "the component's number or name too, such as component.0.palette");
+  }
+  for (const toml::node& node : *components) {
+    const std::size_t i = scene_.components.size();
+    scene_.components.emplace_back();
+    assign_table({"component", fmt::format("component.{}", i), i},
+                 {node, where_in_file(node.source())});
+  }
+}
+
+void SceneBuilder::need_camera(const Place& place, const std::string& where) {
+  const bool is_of_camera = place.path.substr(0, place.path.find('.')) == "camera";
+  if (!is_of_camera || scene_.camera) return;
+  scene_.camera.emplace();
+  camera_is_new_ = true;
+  origins_.where["camera"] = where;
+}
+
+// An empty [stereo] asks for two eyes, too.
+void SceneBuilder::need_stereo(const Place& place) {
+  const bool is_of_stereo = place.path.substr(0, place.path.find('.')) == "stereo";
+  if (is_of_stereo && !scene_.stereo) scene_.stereo.emplace();
+}
+
+void SceneBuilder::refuse_exclusions() const {
+  for (const Assignment& given : assigned_) {
+    for (const Assignment& other : assigned_) {
+      const auto& excluded = given.key->excludes;
+      const bool is_excluded =
+          given.place.component == other.place.component &&
+          std::find(excluded.begin(), excluded.end(), other.key->path) != excluded.end();
+      if (!is_excluded) continue;
+      refuse(origins_.at(other.place.label), other.place.label,
+             fmt::format("it beside {}", given.place.label), "only one of the two");
+    }
+  }
+}
+
+std::string SceneBuilder::where_in_file(const toml::source_region& region) const {
+  return fmt::format("{}:{}", origins_.name, region.begin.line);
+}
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+#include <vector>
+
+#include "scene_file/check.h"
+#include "scene_file/keys.h"
+#include "scene_file/setting.h"
+#include "splotchcl/scene.h"
+
+namespace splotchcl::scene_file {
+
+// A scene that takes values from a file and then from settings, and remembers where each
+// came from. Everything throws UsageError.
+class SceneBuilder {
+ public:
+  SceneBuilder(Scene scene, const std::string& name_for_messages);
+
+  Scene& scene() { return scene_; }
+  void read_text(const std::string& text);
+  void apply_settings(const std::vector<std::string>& settings);
+  Scene finish() const;  // checks the scene as a whole
+
+ private:
+  // A value that is being read. The text stands for it where it is of the wrong type.
+  struct Value {
+    const toml::node& node;
+    std::string where;
+    const std::string* bare_text = nullptr;
+  };
+  struct Assignment {
+    const Key* key;
+    Place place;
+  };
+
+  void apply_setting(const std::string& setting);
+  void assign(const Place& place, const Value& value);
+  void assign_key(const Key& key, const Place& place, const Value& value);
+  void assign_table(const Place& place, const Value& value);
+  void assign_components(const Value& value);
+  void need_camera(const Place& place, const std::string& where);
+  void need_stereo(const Place& place);
+  void refuse_exclusions() const;
+  std::string where_in_file(const toml::source_region& region) const;
+
+  Scene scene_;
+  Origins origins_;
+  bool camera_is_new_ = false;
+  bool is_reading_file_ = false;
+  std::vector<Assignment> assigned_;  // by the file, or by the settings
+};
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,201 @@
+#include <limits>
+
+#include "scene_file/key_builder.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+// `member` gives a reference to the member, of const settings and of others: the value
+// itself or an optional one.
+template <class V, class Member>
+Key finish_key(const std::string& path, const ValueType<V>& type, Member member, const Text& text) {
+  return key<FinishSettings, V>(
+      "finish." + path, type,
+      [member](const FinishSettings& finish) { return std::optional<V>(member(finish)); },
+      [member](FinishSettings& finish, const V& value) { member(finish) = value; }, text);
+}
+
+// Text that is empty where there is none.
+template <class Member>
+Key text_key(const std::string& path, Member member, const Text& text_of_key) {
+  return key<FinishSettings, std::string>(
+      "finish." + path, text(),
+      [member](const FinishSettings& finish) {
+        const std::string& value = member(finish);
+        return value.empty() ? std::nullopt : std::optional(value);
+      },
+      [member](FinishSettings& finish, const std::string& value) { member(finish) = value; },
+      text_of_key);
+}
+
+ValueType<Place> place() {
+  return choice<Place>({{"top left", Place::top_left},
+                        {"top", Place::top},
+                        {"top right", Place::top_right},
+                        {"left", Place::left},
+                        {"right", Place::right},
+                        {"bottom left", Place::bottom_left},
+                        {"bottom", Place::bottom},
+                        {"bottom right", Place::bottom_right}});
+}
+
+ValueType<DisplayColor> display_color() {
+  return three_numbers(between(0, 1), "[red, green, blue]");
+}
+
+ValueType<double> text_height() {
+  return number(between(0.001, 0.5));
+}
+
+Text where(const std::string& what) {
+  return {"Where " + what + ". Things at the same place stand below each other."};
+}
+
+Keys light_keys() {
+  return {
+      finish_key("exposure", number(between(-100, 100)),
+                 [](auto& f) -> auto& { return f.exposure; },
+                 {"Light is multiplied by 2^exposure.", "stops"}),
+      finish_key("saturation", number(between(0, 100)),
+                 [](auto& f) -> auto& { return f.saturation; },
+                 {"0 is gray, 1 as drawn: each channel becomes Y + saturation (channel - Y), at "
+                  "least 0, with the luminance Y = 0.2126 red + 0.7152 green + 0.0722 blue."}),
+      finish_key("contrast", number(between(0, 100)), [](auto& f) -> auto& { return f.contrast; },
+                 {"A display value v becomes pivot (v / pivot)^contrast."}),
+      finish_key("contrast_pivot", number(between(0.001, 1000)),
+                 [](auto& f) -> auto& { return f.contrast_pivot; },
+                 {"The display value that contrast leaves as it is."}),
+  };
+}
+
+template <class Member>
+Keys text_keys(const std::string& name, Member member, const std::string& what,
+               const std::string& size) {
+  return {
+      text_key(name + ".text", [member](auto& f) -> auto& { return member(f).text; },
+               {what + " Placeholders such as `{redshift:.2f}` take values of the snapshot.", "",
+                "none"}),
+      finish_key(
+          name + ".at", place(), [member](auto& f) -> auto& { return member(f).at; },
+          where("it lies")),
+      finish_key(name + ".size",
+                 text_height(), [member](auto& f) -> auto& { return member(f).size; },
+                 {"Size of its letters.", "shorter side", size}),
+  };
+}
+
+Keys all_text_keys() {
+  Keys keys = {
+      text_key("font", [](auto& f) -> auto& { return f.font; },
+               {"The font of all text: a name such as DejaVuSans-Bold, or a font file (.ttf, "
+                ".otf). A relative path starts at the scene file's folder."}),
+      finish_key("text_size", text_height(), [](auto& f) -> auto& { return f.text_size; },
+                 {"Size of letters.", "shorter side"}),
+      finish_key("text_color", display_color(), [](auto& f) -> auto& { return f.text_color; },
+                 {"Colour of text, ticks and the scale bar, as displayed."}),
+      finish_key("frame", integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()),
+                 [](auto& f) -> auto& { return f.frame; },
+                 {"The number that `{frame}` stands for. Films set it.", "", "0"}),
+  };
+  append(keys,
+         text_keys(
+             "title", [](auto& f) -> auto& { return f.title; }, "A text.", "1.5 `text_size`"));
+  append(keys,
+         text_keys(
+             "label", [](auto& f) -> auto& { return f.label; }, "Another text.", "`text_size`"));
+  append(keys, text_keys(
+                   "caption", [](auto& f) -> auto& { return f.caption; }, "A third text.",
+                   "`text_size`"));
+  return keys;
+}
+
+Keys bar_keys() {
+  return {
+      finish_key("color_bar.show", boolean(), [](auto& f) -> auto& { return f.color_bar.show; },
+                 {"Draw the components' palettes with the values of their fields."}),
+      finish_key(
+          "color_bar.at", place(), [](auto& f) -> auto& { return f.color_bar.at; },
+          where("the bars lie")),
+      finish_key("color_bar.length", number(between(0.05, 1)),
+                 [](auto& f) -> auto& { return f.color_bar.length; },
+                 {"Length of all bars together. They stand upright at the left and right side and "
+                  "in the corners, and lie at the top and bottom.",
+                  "height or width"}),
+      finish_key("color_bar.components", texts(),
+                 [](auto& f) -> auto& { return f.color_bar.components; },
+                 {"Names of the components that have a bar.", "", "all with a color.field"}),
+      finish_key("color_bar.labels", texts(), [](auto& f) -> auto& { return f.color_bar.labels; },
+                 {"A text for each bar.", "", "the field's name and unit"}),
+      finish_key("scale_bar.show", boolean(), [](auto& f) -> auto& { return f.scale_bar.show; },
+                 {"Draw a length as it appears at the look-at point."}),
+      finish_key(
+          "scale_bar.at", place(), [](auto& f) -> auto& { return f.scale_bar.at; },
+          where("the bar lies")),
+      finish_key("scale_bar.length", number(more_than(0)),
+                 [](auto& f) -> auto& { return f.scale_bar.length; },
+                 {"The length that is drawn.", "length", "a round one, a fifth of the picture"}),
+      text_key("scale_bar.unit", [](auto& f) -> auto& { return f.scale_bar.unit; },
+               {"What is written behind the number.", "", "the unit of the snapshot's positions"}),
+  };
+}
+
+Keys inset_keys() {
+  const std::string same = "the picture's";
+  return {
+      finish_key("inset.show", boolean(), [](auto& f) -> auto& { return f.inset.show; },
+                 {"Draw the scene a second time, as another camera sees it, into a part of the "
+                  "picture."}),
+      finish_key(
+          "inset.at", place(), [](auto& f) -> auto& { return f.inset.at; },
+          where("the inset lies")),
+      finish_key("inset.size", two_numbers(between(0.01, 1), "[width, height]"),
+                 [](auto& f) -> auto& { return f.inset.size; },
+                 {"Its size, without the border.", "picture width, height"}),
+      finish_key("inset.border", number(between(0, 0.2)),
+                 [](auto& f) -> auto& { return f.inset.border; },
+                 {"Width of the border.", "shorter side"}),
+      finish_key("inset.border_color", display_color(),
+                 [](auto& f) -> auto& { return f.inset.border_color; },
+                 {"Colour of the border, as displayed."}),
+      finish_key("inset.position", vector(), [](auto& f) -> auto& { return f.inset.position; },
+                 {"Where its camera stands.", "length", same}),
+      finish_key("inset.look_at", vector(), [](auto& f) -> auto& { return f.inset.look_at; },
+                 {"The point in its middle.", "length", same}),
+      finish_key("inset.sky", vector(), [](auto& f) -> auto& { return f.inset.sky; },
+                 {"The direction shown upwards in it.", "", same}),
+      finish_key("inset.field_of_view", number(field_of_view_range()),
+                 [](auto& f) -> auto& { return f.inset.field_of_view_degrees; },
+                 {"Horizontal angle of its view.", "degrees", same}),
+      finish_key("inset.components", texts(), [](auto& f) -> auto& { return f.inset.components; },
+                 {"Names of the components that it shows.", "", "all"}),
+  };
+}
+
+Keys fade_keys() {
+  return {
+      text_key("cross_fade.scene", [](auto& f) -> auto& { return f.cross_fade.scene; },
+               {"A scene file whose picture is mixed into this one. It is drawn in this scene's "
+                "size, and with this scene's camera where it has none. A relative path starts at "
+                "the scene file's folder.",
+                "", "none"}),
+      finish_key("cross_fade.amount", number(between(0, 1)),
+                 [](auto& f) -> auto& { return f.cross_fade.amount; },
+                 {"0 is this scene alone, 1 the other alone."}),
+      finish_key("fade", number(between(0, 1)), [](auto& f) -> auto& { return f.fade; },
+                 {"0 is the picture, 1 is `fade_color` alone."}),
+      finish_key("fade_color", display_color(), [](auto& f) -> auto& { return f.fade_color; },
+                 {"What the picture fades to, as displayed."}),
+  };
+}
+
+}  // namespace
+
+Keys finish_keys() {
+  Keys keys;
+  for (const Keys& part : {light_keys(), all_text_keys(), bar_keys(), inset_keys(), fade_keys()}) {
+    append(keys, part);
+  }
+  return written_if_set(std::move(keys));
+}
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,158 @@
+// Which particles a component has, and where they are put.
+#include <fmt/format.h>
+
+#include "scene_file/key_builder.h"
+#include "select/condition.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+// A condition, or an array of them.
+std::optional<Texts> read_conditions(const toml::node& node) {
+  Texts conditions;
+  if (const auto single = node.value_exact<std::string>()) conditions.push_back(*single);
+  if (const toml::array* const array = node.as_array()) {
+    for (const toml::node& element : *array) {
+      const auto text = element.value_exact<std::string>();
+      if (!text) return std::nullopt;
+      conditions.push_back(*text);
+    }
+  }
+  for (const std::string& condition : conditions) {
+    if (!parse_condition(condition)) return std::nullopt;
+  }
+  return conditions.empty() ? std::nullopt : std::optional(conditions);
+}
+
+std::string write_conditions(const Texts& conditions) {
+  Texts quoted;
+  for (const std::string& condition : conditions)
+    quoted.push_back(write_text(condition));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+ValueType<Texts> conditions() {
+  return {condition_form, read_conditions, write_conditions};
+}
+
+// select.* and exclude.*.
+Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::string& effect) {
+  const auto optional_vector = [&](const std::string& name,
+                                   std::optional<Vec3> ParticleSet::*member,
+                                   const std::string& meaning) {
+    return key<Component, Vec3>(
+        path + name, vector(), [=](const Component& component) { return component.*set.*member; },
+        [=](Component& component, const Vec3& value) { component.*set.*member = value; },
+        {meaning, "length", "not used"});
+  };
+  return {
+      key<Component, Texts>(
+          path + ".where", conditions(),
+          [=](const Component& component) {
+            const Texts& where = (component.*set).where;
+            return where.empty() ? std::nullopt : std::optional(where);
+          },
+          [=](Component& component, const Texts& value) { (component.*set).where = value; },
+          {effect + " whose fields fulfil this. A value that is not a number fulfils nothing.", "",
+           "not used"}),
+      key<Component, std::string>(
+          path + ".ids", text(),
+          [=](const Component& component) {
+            const std::string& file = (component.*set).id_file;
+            return file.empty() ? std::nullopt : std::optional(file);
+          },
+          [=](Component& component, const std::string& value) { (component.*set).id_file = value; },
+          {effect + " whose identifiers this text file lists, one on a line; what follows a `#` "
+                    "does not count. A relative path starts at the scene file's folder.",
+           "", "not used"}),
+      optional_vector(".box.min", &ParticleSet::box_minimum,
+                      effect + " from this corner of a box to `box.max`, both included."),
+      optional_vector(".box.max", &ParticleSet::box_maximum, "The other corner."),
+      optional_vector(".sphere.center", &ParticleSet::sphere_center,
+                      effect + " at most `sphere.radius` from here."),
+      key<Component, double>(
+          path + ".sphere.radius", number(more_than(0)),
+          [=](const Component& component) { return (component.*set).sphere_radius; },
+          [=](Component& component, double value) { (component.*set).sphere_radius = value; },
+          {"The sphere's radius.", "length", "not used"}),
+  };
+}
+
+bool equal(const Vec3& a, const Vec3& b) {
+  return a.a[0] == b.a[0] && a.a[1] == b.a[1] && a.a[2] == b.a[2];
+}
+
+// Most components are placed nowhere: what is as by default is not written.
+Keys placement_keys() {
+  return {
+      key<Component, Vec3>(
+          "component.center", vector(),
+          [](const Component& component) {
+            return equal(component.center, Component().center) ? std::nullopt
+                                                               : std::optional(component.center);
+          },
+          [](Component& component, const Vec3& value) { component.center = value; },
+          {"A point in the coordinates of the component's snapshot: the field `radius` is measured "
+           "from it, it is what `origin` places, and turning and scaling leave it where it is.",
+           "length", "`[0, 0, 0]`"}),
+      key<Component, Vec3>(
+          "component.origin", vector(),
+          [](const Component& component) { return component.placement.origin; },
+          [](Component& component, const Vec3& value) { component.placement.origin = value; },
+          {"Where in the scene `center` is put, in double precision.", "length",
+           "where `center` is"}),
+      key<Component, Vec3>(
+          "component.rotation.axis", vector(),
+          [](const Component& component) {
+            const Vec3& axis = component.placement.axis;
+            return equal(axis, Placement().axis) ? std::nullopt : std::optional(axis);
+          },
+          [](Component& component, const Vec3& value) { component.placement.axis = value; },
+          {"The axis through `center` about which the component is turned.", "", "`[0, 0, 1]`"}),
+      key<Component, double>(
+          "component.rotation.angle", number(),
+          [](const Component& component) {
+            const double angle = component.placement.angle_degrees;
+            return angle == 0 ? std::nullopt : std::optional(angle);
+          },
+          [](Component& component, double value) { component.placement.angle_degrees = value; },
+          {"By how much, right-handed.", "degrees", "`0`"}),
+      key<Component, double>(
+          "component.scale", number(more_than(0)),
+          [](const Component& component) {
+            const double scale = component.placement.scale;
+            return scale == 1 ? std::nullopt : std::optional(scale);
+          },
+          [](Component& component, double value) { component.placement.scale = value; },
+          {"A length of 1 in the component's snapshot becomes this length in the scene. Sizes h "
+           "are scaled, too, but for `size.fixed`; masses and densities stay.",
+           "", "`1`"}),
+  };
+}
+
+}  // namespace
+
+Keys particle_keys() {
+  Keys keys = {
+      key<Component, std::string>(
+          "component.snapshot", text(),
+          [](const Component& component) {
+            return component.snapshot.empty() ? std::nullopt : std::optional(component.snapshot);
+          },
+          [](Component& component, const std::string& value) { component.snapshot = value; },
+          {"A snapshot of its own, from which the component's particles are taken. A relative path "
+           "starts at the scene file's folder.",
+           "", "the scene's"}),
+      key("component.types", particle_types(), &Component::types,
+          {"The particle types that are drawn as this component."}),
+  };
+  append(keys, set_keys("component.select", &Component::select, "Only particles are drawn"));
+  append(keys, set_keys("component.exclude", &Component::exclude,
+                        "Particles are left out for which all that `exclude` gives holds:"));
+  append(keys, placement_keys());
+  return keys;
+}
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "scene_file/keys.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+// A scene with every part, all by default.
+Scene default_scene() {
+  Scene scene;
+  scene.camera.emplace();
+  scene.stereo.emplace();
+  scene.components.emplace_back();
+  return scene;
+}
+
+std::string default_of(const Key& key) {
+  if (!key.absent.empty()) return key.absent;
+  const auto value = key.get(default_scene(), 0);
+  return value ? "`" + *value + "`" : "";
+}
+
+std::string heading(const std::string& table) {
+  if (table.empty()) return "top level";
+  return table == "component" ? "`[[component]]`, once for each kind of matter"
+                              : "`[" + table + "]`";
+}
+
+std::string row(const Key& key, const std::string& name) {
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", name, key.expected, key.unit,
+                     default_of(key), key.meaning);
+}
+
+}  // namespace
+
+std::string key_reference() {
+  std::string text;
+  for (const std::string table : {"", "read", "image", "camera", "stereo", "kernel", "sort", "time",
+                                  "path", "movie", "periodic", "finish", "component"}) {
+    text +=
+        fmt::format("### {}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
+                    heading(table));
+    for (const Key& key : all_keys()) {
+      const std::size_t dot = key.path.find('.');
+      const std::string key_table = dot == std::string::npos ? "" : key.path.substr(0, dot);
+      if (key_table != table) continue;
+      text += row(key, dot == std::string::npos ? key.path : key.path.substr(dot + 1));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace splotchcl::scene_file

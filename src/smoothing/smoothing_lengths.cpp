@@ -1,0 +1,261 @@
+#include "smoothing/smoothing_lengths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nanoflann.hpp>
+#include <vector>
+
+#include "common/for_blocks.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using Index = std::uint32_t;  // half of what the tree needs per particle
+using Point = std::array<float, 3>;
+using Shift = std::array<double, 3>;
+
+constexpr std::size_t block_size = 4096;
+constexpr double fallback_fraction = 1e-3;
+constexpr double unit_sphere = 4.188790204786391;  // 4 pi / 3
+
+// The finite positions, as nanoflann asks for them.
+class Cloud {
+ public:
+  Cloud(const float* positions, std::size_t count) : positions_(positions), size_(count) {
+    std::vector<Index> finite;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const p = positions + 3 * i;
+      const bool is_finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+      if (!is_finite && !has_gaps_) {
+        for (std::size_t j = 0; j < i; ++j)
+          finite.push_back(static_cast<Index>(j));
+        has_gaps_ = true;
+      } else if (is_finite && has_gaps_) {
+        finite.push_back(static_cast<Index>(i));
+      }
+    }
+    if (!has_gaps_) return;
+    finite_ = std::move(finite);
+    size_ = finite_.size();
+  }
+
+  std::size_t particle(std::size_t point) const { return has_gaps_ ? finite_[point] : point; }
+  const float* position(std::size_t point) const { return positions_ + 3 * particle(point); }
+
+  std::size_t kdtree_get_point_count() const { return size_; }
+  float kdtree_get_pt(std::size_t point, std::size_t axis) const { return position(point)[axis]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;  // nanoflann computes it
+  }
+
+ private:
+  const float* positions_;
+  std::size_t size_;
+  bool has_gaps_ = false;
+  std::vector<Index> finite_;  // only where some are not
+};
+
+// Distances in double: squares of lengths in centimetres leave single precision.
+using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud, double, Index>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, Index>;
+
+// The order of the points in the tree's leaves, whatever this version of nanoflann calls it.
+template <class T>
+auto leaf_order(const T& tree, int) -> decltype((tree.vAcc)) {
+  return tree.vAcc;
+}
+template <class T>
+auto leaf_order(const T& tree, long) -> decltype((tree.vAcc_)) {
+  return tree.vAcc_;
+}
+
+// Keeps the k smallest squared distances, for nanoflann.
+class NearestDistances {
+ public:
+  using DistanceType = double;
+
+  explicit NearestDistances(std::size_t k) : k_(k) { heap_.reserve(k); }
+  void start(std::size_t self) {
+    self_ = self;
+    heap_.clear();
+  }
+  void start_image() { self_ = std::numeric_limits<std::size_t>::max(); }
+
+  std::size_t size() const { return heap_.size(); }
+  bool full() const { return heap_.size() == k_; }
+  double worstDist() const {
+    return full() ? heap_.front() : std::numeric_limits<double>::infinity();
+  }
+  bool addPoint(double squared, std::size_t point) {
+    if (point == self_ || squared >= worstDist()) return true;
+    if (full()) {
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.back() = squared;
+    } else {
+      heap_.push_back(squared);
+    }
+    std::push_heap(heap_.begin(), heap_.end());
+    return true;
+  }
+
+ private:
+  std::size_t k_;
+  std::size_t self_ = 0;
+  std::vector<double> heap_;  // the largest first
+};
+
+std::vector<Shift> image_shifts(double box) {
+  std::vector<Shift> shifts;
+  for (const double x : {-box, 0.0, box}) {
+    for (const double y : {-box, 0.0, box}) {
+      for (const double z : {-box, 0.0, box}) {
+        if (x != 0 || y != 0 || z != 0) shifts.push_back({x, y, z});
+      }
+    }
+  }
+  return shifts;
+}
+
+class NeighborSearch {
+ public:
+  NeighborSearch(const Cloud& cloud, std::optional<double> box)
+      : cloud_(cloud), tree_(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
+    if (box) shifts_ = image_shifts(*box);
+  }
+
+  // The particle's squared distance to the last of the neighbours that `nearest` keeps.
+  double farthest_squared(std::size_t point, NearestDistances& nearest) const {
+    const float* const position = cloud_.position(point);
+    nearest.start(point);
+    tree_.findNeighbors(nearest, position, nanoflann::SearchParams());
+    nearest.start_image();
+    for (const Shift& shift : shifts_) {
+      const Point image = shifted(position, shift);
+      if (squared_distance_to_all(image) < nearest.worstDist()) {
+        tree_.findNeighbors(nearest, image.data(), nanoflann::SearchParams());
+      }
+    }
+    return nearest.worstDist();
+  }
+
+  // Neighbours in the order are neighbours in space, which keeps caches warm.
+  std::size_t point_in_order(std::size_t i) const { return leaf_order(tree_, 0)[i]; }
+
+  double extent() const {
+    double extent = 0;
+    for (const auto& side : tree_.root_bbox) {
+      extent = std::max(extent, static_cast<double>(side.high) - static_cast<double>(side.low));
+    }
+    return extent;
+  }
+
+ private:
+  static Point shifted(const float* position, const Shift& shift) {
+    Point image;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      image[axis] = static_cast<float>(static_cast<double>(position[axis]) + shift[axis]);
+    }
+    return image;
+  }
+
+  // To the box around all particles.
+  double squared_distance_to_all(const Point& point) const {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& side = tree_.root_bbox[axis];
+      const double x = static_cast<double>(point[axis]);
+      const double outside =
+          std::max({0.0, static_cast<double>(side.low) - x, x - static_cast<double>(side.high)});
+      squared += outside * outside;
+    }
+    return squared;
+  }
+
+  const Cloud& cloud_;
+  Tree tree_;
+  std::vector<Shift> shifts_;
+};
+
+// Lengths of zero, of particles that coincide with all their neighbours, become `fallback`
+// or the smallest length of another particle.
+void replace_zeros(std::vector<float>& lengths, double fallback) {
+  float smallest = std::numeric_limits<float>::infinity();
+  for (const float length : lengths) {
+    if (length > 0) smallest = std::min(smallest, length);  // false for not-a-number
+  }
+  if (!std::isfinite(smallest)) smallest = static_cast<float>(fallback);
+  std::replace(lengths.begin(), lengths.end(), 0.0F, smallest);
+}
+
+void check(const Column& position, std::size_t count, int neighbors) {
+  if (neighbors < 1) throw UsageError("smoothing lengths need at least one neighbour");
+  if (!position.is_array() || position.size() != 3 * count) {
+    throw DataError("smoothing lengths need three coordinates for each particle");
+  }
+  if (count >= std::numeric_limits<Index>::max()) {
+    throw DataError(
+        "smoothing lengths can be found for up to 4 billion particles; name a field that has them");
+  }
+}
+
+}  // namespace
+
+Column find_smoothing_lengths(const Column& position, std::size_t count,
+                              std::optional<double> periodic_box, int neighbors,
+                              const Progress& progress) {
+  check(position, count, neighbors);
+  const Cloud cloud(position.data(), count);
+  const std::size_t points = cloud.kdtree_get_point_count();
+  std::vector<float> lengths(count, std::numeric_limits<float>::quiet_NaN());
+  if (points == 0) return Column::owning(std::move(lengths));
+
+  const NeighborSearch search(cloud, periodic_box);
+  const std::size_t k = std::min(static_cast<std::size_t>(neighbors), points - 1);
+  for_blocks(
+      points, block_size,
+      [&](std::size_t first, std::size_t last) {
+        NearestDistances nearest(k);
+        for (std::size_t i = first; i < last; ++i) {
+          const std::size_t point = search.point_in_order(i);
+          const double squared = k == 0 ? 0 : search.farthest_squared(point, nearest);
+          lengths[cloud.particle(point)] = static_cast<float>(std::sqrt(squared));
+        }
+      },
+      progress);
+  const double extent = std::max(search.extent(), periodic_box.value_or(0));
+  replace_zeros(lengths, extent > 0 ? fallback_fraction * extent : 1);
+  return Column::owning(std::move(lengths));
+}
+
+Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbors) {
+  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors);
+}
+
+Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
+                                      int neighbors) {
+  std::vector<float> lengths(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double volume =
+        neighbors * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+    lengths[i] = static_cast<float>(std::cbrt(volume / unit_sphere));
+  }
+  return Column::owning(std::move(lengths));
+}
+
+Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
+                                        std::size_t count, int neighbors) {
+  std::vector<float> densities(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double h = static_cast<double>(smoothing_length[i]);
+    densities[i] =
+        static_cast<float>(neighbors * static_cast<double>(mass[i]) / (unit_sphere * h * h * h));
+  }
+  return Column::owning(std::move(densities));
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,148 @@
+#include "snapshot/field_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct FieldNames {
+  const char* canonical;
+  std::vector<const char*> labels;  // Gadget blocks, then HDF5 dialects
+};
+
+const std::vector<FieldNames>& known_fields() {
+  static const std::vector<FieldNames> table = {
+      {"position", {"POS", "Coordinates", "Coordinate", "Positions", "xyz"}},
+      {"velocity", {"VEL", "Velocities", "vxyz"}},
+      {"id", {"ParticleIDs", "ParticleID", "ids", "iorder", "iord"}},
+      {"mass", {"Masses", "mass table", "MassTable", "m"}},
+      {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
+      {"density", {"RHO", "Densities", "den"}},
+      {"smoothing_length", {"HSML", "SmoothingLength", "SmoothingLengths", "h", "smoothlength"}},
+      {"star_smoothing_length", {"HSMS"}},
+      {"temperature", {"TEMP", "Temperatures", "T"}},
+      {"stellar_age",
+       {"AGE", "StellarAge", "StellarFormationTime", "GFM_StellarFormationTime", "tform"}},
+      {"metallicity", {"Z", "Metals", "GFM_Metallicity", "MetalMassFractions"}},
+      {"potential", {"POT", "Potentials", "phi", "poten"}},
+      {"acceleration", {"ACCE", "Accelerations"}},
+      {"softening", {"Softenings", "eps", "hsmooth"}},
+      {"entropy_change_rate", {"ENDT", "RateOfChangeOfEntropy"}},
+      {"time_step", {"TSTP", "TimeStep", "TimeSteps"}},
+      {"volume", {"VOL", "Volumes"}},
+      {"entropy", {"Entropies"}},
+      {"pressure", {"Pressures"}},
+      {"electron_abundance", {"NE", "ElectronAbundance"}},
+      {"neutral_hydrogen_abundance", {"NH", "NeutralHydrogenAbundance"}},
+      {"star_formation_rate", {"SFR", "StarFormationRate", "StarFormationRates"}},
+      {"magnetic_field", {"BFLD", "MagneticField", "Bxyz"}},
+  };
+  return table;
+}
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string_view without_trailing_blanks(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(' ');
+  return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+}
+
+}  // namespace
+
+bool equal_ignoring_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string canonical_field_name(std::string_view label) {
+  const std::string_view text = without_trailing_blanks(label);
+  for (const FieldNames& field : known_fields()) {
+    if (equal_ignoring_case(text, field.canonical)) return field.canonical;
+    for (const char* const known : field.labels) {
+      if (equal_ignoring_case(text, known)) return field.canonical;
+    }
+  }
+  return {};
+}
+
+void name_fields(ParticleTypeInfo& type) {
+  std::set<std::string> taken;
+  for (FieldInfo& field : type.fields) {
+    const std::string canonical = canonical_field_name(field.file_name);
+    const bool is_first = !canonical.empty() && taken.insert(canonical).second;
+    field.name = is_first ? canonical : field.file_name;
+  }
+}
+
+const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name) {
+  const auto find = [&type](auto&& matches) -> const FieldInfo* {
+    const auto found = std::find_if(type.fields.begin(), type.fields.end(), matches);
+    return found == type.fields.end() ? nullptr : &*found;
+  };
+  const std::string_view wanted = without_trailing_blanks(name);
+  // The file's own spelling first: it is the only way to reach the second of two fields
+  // that mean the same quantity.
+  if (const auto* field = find([&](const FieldInfo& f) { return f.file_name == wanted; })) {
+    return field;
+  }
+  if (const auto* field = find([&](const FieldInfo& f) {
+        return equal_ignoring_case(f.name, wanted) || equal_ignoring_case(f.file_name, wanted);
+      })) {
+    return field;
+  }
+  const std::string canonical = canonical_field_name(wanted);
+  if (canonical.empty()) return nullptr;
+  if (const auto* field = find([&](const FieldInfo& f) { return f.name == canonical; })) {
+    return field;
+  }
+  if (canonical != "smoothing_length") return nullptr;
+  return find([](const FieldInfo& f) { return f.name == "star_smoothing_length"; });
+}
+
+bool has_masses(const ParticleTypeInfo& type) {
+  return type.table_mass || find_field(type, "mass") != nullptr;
+}
+
+const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type) {
+  if (const ParticleTypeInfo* const found = info.find_type(type)) return *found;
+  std::vector<int> types;
+  for (const ParticleTypeInfo& present : info.types)
+    types.push_back(present.type);
+  throw DataError(fmt::format("{}: no particles of type {}; the types with particles are {}",
+                              info.files.front().string(), type, fmt::join(types, ", ")));
+}
+
+const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_view name) {
+  const ParticleTypeInfo& particles = require_type(info, type);
+  if (const FieldInfo* const found = find_field(particles, name)) return *found;
+  std::vector<std::string> names;
+  for (const FieldInfo& field : particles.fields)
+    names.push_back(field.name);
+  throw DataError(fmt::format("{}: particles of type {} have no field '{}'; they have {}",
+                              info.files.front().string(), type, name, fmt::join(names, ", ")));
+}
+
+const FieldInfo& require_ids(const SnapshotInfo& info, int type) {
+  if (const FieldInfo* const found = find_field(require_type(info, type), "id")) return *found;
+  throw DataError(fmt::format(
+      "{}: particles of type {} have no ids, expected ids, by which particles of different "
+      "snapshots are matched: use a snapshot with ids",
+      info.files.front().string(), type));
+}
+
+void refuse_ids(const SnapshotInfo& info, int type, const FieldInfo& field) {
+  throw DataError(
+      fmt::format("{}: the ids of type {} ({}) are not one whole number per particle, as was "
+                  "expected; the file is damaged or of an unknown dialect",
+                  info.files.front().string(), type, field.file_name));
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,32 @@
+#include "snapshot/field_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace splotchcl {
+
+FieldStatistics find_statistics(const Column& values) {
+  FieldStatistics result;
+  result.count = values.is_uniform() ? 1 : values.size();
+  float minimum = std::numeric_limits<float>::infinity();
+  float maximum = -std::numeric_limits<float>::infinity();
+  double sum = 0;
+  for (std::size_t i = 0; i < result.count; ++i) {
+    const float value = values[i];
+    if (!std::isfinite(value)) {
+      ++result.bad;
+      continue;
+    }
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
+    sum += static_cast<double>(value);
+  }
+  if (result.bad == result.count) return result;
+  result.minimum = static_cast<double>(minimum);
+  result.maximum = static_cast<double>(maximum);
+  result.mean = sum / static_cast<double>(result.count - result.bad);
+  return result;
+}
+
+}  // namespace splotchcl

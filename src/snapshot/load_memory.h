@@ -1,0 +1,74 @@
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace splotchcl {
+
+class Snapshot;
+
+// What load_frame has made from one snapshot and will want again for the next frame of a
+// film: derived fields, selections, snapshots of single components. What two loads in a row
+// did not ask for is forgotten.
+class LoadMemory {
+ public:
+  // The value that `make` gave for this key, now or before.
+  template <class T>
+  const T& get(const std::string& key, const std::function<T()>& make) {
+    return own_.get(key, make);
+  }
+  // The same for what does not depend on the snapshot: lists of ids, pictures behind all.
+  template <class T>
+  const T& get_for_all_times(const std::string& key, const std::function<T()>& make) {
+    return shared_->values.get(key, make);
+  }
+
+  // The snapshot of a single component, opened once.
+  using OpenCompanion = std::function<std::shared_ptr<const Snapshot>(const std::string& path)>;
+  std::shared_ptr<const Snapshot> companion(const std::string& path, const OpenCompanion& open);
+  // Takes the place of the file.
+  void set_companion(const std::string& path, std::shared_ptr<const Snapshot> snapshot) {
+    shared_->companions[path] = std::move(snapshot);
+  }
+  void share_with(const LoadMemory& other) { shared_ = other.shared_; }
+
+  void begin_load();
+
+ private:
+  class Values {
+   public:
+    template <class T>
+    const T& get(const std::string& key, const std::function<T()>& make) {
+      auto found = values_.find(key);
+      if (found == values_.end()) {
+        T made = make();  // may ask for others
+        found = values_.insert_or_assign(key, Value{std::move(made), 0}).first;
+      }
+      found->second.last_load = load_;
+      return std::any_cast<const T&>(found->second.value);
+    }
+    void begin_load();
+
+   private:
+    struct Value {
+      std::any value;
+      std::uint64_t last_load;
+    };
+    std::map<std::string, Value> values_;
+    std::uint64_t load_ = 0;
+  };
+  struct Shared {
+    std::map<std::string, std::shared_ptr<const Snapshot>> companions;
+    Values values;
+  };
+
+  Values own_;
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
+};
+
+}  // namespace splotchcl

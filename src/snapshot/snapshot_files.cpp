@@ -1,0 +1,109 @@
+#include "snapshot/snapshot_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<const char*, 3> endings = {"", ".hdf5", ".h5"};
+
+fs::path with_suffix(fs::path path, const std::string& suffix) {
+  return path += suffix;
+}
+
+}  // namespace
+
+std::optional<MemberName> parse_member_name(const fs::path& path) {
+  MemberName member;
+  std::string name = path.filename().string();
+  for (const std::string ending : {".hdf5", ".h5"}) {
+    if (name.size() > ending.size() &&
+        name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
+      member.ending = ending;
+      name.resize(name.size() - ending.size());
+      break;
+    }
+  }
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || dot == 0) return std::nullopt;
+  const char* const first = name.data() + dot + 1;
+  const char* const last = name.data() + name.size();
+  const auto [end, error] = std::from_chars(first, last, member.index);
+  const bool has_leading_zero = last - first > 1 && *first == '0';
+  if (error != std::errc() || end != last || member.index < 0 || has_leading_zero) {
+    return std::nullopt;
+  }
+  member.base = path.parent_path() / name.substr(0, dot);
+  return member;
+}
+
+std::vector<fs::path> find_members(const fs::path& member, int count) {
+  if (count <= 1) return {member};
+  const std::optional<MemberName> name = parse_member_name(member);
+  if (!name || name->index >= count) {
+    throw DataError(fmt::format(
+        "{}: its header says that it is one of {} files, so its name should end in a number from "
+        ".0 to .{}; give the files their original names",
+        member.string(), count, count - 1));
+  }
+  std::vector<fs::path> members;
+  for (int i = 0; i < count; ++i) {
+    const fs::path path = with_suffix(name->base, fmt::format(".{}{}", i, name->ending));
+    if (!fs::is_regular_file(path)) {
+      throw DataError(fmt::format(
+          "{}: missing, but the header of {} says that the snapshot has {} files; put all of them "
+          "into the same folder",
+          path.string(), member.filename().string(), count));
+    }
+    members.push_back(path);
+  }
+  return members;
+}
+
+fs::path find_by_base_name(const fs::path& path) {
+  std::vector<fs::path> found;
+  std::vector<std::string> tried;
+  for (const std::string number : {"", ".0"}) {
+    for (const std::string ending : endings) {
+      const fs::path candidate = with_suffix(path, number + ending);
+      if (candidate == path) continue;
+      tried.push_back(candidate.filename().string());
+      if (fs::is_regular_file(candidate)) found.push_back(candidate);
+    }
+  }
+  if (found.empty()) {
+    throw DataError(fmt::format("{}: no such file or folder (nor {}); check the path",
+                                path.string(), fmt::join(tried, ", ")));
+  }
+  if (found.size() > 1) {
+    throw DataError(fmt::format("{}: could be {} or {}; give the full name of one", path.string(),
+                                found[0].filename().string(), found[1].filename().string()));
+  }
+  return found.front();
+}
+
+bool ExistingFiles::have(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const auto [found, is_new] = names_.try_emplace(folder);
+  std::set<std::string>& names = found->second;
+  if (is_new && fs::is_directory(folder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      names.insert(entry.path().filename().string());
+  }
+  const std::string name = path.filename().string();
+  if (name.empty()) return !names.empty();
+  for (const std::string number : {"", ".0"}) {
+    for (const std::string ending : endings) {
+      if (names.count(name + number + ending) > 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,90 @@
+#include "snapshot/subset_snapshot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace splotchcl {
+namespace {
+
+// A hash whose every bit depends on every bit of the key: the finalizer of SplitMix64.
+std::uint64_t mix(std::uint64_t key) {
+  key += 0x9e3779b97f4a7c15U;
+  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9U;
+  key = (key ^ (key >> 27)) * 0x94d049bb133111ebU;
+  return key ^ (key >> 31);
+}
+
+// a * b / c without overflow, rounded down.
+std::uint64_t scale(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(static_cast<Wide>(a) * b / c);
+}
+
+std::uint64_t total_count(const SnapshotInfo& info) {
+  std::uint64_t total = 0;
+  for (const ParticleTypeInfo& type : info.types)
+    total += type.count;
+  return total;
+}
+
+}  // namespace
+
+SubsetSnapshot::SubsetSnapshot(std::shared_ptr<const Snapshot> whole, const ReadSettings& read)
+    : whole_(std::move(whole)), read_(read), info_(whole_->info()) {
+  const std::uint64_t total = total_count(info_);
+  for (ParticleTypeInfo& type : info_.types)
+    type.count = count_of(type.count, total);
+  const std::uint64_t drawn = total_count(info_);
+  info_.particles_per_drawn *= static_cast<double>(total) / static_cast<double>(drawn);
+  if (drawn < total) {
+    info_.notes.push_back(fmt::format("only {} of {} particles are read; each stands for {:.6g}",
+                                      drawn, total, info_.particles_per_drawn));
+  }
+}
+
+std::uint64_t SubsetSnapshot::count_of(std::uint64_t count, std::uint64_t total) const {
+  if (!read_.max_particles) {
+    const auto every = static_cast<std::uint64_t>(read_.every);
+    return (count + every - 1) / every;
+  }
+  const auto most = static_cast<std::uint64_t>(*read_.max_particles);
+  if (total <= most) return count;
+  return std::max<std::uint64_t>(1, scale(count, most, total));
+}
+
+// Where the i-th of the type is in the whole.
+std::uint64_t SubsetSnapshot::place(int type, std::uint64_t i) const {
+  if (!read_.max_particles) return i * static_cast<std::uint64_t>(read_.every);
+  const std::uint64_t all = whole_->info().find_type(type)->count;
+  const std::uint64_t some = info_.find_type(type)->count;
+  const std::uint64_t first = scale(i, all, some), end = scale(i + 1, all, some);
+  const auto seed = static_cast<std::uint64_t>(read_.seed);
+  return first + mix(mix(mix(seed) + static_cast<std::uint64_t>(type)) + i) % (end - first);
+}
+
+Column SubsetSnapshot::read(int type, const std::string& field) const {
+  const Column all = whole_->read(type, field);
+  const ParticleTypeInfo* const chosen = info_.find_type(type);
+  if (!all.is_array() || chosen->count == whole_->info().find_type(type)->count) return all;
+  const std::size_t width = all.size() / whole_->info().find_type(type)->count;
+  std::vector<float> values;
+  values.reserve(chosen->count * width);
+  for (std::uint64_t i = 0; i < chosen->count; ++i) {
+    const float* const first = all.data() + place(type, i) * width;
+    values.insert(values.end(), first, first + width);
+  }
+  return Column::owning(std::move(values));
+}
+
+std::vector<std::uint64_t> SubsetSnapshot::read_ids(int type) const {
+  const std::vector<std::uint64_t> all = whole_->read_ids(type);
+  std::vector<std::uint64_t> ids;
+  const std::uint64_t count = info_.find_type(type)->count;
+  ids.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i)
+    ids.push_back(all[place(type, i)]);
+  return ids;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splotchcl/read_settings.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A part of a snapshot's particles: every N-th of each type, or at most so many, one chosen at
+// random from each of as many equal runs of the file. The same settings choose the same
+// particles. SnapshotInfo::particles_per_drawn says how many each stands for.
+class SubsetSnapshot : public Snapshot {
+ public:
+  SubsetSnapshot(std::shared_ptr<const Snapshot> whole, const ReadSettings& read);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
+  Vec3 position_origin() const override { return whole_->position_origin(); }
+
+ private:
+  std::uint64_t count_of(std::uint64_t count, std::uint64_t total) const;
+  std::uint64_t place(int type, std::uint64_t i) const;
+
+  std::shared_ptr<const Snapshot> whole_;
+  ReadSettings read_;
+  SnapshotInfo info_;
+};
+
+}  // namespace splotchcl
