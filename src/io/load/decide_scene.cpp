@@ -3,14 +3,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "scene/constants.h"
 #include "scene/reference_column.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool is_decided(const FieldMap& map) {
   return map.field.empty() || (map.minimum && map.maximum);

@@ -12,14 +12,14 @@
 #include "io/load/load_memory.h"
 #include "io/load/smoothing_lengths.h"
 #include "io/snapshot/field_names.h"
+#include "scene/particle_rules.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
 bool all_are_sizes(const Column& column) {
-  return std::all_of(column.data(), column.data() + column.size(),
-                     [](float h) { return std::isfinite(h) && h > 0; });
+  return std::all_of(column.data(), column.data() + column.size(), is_smoothing_length);
 }
 
 }  // namespace

@@ -4,14 +4,13 @@
 
 #include "io/par/translate.h"
 #include "io/scene_file/values.h"
+#include "scene/constants.h"
 
 namespace splotchcl::par {
 namespace {
 
 using scene_file::write_number;
 using scene_file::write_text;
-
-constexpr double pi = 3.14159265358979323846;
 
 // Keys of one component, whose number ends their names.
 class ComponentKeys {
