@@ -1,7 +1,7 @@
 /* A cold ball of particles collapses and draws itself, in C.
  *   in_situ_c [FOLDER]     writes collapse_0.png, collapse_1.png, ... */
 #include <math.h>
-#include <splotchcl/splotchcl.h>
+#include <splotchcl/splotchcl_c.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,6 +59,14 @@ struct Frame {
   double tolerance = 1e-3;
   std::vector<DrawnComponent> components;
 };
+
+// Of all components together, bad ones included.
+inline std::uint64_t particle_count(const Frame& frame) {
+  std::uint64_t count = 0;
+  for (const DrawnComponent& component : frame.components)
+    count += component.particles.count;
+  return count;
+}
 
 // The depth key's constants in binary32, the same for kernel and oracle:
 //   d = (p - position_high) - position_low   per axis, p the stored offset

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/film_scene.h"
 #include "film/path_plot/path_plot.h"
+#include "scene/constants.h"
 #include "scene/statistics.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
@@ -16,12 +17,9 @@ namespace splotchcl::cli {
 namespace {
 
 constexpr std::size_t particle_limit = 1000000;  // plotted, of all components together
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<Vec3> sample_particles(const Frame& frame) {
-  std::size_t total = 0;
-  for (const DrawnComponent& component : frame.components)
-    total += component.particles.count;
+  const auto total = static_cast<std::size_t>(particle_count(frame));
   const std::size_t stride = sample_stride(total, particle_limit);
   std::vector<Vec3> sample;
   for (const DrawnComponent& component : frame.components) {

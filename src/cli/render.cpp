@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <iostream>
-#include <numeric>
 
 #include "cli/commands.h"
 #include "cli/render_stats.h"
@@ -106,16 +105,9 @@ void print_explanation(const Plan& plan, const Frame& frame, const Scene& scene)
   std::cout << "\n" << format_scene(scene);
 }
 
-std::uint64_t count_particles(const Frame& frame) {
-  return std::accumulate(frame.components.begin(), frame.components.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const DrawnComponent& component) {
-                           return sum + component.particles.count;
-                         });
-}
-
 Image draw_with_reference(const Frame& frame, RenderStats& stats, Console& console) {
   stats.device = "reference";
-  stats.particles = count_particles(frame);
+  stats.particles = particle_count(frame);
   stats.bad_particles = reference::count_bad(frame);
   stats.drawn_particles = reference::project(frame).size();
   return reference::render(
@@ -149,7 +141,7 @@ void add(const RenderStats& frame, RenderStats& total) {
 Image draw_frame(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& total,
                  Console& console) {
   if (renderer) {
-    console.status(fmt::format("drawing {} particles", count_particles(frame)));
+    console.status(fmt::format("drawing {} particles", particle_count(frame)));
     Image image = renderer->render(frame);
     add(renderer->stats(), total);
     return image;

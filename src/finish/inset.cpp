@@ -9,12 +9,13 @@
 #include "common/nearest_name.h"
 #include "finish/adjust_light.h"
 #include "image/background_image.h"
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
-constexpr double degrees = 180 / 3.14159265358979323846;
+constexpr double degrees = 180 / pi;
 
 // The inset's camera: the picture's own, as its frame has it, where nothing else is said.
 Camera camera_of(const InsetSettings& settings, const Frame& frame) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "galaxy/light_map.h"
+#include "scene/constants.h"
 
 namespace splotchcl {
 
@@ -27,7 +28,7 @@ class BulgeProfile {
   }
   const Light& peak() const { return peak_; }
   // Of a face-on area that, at the peak's light, gives off all of the bulge's.
-  double area() const { return 3.14159265358979323846 * radius_ * radius_; }
+  double area() const { return pi * radius_ * radius_; }
 
  private:
   double radius_;

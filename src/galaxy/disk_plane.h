@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 
 // Between a picture's pixels and the plane of the galaxy's disk that it shows inclined.
@@ -15,7 +17,7 @@ class DiskPlane {
   DiskPlane(const Place& center_pixel, double inclination_degrees, double position_angle_degrees,
             double pixel_size)
       : center_(center_pixel), pixel_size_(pixel_size) {
-    constexpr double radians = 3.14159265358979323846 / 180;
+    constexpr double radians = pi / 180;
     const double angle = position_angle_degrees * radians;
     major_ = {-std::sin(angle), std::cos(angle)};
     foreshortening_ = std::cos(inclination_degrees * radians);

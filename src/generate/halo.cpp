@@ -4,6 +4,7 @@
 #include "generate/gas.h"
 #include "generate/profile.h"
 #include "generate/random.h"
+#include "scene/constants.h"
 #include "splotchcl/generate.h"
 
 namespace splotchcl {
@@ -56,7 +57,7 @@ Placed place_in_disc(double scale, double height, double sharpness, double betwe
                      Random& random) {
   for (;;) {
     const double radius = disc_radius(scale, random);
-    const double angle = random.uniform(0, 2 * M_PI);
+    const double angle = random.uniform(0, 2 * pi);
     const double density = between + (1 - between) * arm_strength(radius, angle, sharpness);
     if (random.uniform() > density) continue;
     // Gas flares outwards. Speeds rise towards the flat rotation curve.

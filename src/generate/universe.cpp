@@ -5,6 +5,7 @@
 #include "generate/haloes.h"
 #include "generate/profile.h"
 #include "generate/web.h"
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 
@@ -26,7 +27,7 @@ double virial_radius(const Halo& halo) {
 
 // 1e10 solar masses/h, dark matter included.
 double mass(const Halo& halo) {
-  return 4 * M_PI / 3 * std::pow(halo.birth_radius * box, 3) * cosmology::matter * critical_density;
+  return 4 * pi / 3 * std::pow(halo.birth_radius * box, 3) * cosmology::matter * critical_density;
 }
 
 double circular_speed(const Halo& halo) {

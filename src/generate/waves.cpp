@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 namespace {
 
@@ -12,7 +14,7 @@ std::vector<Complex> make_phases(int longest, int side) {
   std::vector<Complex> phases;
   for (int n = -longest; n <= longest; ++n) {
     for (int x = 0; x < side; ++x) {
-      phases.push_back(std::polar(1.0, 2 * M_PI * n * x / side));
+      phases.push_back(std::polar(1.0, 2 * pi * n * x / side));
     }
   }
   return phases;

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "generate/gather.h"
+#include "scene/constants.h"
 
 namespace splotchcl {
 namespace {
@@ -15,7 +16,7 @@ constexpr double web_wave = 6.5;  // waves per box; shorter ones do not move the
 // Bent where radiation ruled: Bardeen et al. (1986), by waves per box.
 double power(double wave, double box_size) {
   constexpr double shape = 0.2;
-  const double q = 2 * M_PI * wave / (box_size / 1000) / shape;
+  const double q = 2 * pi * wave / (box_size / 1000) / shape;
   const double polynomial =
       1 + 3.89 * q + std::pow(16.1 * q, 2) + std::pow(5.46 * q, 3) + std::pow(6.71 * q, 4);
   const double transfer = std::log1p(2.34 * q) / (2.34 * q) / std::pow(polynomial, 0.25);
@@ -24,7 +25,7 @@ double power(double wave, double box_size) {
 
 // The mean of a wave over a ball.
 double ball(double wave, double radius) {
-  const double x = 2 * M_PI * wave * radius;
+  const double x = 2 * pi * wave * radius;
   return x < 1e-3 ? 1 : 3 * (std::sin(x) - x * std::cos(x)) / (x * x * x);
 }
 
@@ -60,7 +61,7 @@ PeriodicGrid Web::displacement(int axis) const {
     const double length = n.length();
     const double kept = std::exp(-0.5 * std::pow(length / web_wave, 2));
     return std::complex<double>(0,
-                                amplitude_ * kept * component[axis] / (2 * M_PI * length * length));
+                                amplitude_ * kept * component[axis] / (2 * pi * length * length));
   });
 }
 

@@ -12,7 +12,7 @@
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
-#include "splotchcl/splotchcl.h"
+#include "splotchcl/splotchcl_c.h"
 
 struct splotchcl_scene {
   splotchcl::Scene scene;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "scene/constants.h"
 #include "scene/reference_column.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/load.h"
@@ -10,8 +11,6 @@
 
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool is_decided(const FieldMap& map) {
   return map.field.empty() || (map.minimum && map.maximum);

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // What the unit vectors become: the columns of scale * R.
 std::array<Vec3, 3> turned_axes(const Placement& placement) {

@@ -7,13 +7,14 @@
 #include <cmath>
 
 #include "common/decimals.h"
+#include "scene/constants.h"
+#include "scene/particle_rules.h"
 #include "scene/statistics.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t position_limit = 200000;  // looked at, of all types together
 constexpr double suggested_degrees = 40;
 constexpr Vec3 sky = {{0, 0, 1}};
@@ -61,9 +62,7 @@ void sample_type(const Snapshot& snapshot, int type, std::size_t stride, Sample&
   const Column position = snapshot.read(type, "position");
   const Vec3 origin = snapshot.position_origin();
   for (std::size_t i = 0; i + 2 < position.size(); i += 3 * stride) {
-    const bool is_finite = std::isfinite(position[i]) && std::isfinite(position[i + 1]) &&
-                           std::isfinite(position[i + 2]);
-    if (!is_finite) continue;
+    if (!is_finite_position(position.data() + i)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sample[axis].push_back(origin.a[axis] + static_cast<double>(position[i + axis]));
     }

@@ -9,6 +9,7 @@
 
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
+#include "scene/particle_rules.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
@@ -18,8 +19,7 @@ namespace splotchcl {
 namespace {
 
 bool all_are_sizes(const Column& column) {
-  return std::all_of(column.data(), column.data() + column.size(),
-                     [](float h) { return std::isfinite(h) && h > 0; });
+  return std::all_of(column.data(), column.data() + column.size(), is_smoothing_length);
 }
 
 }  // namespace

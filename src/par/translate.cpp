@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/constants.h"
+
 namespace splotchcl::par {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void translate_eyes(const std::string& projection, Translation& t) {
   const double separation = t.par.number("EyeSeparation").value_or(0);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "par/translate.h"
+#include "scene/constants.h"
 #include "scene_file/values.h"
 
 namespace splotchcl::par {
@@ -10,8 +11,6 @@ namespace {
 
 using scene_file::write_number;
 using scene_file::write_text;
-
-constexpr double pi = 3.14159265358979323846;
 
 // Keys of one component, whose number ends their names.
 class ComponentKeys {

@@ -1,10 +1,11 @@
+// The rules for particles are written out here once more, on purpose: what src/scene and the
+// kernels say of bad particles, the near limit and weights is tested against this file.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
 
-#include "scene/central_column.h"
 #include "scene/projection.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/reference.h"
@@ -72,6 +73,20 @@ bool is_within_limits(double depth, double h, const Frame& frame) {
   return !frame.far_limit || depth <= *frame.far_limit;
 }
 
+// w as WeightModel defines it, for a particle of this mass or density (constant: a factor).
+double column_through_center(WeightModel model, double value, double h, double sigma) {
+  constexpr double pi = 3.14159265358979323846;
+  switch (model) {
+    case WeightModel::mass:
+      return value / (pi * sigma * sigma);
+    case WeightModel::density:
+      return value * sigma * std::sqrt(pi);
+    case WeightModel::constant:
+      return value / h;
+  }
+  return 0;
+}
+
 // Emission and absorption per unit of X; the weight stays in X.
 void color_splat(Splat& splat, const Particle& p, const DrawnComponent& component) {
   const Palette& palette = component.palette;
@@ -134,8 +149,8 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   splat.y = place.y;
   splat.sigma = frame.kernel.width * h_drawn;
   splat.stretch = stretch_along_x(place, splat.sigma, frame.camera, frame.projection);
-  const double w =
-      central_column(component.weight, static_cast<double>(p.weight), h, frame.kernel.width * h);
+  const double w = column_through_center(component.weight, static_cast<double>(p.weight), h,
+                                         frame.kernel.width * h);
   splat.weight = w / component.reference_column * (h_pixels / h_drawn);
   // An absent intensity is 1 without being scaled.
   if (!component.particles.intensity.is_absent()) {

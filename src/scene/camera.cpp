@@ -5,12 +5,11 @@
 #include <sstream>
 #include <string>
 
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // The sine of the angle between sky and view under which the picture's upward
 // direction is lost in the rounding of the inputs.

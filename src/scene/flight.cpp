@@ -7,12 +7,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "scene/constants.h"
 #include "scene/spline.h"
 
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Steps of a segment whose lengths are added up. Between them the speed is constant in the
 // parameter, which leaves its variation over 1/256 of a segment.

@@ -6,10 +6,10 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // A fisheye picture of 360 degrees draws the point right behind the camera as its whole rim.
 // Clouds within 6 degrees of it grow no wider.

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "scene/cloud_in_picture.h"
+#include "scene/constants.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 
 namespace splotchcl {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int coarse_width = 256;
 constexpr double most_rows_per_column = 4;  // of a picture that is higher than wide
 constexpr int level_count = 9;              // the last level's cell is as wide as the picture

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double largest_angle_degrees = 45;
 
 // How far the eye lies to the right of the camera, in world lengths.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/for_blocks.h"
+#include "scene/particle_rules.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -29,7 +30,7 @@ class Cloud {
     std::vector<Index> finite;
     for (std::size_t i = 0; i < count; ++i) {
       const float* const p = positions + 3 * i;
-      const bool is_finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+      const bool is_finite = is_finite_position(p);
       if (!is_finite && !has_gaps_) {
         for (std::size_t j = 0; j < i; ++j)
           finite.push_back(static_cast<Index>(j));

@@ -6,11 +6,12 @@
 #include <memory>
 #include <vector>
 
+#include "old_header_name.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
-#include "splotchcl/splotchcl.h"
+#include "splotchcl/splotchcl_c.h"
 
 namespace splotchcl::testing {
 namespace {
@@ -126,6 +127,10 @@ TEST_F(CInterface, ATypeWithoutParticlesIsNamed) {
   splotchcl_particles_clear(particles_.get(), 1);
   EXPECT_NE(draw(), 0);
   EXPECT_THAT(error_.message, HasSubstr("no particles of type 1"));
+}
+
+TEST(CInterfaceName, TheOldHeaderStillServesPrograms) {
+  EXPECT_TRUE(draws_with_the_old_header_name(scene_text));
 }
 
 TEST(CInterfaceNull, FreeFunctionsTakeNull) {

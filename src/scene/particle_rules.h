@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "scene/constants.h"
+#include "splotchcl/frame.h"
+
+// What holds for every particle, said once for the host: which ones are bad, which ones are too
+// near, what their weights mean, how many there are. Kernels have the same rules in OpenCL C.
+// The oracle (src/reference) has a copy of its own on purpose: it is what all this is tested
+// against.
+namespace splotchcl {
+
+// Where no other near limit is set, a particle nearer to the camera than this many of its own
+// smoothing lengths is not drawn: its disc would cover the sky.
+constexpr double near_smoothing_lengths = 0.1;
+
+// The depth from which a particle of drawn smoothing length h is drawn. Depths are those of
+// Projected: distances along the view direction or, in wide angles, from the camera.
+inline double near_limit(const Frame& frame, double h) {
+  const bool is_flat = frame.projection == Projection::orthographic;
+  return frame.near_limit.value_or(is_flat ? 0.0 : near_smoothing_lengths * h);
+}
+
+inline bool is_within_limits(const Frame& frame, double depth, double h) {
+  return !(depth < near_limit(frame, h)) && !(frame.far_limit && depth > *frame.far_limit);
+}
+
+// Three coordinates.
+inline bool is_finite_position(const float* position) {
+  return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
+}
+
+inline bool is_smoothing_length(float h) {
+  return std::isfinite(h) && h > 0;
+}
+
+// Whether particle i is left out of every picture, and counted: a value of it that the scene
+// uses is not finite, its smoothing length is not above 0, its weight or its own colour below 0.
+inline bool is_bad(const Particles& particles, std::size_t i) {
+  const auto is_finite = [i](const Column& column) {
+    return column.is_absent() || std::isfinite(column[i]);
+  };
+  if (!is_finite_position(particles.position.data() + 3 * i)) return true;
+  if (!is_smoothing_length(particles.smoothing_length[i])) return true;
+  if (!is_finite(particles.weight) || particles.weight[i] < 0) return true;
+  if (!particles.color_vector.is_absent()) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const float value = particles.color_vector[3 * i + channel];
+      if (!std::isfinite(value) || value < 0) return true;
+    }
+  }
+  return !is_finite(particles.color) || !is_finite(particles.intensity) ||
+         !is_finite(particles.sort_field);
+}
+
+// w, the column of matter through a particle's center, before intensity and color: see
+// WeightModel. `value` is the particle's mass or density, or with a constant weight a factor,
+// sigma = kernel.width * h its width; lengths are the snapshot's.
+inline double central_column(WeightModel model, double value, double h, double sigma) {
+  switch (model) {
+    case WeightModel::mass:
+      return value / (pi * sigma * sigma);
+    case WeightModel::density:
+      return value * sigma * std::sqrt(pi);
+    case WeightModel::constant:
+      return value / h;
+  }
+  return 0;
+}
+
+// A power of two near 1 / the look-at distance: lengths times it keep sigma^2 inside single
+// precision, whatever the snapshot's unit.
+inline double length_scale(const Frame& frame) {
+  return std::exp2(-std::round(std::log2(frame.camera.look_at_distance)));
+}
+
+// The factor a on a particle's mass, density or 1 that gives w / reference_column (see
+// central_column) from scaled lengths s = length_scale * sigma, t = length_scale * h without
+// leaving single precision on the way:
+//   mass m: m (a / s) (a / s)      density rho: rho a s      constant: a / t
+inline double weight_scale(const DrawnComponent& component, double length_scale) {
+  switch (component.weight) {
+    case WeightModel::mass:
+      return length_scale / std::sqrt(pi * component.reference_column);
+    case WeightModel::density:
+      return std::sqrt(pi) / (length_scale * component.reference_column);
+    case WeightModel::constant:
+      return length_scale / component.reference_column;
+  }
+  return 0;
+}
+
+}  // namespace splotchcl
