@@ -15,6 +15,7 @@ namespace splotchcl {
 // "position"; what else it needs follows from the scene.
 class ArraySnapshot : public Snapshot {
  public:
+  // Empty. The name stands for a file's in messages.
   explicit ArraySnapshot(const std::string& name_for_messages = "arrays");
 
   // `count` particles, 1 or 3 values for each, x y z of one particle after those of another.
@@ -27,19 +28,22 @@ class ArraySnapshot : public Snapshot {
                  int values_per_particle = 1);
   void set_field(int type, const std::string& field, const double* values, std::uint64_t count,
                  int values_per_particle = 1);
-  // The same mass for all of a type.
+  // The same mass for all of a type, in the unit that a field "mass" would have.
   void set_mass(int type, double mass);
   // What the arrays hold has changed: nothing that was found from it is used again.
   void changed() const;
   // Leaves a type's fields out, so that its count may change.
   void clear(int type);
 
-  void set_box_size(double size);  // of a periodic box
-  void set_time(double time);
-  // What positions are relative to. Throws UsageError when double positions are set already.
+  void set_box_size(double size);  // the side of a periodic box, in the unit of positions
+  void set_time(double time);      // in the simulation's unit, for texts in pictures
+  // What positions are relative to, in their unit: floats are taken as offsets from it, doubles
+  // as positions from which it is subtracted. Throws UsageError when double positions are set
+  // already.
   void set_position_origin(const Vec3& origin);
 
   const SnapshotInfo& info() const override { return info_; }
+  // Throws DataError for a type or a field that has not been set.
   Column read(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 

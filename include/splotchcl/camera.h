@@ -6,7 +6,7 @@
 
 namespace splotchcl {
 
-// docs/projections.md has the formulas.
+// How directions become places in the picture; docs/projections.md has the formulas.
 enum class Projection {
   perspective,
   orthographic,     // the scale at the look-at distance, everywhere
@@ -39,21 +39,22 @@ struct Camera {
   CubeLayout cube_layout = CubeLayout::sheet;
 };
 
-// The field of view, or the projection's own where the camera does not say.
+// The field of view in degrees, or the projection's own where the camera does not say.
 double field_of_view_degrees(const Camera& camera);
 
 // The camera as both renderers use it: orthonormal axes x right, y down, z forward.
 //   perspective:  x_pixel = center_x + focal_pixels * x / z
 //   orthographic: x_pixel = center_x + pixels_per_length * x
-// Pixel centres lie at i + 1/2; row 0 is the top of the picture.
+// and y_pixel likewise from y, with x, y, z the particle's place along the axes, in lengths, from
+// the camera. Pixel centres lie at i + 1/2; row 0 is the top of the picture.
 struct CameraFrame {
-  Vec3 position;
-  Vec3 right, down, forward;
+  Vec3 position;              // in lengths
+  Vec3 right, down, forward;  // unit vectors, right x down = forward
   // (width / 2) / tan(field of view / 2); pixels per radian in fisheye and equirectangular.
   double focal_pixels = 0;
-  double look_at_distance = 0;
-  double pixels_per_length = 0;  // focal_pixels / look_at_distance
-  double center_x = 0, center_y = 0;
+  double look_at_distance = 0;        // in lengths, > 0
+  double pixels_per_length = 0;       // focal_pixels / look_at_distance
+  double center_x = 0, center_y = 0;  // in pixels, where the view direction meets the picture
   // Stereo in all directions: every particle is turned about turn_axis (a unit vector, the
   // upward direction of a head that looks around) by asin(eye_offset / its distance), to the
   // left for an eye that lies eye_offset > 0 to the right. 0: no stereo.
@@ -61,6 +62,7 @@ struct CameraFrame {
   Vec3 turn_axis = {{0, 0, 0}};
 };
 
+// For a picture of width x height pixels, each > 0.
 // Throws UsageError for a field of view that the projection cannot have, a picture that does
 // not fit it, a camera at its look-at point, a sky direction (almost) parallel to the view,
 // or limits out of order.

@@ -10,7 +10,7 @@ namespace splotchcl {
 // How far one channel, or all of them together, lies from the reference.
 struct ChannelDifference {
   double maximum = 0;      // of |a - b|
-  double rms = 0;          // root of the mean of (a - b)^2
+  double rms = 0;          // the square root of the mean of (a - b)^2
   double psnr = 0;         // decibels, 20 log10(1 / rms): the peak is the display's white
   double relative_l2 = 0;  // |a - b| / |b| as Euclidean norms over the picture
 };

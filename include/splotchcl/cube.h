@@ -6,7 +6,8 @@
 
 namespace splotchcl {
 
-// One face of the cube around the camera, and its place in the sheet of 3 x 2 faces.
+// One face of the cube around the camera, and its place in the sheet of 3 x 2 faces: columns
+// from the left and rows from the top, from 0.
 struct CubeFace {
   const char* name;  // front, right, ...
   int column, row;

@@ -13,7 +13,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The call or the scene is wrong: exit code 2.
+// The call or the scene is wrong, so trying again is of no use: exit code 2.
 class UsageError : public Error {
  public:
   using Error::Error;

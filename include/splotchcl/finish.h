@@ -21,14 +21,15 @@ enum class Place { top_left, top, top_right, left, right, bottom_left, bottom, b
 struct TextSettings {
   std::string text;  // empty: none
   Place at = Place::top_left;
-  std::optional<double> size;  // of the picture's shorter side; unset: FinishSettings::text_size
+  std::optional<double> size;  // of the picture's shorter side; unset: FinishSettings::text_size,
+                               // of titles 1.5 times that
 };
 
 // The palettes with their fields' values.
 struct ColorBarSettings {
   bool show = false;
   Place at = Place::right;
-  double length = 0.6;                  // of the picture's side along which the bars lie
+  double length = 0.6;                  // of the picture's side along which the bars lie, 0.05 to 1
   std::vector<std::string> components;  // by name; empty: all that are coloured by a field
   std::vector<std::string> labels;      // one for each bar; empty: field and unit
 };
@@ -37,7 +38,7 @@ struct ColorBarSettings {
 struct ScaleBarSettings {
   bool show = false;
   Place at = Place::bottom_left;
-  std::optional<double> length;  // in the snapshot's unit; unset: a round one
+  std::optional<double> length;  // in the snapshot's unit, > 0; unset: a round one
   std::string unit;              // of the label; empty: the snapshot's
 };
 
@@ -56,14 +57,15 @@ struct InsetSettings {
 // Another scene's picture, mixed into this one's.
 struct CrossFade {
   std::string scene;  // a scene file; empty: none
-  double amount = 0;  // 0: only this scene, 1: only the other
+  double amount = 0;  // from 0, only this scene, to 1, only the other
 };
 
+// All of it. Each default leaves the picture as it has been drawn.
 struct FinishSettings {
-  double exposure = 0;          // light is multiplied by 2^exposure
-  double saturation = 1;        // 0: gray, 1: as drawn
-  double contrast = 1;          // display value v becomes pivot (v / pivot)^contrast
-  double contrast_pivot = 0.5;  // a display value
+  double exposure = 0;          // in stops: light is multiplied by 2^exposure
+  double saturation = 1;        // >= 0; 0: gray, by the luminance of Rec. 709, 1: as drawn
+  double contrast = 1;          // >= 0: display value v becomes pivot (v / pivot)^contrast
+  double contrast_pivot = 0.5;  // a display value, > 0
 
   std::string font = "DejaVuSans";  // a name, or a font file
   double text_size = 0.028;         // of the picture's shorter side
@@ -78,7 +80,7 @@ struct FinishSettings {
   InsetSettings inset;
 
   CrossFade cross_fade;
-  double fade = 0;  // 0: the picture, 1: fade_color
+  double fade = 0;  // from 0, the picture, to 1, fade_color
   DisplayColor fade_color = {0, 0, 0};
 };
 

@@ -4,9 +4,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "splotchcl/camera.h"
 #include "splotchcl/image.h"
+#include "splotchcl/light_model.h"
+#include "splotchcl/palette.h"
+#include "splotchcl/particles.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl {
@@ -23,18 +28,18 @@ struct ScalarMap {
 
 // A component with its particles and every number decided.
 struct DrawnComponent {
-  std::string name;
+  std::string name;  // for messages
   Particles particles;
-  double size_factor = 1;  // h_drawn = size_factor * smoothing_length
-  ScalarMap color;
-  ScalarMap intensity;
+  double size_factor = 1;  // h_drawn = size_factor * smoothing_length, > 0
+  ScalarMap color;         // from particles.color to the palette
+  ScalarMap intensity;     // from particles.intensity to the factor I
   WeightModel weight = WeightModel::mass;
-  double reference_column = 1;  // w is divided by it
+  double reference_column = 1;  // w is divided by it; > 0, in w's unit
   // How many particles of the snapshot each stands for where only a part of them is read; the
   // reference column is smaller by as much already.
   double particles_per_drawn = 1;
   Palette palette;
-  double brightness = 1;
+  double brightness = 1;  // >= 0, a factor on the palette's emission
   Absorption absorption;
 };
 
@@ -43,19 +48,22 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Everything a renderer needs for one picture, the same for the device and the oracle.
+// Everything a renderer needs for one picture, the same for the device and the oracle. Renderers
+// throw UsageError for a crop or a background image that does not fit the picture.
 struct Frame {
-  int width = 0, height = 0;  // of the whole picture: they fix the camera
-  Rectangle crop;             // what is drawn; inside the picture
+  int width = 0, height = 0;  // of the whole picture, in pixels: they fix the camera
+  Rectangle crop;             // what is drawn; inside the picture, not empty
   CameraFrame camera;
   Projection projection = Projection::perspective;
-  std::optional<double> near_limit, far_limit;
-  std::array<double, 3> background = {0, 0, 0};
+  std::optional<double> near_limit, far_limit;   // as Camera has them, in lengths
+  std::array<double, 3> background = {0, 0, 0};  // linear light behind everything, >= 0
   // Light behind everything, pixel by pixel, instead of `background`: width x height
   // pixels, linear, finite and >= 0. Null: there is none.
   std::shared_ptr<const Image> background_image;
   KernelSettings kernel;
   SortOrder sort;
+  // What the device promises of every pixel and channel: |picture - oracle| <=
+  // tolerance * max(1, |oracle|), >= 0; 0: the most exact that it can do (docs/accuracy.md).
   double tolerance = 1e-3;
   std::vector<DrawnComponent> components;
 };
@@ -82,6 +90,7 @@ struct DepthChain {
   float forward[3];
   float inverse_unit;
 };
+// For particles whose positions are relative to `origin`.
 DepthChain make_depth_chain(const CameraFrame& camera, const Vec3& origin);
 
 }  // namespace splotchcl

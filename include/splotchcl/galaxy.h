@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "splotchcl/image.h"
 #include "splotchcl/rotation_curve.h"
 
 // A galaxy of three dimensions from one picture of it. Lengths are in kpc, speeds in km/s,
@@ -14,6 +13,9 @@
 // the observer of a disk seen face-on.
 namespace splotchcl {
 
+struct Image;
+
+// What the picture does not tell. Parts are from 0 to 1.
 struct GalaxySettings {
   // Where the galaxy is in the picture.
   std::optional<std::array<double, 2>> center;  // pixels from the left and top; unset: found
@@ -91,7 +93,8 @@ constexpr int galaxy_picture_limit = 1024;
 // DataError for a picture without a galaxy.
 Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double file_pixels = 1);
 
-// From a file of any size. `gamma` as in LinearImageOptions.
+// From a file of any size, averaged down as said above. `gamma` as in LinearImageOptions. Throws
+// also as read_linear_image does.
 Galaxy read_galaxy(const std::filesystem::path& picture, const GalaxySettings& settings,
                    std::optional<double> gamma = std::nullopt);
 

@@ -16,12 +16,14 @@ struct GenerateSettings {
   std::uint64_t seed = 1;            // the same seed gives the same particles
 };
 
+// Particles of one kind, all of one mass; what a kind does not have is empty.
 struct GeneratedParticles {
   std::vector<float> position, velocity;        // 3 per particle
   std::vector<float> smoothing_length;          // the kernel's support radius
   float mass = 0;                               // of each
   std::vector<float> density, internal_energy;  // gas only
-  std::vector<float> age;  // stars only: the scale factor of their birth, 0 to 1
+  // Stars only: the scale factor of the universe at their birth, 0 to 1.
+  std::vector<float> age;
 
   std::uint64_t count() const { return position.size() / 3; }
   void add(const Vec3& place, const Vec3& speed) {
@@ -33,7 +35,7 @@ struct GeneratedParticles {
 };
 
 struct GeneratedSnapshot {
-  double box_size = 0;  // 0: not periodic
+  double box_size = 0;  // the side of the periodic box; 0: not periodic
   GeneratedParticles gas, stars;
 };
 
@@ -42,7 +44,7 @@ struct GeneratedSnapshot {
 GeneratedSnapshot generate_universe(const GenerateSettings& settings);
 
 // A spiral galaxy with its satellites in a halo of hot gas, around the origin, seen
-// inclined along every axis.
+// inclined along every axis. Throws UsageError likewise.
 GeneratedSnapshot generate_halo(const GenerateSettings& settings);
 
 // Gadget format 2, little-endian. Appears under its name only when complete. Throws

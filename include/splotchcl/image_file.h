@@ -15,15 +15,17 @@ void check_image_path(const std::filesystem::path& path);
 // Throws UsageError when the format cannot hold so large a picture.
 void check_image_size(const std::filesystem::path& path, int width, int height);
 
+// How a picture is stored.
 struct ImageFileOptions {
-  double gamma = 1;        // 8-bit formats store value^(1/gamma); float formats stay linear
+  double gamma = 1;        // > 0: 8-bit formats store value^(1/gamma); float formats stay linear
   bool truncates = false;  // 8-bit formats store floor(256 v), at most 255, not round(255 v)
   std::map<std::string, std::string> metadata;  // kept by EXR, dropped by other formats
 };
 
 // EXR and TIFF keep linear 32-bit floats and premultiplied alpha, HDR linear colour; the
 // others clamp to [0, 1] and store 8 bits without alpha. Written under a temporary name
-// in the same folder and renamed when complete.
+// in the same folder and renamed when complete. Throws as check_image_path and check_image_size
+// do, and DataError for a value that is not a number or a file that cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageFileOptions& options = {});
 
@@ -43,12 +45,14 @@ struct LinearImageOptions {
 // where gamma is not 1.
 Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options = {});
 
+// What a file says of its picture.
 struct ImageFileInfo {
   int width = 0, height = 0;
   bool has_alpha = false;
   bool is_float = false;  // linear light; otherwise whole numbers, display values
   std::map<std::string, std::string> metadata;  // text only
 };
+// Reads no more than the file's header. Throws DataError.
 ImageFileInfo read_image_info(const std::filesystem::path& path);
 
 }  // namespace splotchcl

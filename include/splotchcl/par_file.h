@@ -16,7 +16,8 @@ namespace splotchcl {
 Scene read_par_file(const std::filesystem::path& path, const std::vector<std::string>& settings,
                     std::vector<std::string>& notes);
 
-// The scene with the paths of files as they are written in a scene file in `folder`.
+// The scene with the paths of files as they are written in a scene file in `folder`: relative to
+// it, unless they are absolute.
 Scene with_paths_from(Scene scene, const std::filesystem::path& folder);
 
 }  // namespace splotchcl

@@ -16,12 +16,14 @@ class Column {
  public:
   Column() = default;  // absent
 
+  // One value for all.
   static Column uniform(float value) {
     Column column;
     column.uniform_ = value;
     column.is_uniform_ = true;
     return column;
   }
+  // These values, one after the other.
   static Column owning(std::vector<float> values) {
     auto owner = std::make_shared<const std::vector<float>>(std::move(values));
     const float* data = owner->data();
@@ -35,9 +37,11 @@ class Column {
   bool is_absent() const { return !is_uniform_ && !is_array_; }
   bool is_uniform() const { return is_uniform_; }
   bool is_array() const { return is_array_; }
+  // Of a uniform column.
   float uniform_value() const { return uniform_; }
-  const float* data() const { return data_; }
-  std::size_t size() const { return size_; }  // values in the array, 0 otherwise
+  const float* data() const { return data_; }  // of an array, else null
+  std::size_t size() const { return size_; }   // values in the array, 0 otherwise
+  // Value i of an array, else the uniform one; of an absent column 0.
   float operator[](std::size_t i) const { return is_array_ ? data_[i] : uniform_; }
 
  private:
@@ -49,8 +53,11 @@ class Column {
   bool is_array_ = false;
 };
 
-// The particles of one component: structure of arrays, as the device takes them.
-// Only what the scene needs is present.
+// The particles of one component: structure of arrays, as the device takes them. Columns are
+// arrays of `count` values, or as said, or uniform where one value serves all. Only what the
+// scene needs is present. Lengths, masses and densities are in the snapshot's units. A particle
+// is bad, left out of every picture and counted, where a value of it is not finite, its
+// smoothing length not above 0, its weight or a channel of its own color below 0.
 struct Particles {
   std::size_t count = 0;
   Vec3 origin = {{0, 0, 0}};  // true position = origin + position, added in double

@@ -12,7 +12,7 @@ namespace splotchcl {
 // What a scene's keys are at one frame of a film; they are interpolated in between. Each
 // key follows the keyframes that name it, whatever the others do.
 struct Keyframe {
-  double frame = 0;
+  double frame = 0;  // >= 0, counted from 0
   // Values by scene key ("camera.position", "component.gas.brightness"), as in a scene file.
   std::map<std::string, std::string> values;
 };
@@ -23,7 +23,7 @@ struct Orbit {
   double degrees = 360;
   std::optional<Vec3> center;    // unset: the look-at point
   std::optional<Vec3> axis;      // unset: the sky
-  std::optional<double> radius;  // from the center to the camera; unset: as it stands
+  std::optional<double> radius;  // from the center to the camera, > 0; unset: as it stands
 };
 
 // The camera flies through points at constant speed, looking ahead.
@@ -48,6 +48,7 @@ struct PathSettings {
   bool is_smooth = true;            // false: straight lines between keyframes
   Look look = Look::point;
 
+  // Whether there is anything that changes.
   bool is_set() const { return !file.empty() || orbit || fly || !keyframes.empty(); }
 };
 

@@ -9,7 +9,7 @@ namespace splotchcl {
 // axis by itself).
 struct PeriodicSettings {
   bool wrap = false;
-  std::optional<double> box;  // in the snapshot's length unit; unset: as its header says
+  std::optional<double> box;  // > 0, in the snapshot's length unit; unset: as its header says
 };
 
 }  // namespace splotchcl

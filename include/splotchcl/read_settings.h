@@ -14,11 +14,12 @@ struct ReadSettings {
 
   // Parts of the particles, for a quick look: every N-th, or at most so many, chosen at random
   // by the seed. What is left is made brighter by as much as was left out.
-  int every = 1;
-  std::optional<int> max_particles;
-  int seed = 1;
+  int every = 1;                     // >= 1
+  std::optional<int> max_particles;  // >= 1
+  int seed = 1;                      // >= 0
 
-  // How many particles a smoothing length reaches that the file does not have.
+  // How many particles the sphere of a smoothing length holds that the file does not have; 1 to
+  // 4096.
   int neighbors = 64;
   // Whether smoothing lengths that were found are kept in a file beside the snapshot.
   bool cache_smoothing_lengths = false;

@@ -18,7 +18,7 @@ class RotationCurve {
   // radii > 0 (a first point at radius 0 must have speed 0) and finite speeds >= 0.
   static RotationCurve table(std::vector<double> radii_kpc, std::vector<double> speeds_km_s);
 
-  double speed(double radius_kpc) const;  // km/s
+  double speed(double radius_kpc) const;  // km/s, at a radius >= 0
   // Radians per Myr; at radius 0 the limit from outside.
   double angular_speed(double radius_kpc) const;
 
@@ -32,7 +32,7 @@ class RotationCurve {
 RotationCurve read_rotation_curve(const std::filesystem::path& path);
 RotationCurve parse_rotation_curve(const std::string& text, const std::string& name_for_messages);
 
-// A kpc per (km/s), in Myr.
+// A kpc per (km/s), in Myr: 3.0856775814913673e16 km over 3.15576e13 s, a million Julian years.
 constexpr double myr_per_kpc_s_km = 977.7922216807891;
 
 }  // namespace splotchcl

@@ -18,8 +18,9 @@ struct ParticleSet {
   // Faces belong to the box, the surface to the sphere.
   std::optional<Vec3> box_minimum, box_maximum;
   std::optional<Vec3> sphere_center;
-  std::optional<double> sphere_radius;
+  std::optional<double> sphere_radius;  // > 0
 
+  // Whether it says anything; else no particle belongs to it.
   bool is_given() const {
     return !where.empty() || !id_file.empty() || box_minimum || box_maximum || sphere_center ||
            sphere_radius;
@@ -31,11 +32,12 @@ struct ParticleSet {
 // with R the right-handed rotation about `axis`. Lengths h become scale * h; masses,
 // densities and all other fields stay as they are.
 struct Placement {
-  std::optional<Vec3> origin;  // unset: the center stays where it is
-  Vec3 axis = {{0, 0, 1}};
+  std::optional<Vec3> origin;  // in lengths of the scene; unset: the center stays where it is
+  Vec3 axis = {{0, 0, 1}};     // of any length but 0
   double angle_degrees = 0;
-  double scale = 1;
+  double scale = 1;  // > 0
 
+  // Whether particles are elsewhere, or larger, than their snapshot has them.
   bool moves() const { return origin || angle_degrees != 0 || scale != 1; }
 };
 

@@ -4,22 +4,25 @@
 
 namespace splotchcl {
 
+// What the two eyes look at.
 enum class StereoMode {
   off_axis,  // parallel view directions; what lies at the look-at distance has no disparity
   parallel,  // parallel view directions; what is infinitely far has no disparity
   toe_in,    // each eye looks at the look-at point
 };
 
+// Where the two eyes are, seen from the scene's camera.
 enum class StereoEyes {
   right_shifted,  // the left eye is the camera, the right one a step to its right
   centered,       // each eye half a step to its side of the camera
 };
 
+// Two files, or one picture of both, the left eye left or on top.
 enum class StereoLayout { files, side_by_side, top_bottom };
 
 // Two eyes that lie angle * |look_at - position| apart (the angle in radians).
 struct Stereo {
-  double angle_degrees = 2;
+  double angle_degrees = 2;  // above 0, at most 45
   StereoMode mode = StereoMode::off_axis;
   StereoEyes eyes = StereoEyes::right_shifted;
   StereoLayout layout = StereoLayout::files;

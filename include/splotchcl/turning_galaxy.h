@@ -6,18 +6,22 @@
 #include <string>
 
 #include "splotchcl/rotation_curve.h"
-#include "splotchcl/snapshot.h"
+#include "splotchcl/vector.h"
 
+// How the particles of a galaxy circle its center. Times are in Myr.
 namespace splotchcl {
+
+class Snapshot;
 
 enum class OrbitIntegrator {
   exact,        // circles
   first_order,  // x += v dt, as in the paper: each step leaves the circle along its tangent
 };
 
+// How, and how fast.
 struct TurningSettings {
   OrbitIntegrator integrator = OrbitIntegrator::exact;
-  double step_myr = 1;                 // of the first-order integrator
+  double step_myr = 1;                 // of the first-order integrator, > 0
   std::optional<RotationCurve> curve;  // unset: the speeds that the snapshot's velocities show
 };
 

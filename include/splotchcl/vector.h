@@ -8,6 +8,7 @@
 
 namespace splotchcl {
 
+// x, y and z in double precision.
 using Vec3 = boost::qvm::vec<double, 3>;
 
 }  // namespace splotchcl
