@@ -16,12 +16,10 @@
 #include "measure.h"
 #include "process.h"
 #include "splotchcl/error.h"
-#include "splotchcl/load.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
-#include "splotchcl/snapshot_file.h"
 #include "table.h"
 #include "yardstick.h"
 
