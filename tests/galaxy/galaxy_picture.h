@@ -5,6 +5,7 @@
 
 #include "io/generate/random.h"
 #include "splotchcl/galaxy.h"
+#include "splotchcl/image.h"
 
 namespace splotchcl::testing {
 
