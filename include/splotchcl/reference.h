@@ -52,6 +52,6 @@ Layer over(const Layer& near_layer, const Layer& far_layer);
 Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const KernelSettings& kernel);
 
 // The whole frame: frame.crop in size. `progress` (may be empty) takes 0..1.
-ExactImage render(const Frame& frame, const std::function<void(double)>& progress = {});
+ReferenceImage render(const Frame& frame, const std::function<void(double)>& progress = {});
 
 }  // namespace splotchcl::reference

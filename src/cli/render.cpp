@@ -91,7 +91,7 @@ Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, 
 }
 
 // The plan as comments, so that the whole is a scene file.
-void print_explanation(const Plan& plan, const Frame& frame, const Scene& scene) {
+void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene) {
   std::string line;
   for (const char c : explain(plan, frame)) {
     if (c != '\n') {
@@ -219,7 +219,7 @@ int run_render(const RenderOptions& options, Console& console) {
   const Stopwatch reading;
   report.frame = read_frame(source, options, console);
   report.read_seconds = reading.seconds();
-  report.plan = make_plan_from_particles(report.frame);
+  report.plan = make_plan(report.frame);
   if (options.explain) print_explanation(report.plan, report.frame, source.scene);
   if (!output) return 0;
 

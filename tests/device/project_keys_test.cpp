@@ -58,7 +58,7 @@ void expect_keys_of_the_oracle(DeviceContext& device, const Frame& frame, bool l
   Stages stages(device, frame, lanes);
   stages.project();
   const std::vector<reference::Splat> expected = reference::project(stages.frame());
-  const std::vector<kernel::Splat> splats = stages.splats();
+  const std::vector<shared::Splat> splats = stages.splats();
   const std::vector<std::uint32_t> keys = stages.keys();
   ASSERT_EQ(splats.size(), expected.size()) << "every particle should be in view";
   for (std::size_t i = 0; i < expected.size(); ++i) {
