@@ -7,7 +7,8 @@
 
 namespace splotchcl {
 
-// Between a picture's pixels and the plane of the galaxy's disk that it shows inclined.
+// Maps between a picture's pixels and the plane of the galaxy's disk, which the picture shows
+// inclined.
 class DiskPlane {
  public:
   using Point = std::array<double, 2>;  // of the picture in pixels, or of the disk in lengths

@@ -7,7 +7,7 @@
 
 namespace splotchcl {
 
-// The galaxy's own light by place in its disk: a picture without sky, foreground stars and
+// The galaxy's own light at each point of its disk: a picture without sky, foreground stars and
 // border.
 class LightMap {
  public:

@@ -18,8 +18,8 @@ struct Range {
 };
 
 // Beyond this distance from its centre a splat adds less than 1e-14 to any pixel: far
-// below what the other terms of a pixel's sum lose in double precision. The pixel more
-// is for means, whose pixels reach closer to the splat than their centres do.
+// below what the other terms of a pixel's sum lose in double precision. One pixel
+// more is for means: their pixels reach closer to the splat than their centres do.
 double reach_in_sigmas(const Splat& splat) {
   double strongest = 1;
   for (int c = 0; c < 3; ++c) {

@@ -11,7 +11,7 @@
 namespace splotchcl::test {
 namespace {
 
-// Unsigned integers in the order of floats: DESIGN's rule for keys, with -0 as +0.
+// The rule for keys: unsigned integers in the order of the floats, with -0 as +0.
 std::uint32_t ordered_bits(float value, bool descending) {
   if (value == 0) value = 0;
   std::uint32_t bits = 0;
