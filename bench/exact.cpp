@@ -104,8 +104,8 @@ void FrameError::join(const FrameError& other) {
   values += other.values;
 }
 
-FrameError measure_error(const Image& image, const Rectangle& image_crop, const ExactImage& exact,
-                         const Rectangle& part) {
+FrameError measure_error(const Image& image, const Rectangle& image_crop,
+                         const ReferenceImage& exact, const Rectangle& part) {
   FrameError error;
   error.values = 3.0 * part.width * part.height;
   for (int y = 0; y < part.height; ++y) {
@@ -125,7 +125,8 @@ FrameError measure_error(const Image& image, const Rectangle& image_crop, const 
   return error;
 }
 
-std::vector<ExactImage> draw_exact_parts(const Frame& frame, const std::vector<Rectangle>& parts) {
+std::vector<ReferenceImage> draw_exact_parts(const Frame& frame,
+                                             const std::vector<Rectangle>& parts) {
   std::vector<Frame> part_frames;
   for (const Rectangle& part : parts) {
     part_frames.push_back(frame);
@@ -137,7 +138,7 @@ std::vector<ExactImage> draw_exact_parts(const Frame& frame, const std::vector<R
       part_frames[p].components[c].particles = gather(frame.components[c].particles, chosen[p]);
     }
   }
-  std::vector<ExactImage> images;
+  std::vector<ReferenceImage> images;
   for (const Frame& part : part_frames)
     images.push_back(reference::render(part));
   return images;

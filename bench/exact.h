@@ -21,12 +21,13 @@ struct FrameError {
 };
 
 // `image` shows frame.crop; `exact` any part of it, at `part`.
-FrameError measure_error(const Image& image, const Rectangle& image_crop, const ExactImage& exact,
-                         const Rectangle& part);
+FrameError measure_error(const Image& image, const Rectangle& image_crop,
+                         const ReferenceImage& exact, const Rectangle& part);
 
 // The oracle's pictures of small parts of a large frame: only particles that can reach a
 // part are drawn there, and all are projected no more than once.
-std::vector<ExactImage> draw_exact_parts(const Frame& frame, const std::vector<Rectangle>& parts);
+std::vector<ReferenceImage> draw_exact_parts(const Frame& frame,
+                                             const std::vector<Rectangle>& parts);
 
 // Squares that see the middle, a corner and what lies between.
 std::vector<Rectangle> sample_parts(const Rectangle& crop, int side);

@@ -16,10 +16,11 @@
 #include "measure.h"
 #include "process.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
-#include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
 #include "table.h"
 #include "yardstick.h"
 
@@ -159,7 +160,7 @@ WholeProcess time_processes(const fs::path& scene_file, const std::vector<std::s
 
 FrameError judge(const Image& image, const Frame& frame, int side) {
   const std::vector<Rectangle> parts = sample_parts(frame.crop, side);
-  const std::vector<ExactImage> exact = draw_exact_parts(frame, parts);
+  const std::vector<ReferenceImage> exact = draw_exact_parts(frame, parts);
   FrameError error;
   for (std::size_t i = 0; i < parts.size(); ++i)
     error.join(measure_error(image, frame.crop, exact[i], parts[i]));
@@ -183,7 +184,7 @@ Measured measure_scene(const std::string& name, const Options& options, Renderer
   const std::uint64_t bytes_after = anonymous_bytes();
   measured.heap_bytes = bytes_after > bytes_before ? bytes_after - bytes_before : 0;
   measured.tolerance = frame.tolerance;
-  measured.ordered = make_plan(frame).needs_sort;
+  measured.ordered = choose_light(frame) == LightPlan::ordered;
 
   Image image = renderer.render(frame);
   const Yardstick before_frames = measure_yardstick(threads);

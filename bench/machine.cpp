@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "device/device_context.h"
+#include "device/opencl/device_context.h"
 #include "splotchcl/error.h"
 #include "table.h"
 

@@ -118,7 +118,7 @@ class SpeedAndError {
     Frame frame = scene.frame;
     set_light(frame, light);
     const Stopwatch stopwatch;
-    const ExactImage exact = reference::render(frame);
+    const ReferenceImage exact = reference::render(frame);
     const Cost oracle = stopwatch.elapsed();
     std::vector<std::string> cells = {scene.name, scene.splats, name(light),
                                       std::to_string(count_particles(frame))};

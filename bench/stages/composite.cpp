@@ -73,8 +73,8 @@ double count_updates(const Frame& frame) {
 }
 
 void composite(benchmark::State& state, DeviceContext& device, const Frame& frame,
-               const Plan& plan) {
-  StageRig rig(device, frame, plan);
+               const PlanOptions& options) {
+  StageRig rig(device, frame, options);
   const std::uint32_t splats = rig.prepare_lists();
   rig.clear();
   rig.composite();
@@ -116,9 +116,7 @@ void add_composite_benchmarks(const Setting& setting) {
       add_benchmark(std::string("composite/") + variant.name + "/" + in_pixels(size),
                     [&device, size, variant](benchmark::State& state) {
                       const Frame frame = clouds_of(size, variant);
-                      Plan plan = make_plan(frame);
-                      if (!variant.coarse_grids) plan.coarse_share = 0;
-                      composite(state, device, frame, plan);
+                      composite(state, device, frame, {variant.coarse_grids});
                     });
     }
   }

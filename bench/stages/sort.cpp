@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "device/sorter.h"
+#include "device/stages/sorter.h"
 #include "stages/timed.h"
 #include "synthetic.h"
 
@@ -68,18 +68,18 @@ void sort_on_device(benchmark::State& state, DeviceContext& device, const Number
   Numbers order(keys.size());
   PieceTimer timer(state);
   for (auto _ : state) {
-    const Sorter::Pairs pairs = {device.buffers.upload("keys", keys),
-                                 device.buffers.upload("order", values)};
+    Buffer<std::uint32_t> device_keys = device.pool.upload(keys, "keys");
+    Buffer<std::uint32_t> device_values = device.pool.upload(values, "values");
+    Buffer<std::uint32_t> sorted;
     device.queue.finish();
-    Sorter::Pairs sorted;
     timer.time([&] {
-      sorted = Sorter(device).sort(pairs, static_cast<std::uint32_t>(keys.size()));
+      sorted = Sorter(device).sort(std::move(device_keys), std::move(device_values),
+                                   static_cast<std::uint32_t>(keys.size()));
       device.queue.finish();
     });
-    device.queue.enqueue_read_buffer(sorted.values, 0, 4 * keys.size(), order.data());
+    order = device.pool.download(sorted, keys.size());
     device.timer.clear();
   }
-  Sorter(device).release_buffers();
   check(state, keys, order, true);
   timer.count("pairs", static_cast<double>(keys.size()));
 }

@@ -1,69 +1,49 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <utility>
 
-#include "device/binner.h"
-#include "device/compositor.h"
-#include "device/device_context.h"
-#include "device/frame_layout.h"
-#include "device/particle_buffers.h"
-#include "device/projector.h"
-#include "device/resolver.h"
-#include "device/sorter.h"
+#include "device/opencl/device_context.h"
+#include "device/pipeline.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::bench {
 
-// One frame with its stages side by side, so that each can be run alone on what the ones
-// before it left on the device.
+// One frame whose stages can be run alone, each on what the ones before it left.
 class StageRig {
  public:
-  StageRig(DeviceContext& device, Frame frame, const Plan& plan)
-      : device_(device),
-        frame_(std::move(frame)),
-        plan_(plan),
-        layout_(make_layout(frame_, plan_, device.traits.rows)),
-        grids_(device.buffers.upload("grids", layout_.grids)),
-        store_(device),
-        projector_(device, frame_, layout_, grids_),
-        binner_(device, layout_, frame_, plan_, grids_),
-        compositor_(device, layout_, frame_, plan_, grids_, device.traits.rows),
-        resolver_(device, layout_, frame_, plan_, grids_) {}
+  StageRig(DeviceContext& device, Frame frame, const PlanOptions& options = {});
 
   // Every particle, as the plan takes them: in chunks for sums, at once with keys where
   // order matters.
   void project();
-  // The first chunk that fits into one binning pass: what binning and compositing are
-  // measured on. Returns the number of its splats.
+  // The first chunk: what binning and compositing are measured on. Returns the number of its
+  // splats. Throws DeviceError where its lists do not fit into one band.
   std::uint32_t prepare_lists();
   void bin();
-  void clear() { compositor_.clear(); }
-  void composite() { compositor_.composite(lists_); }
-  Image resolve() { return resolver_.resolve(compositor_.planes(), compositor_.used_grids()); }
+  // No light at all: before composite() and resolve().
+  void clear() { planes_ = pipeline_.compositor().start(); }
+  void composite();
+  // Takes the planes with it.
+  Image resolve();
   void finish() { device_.queue.finish(); }
 
   const Frame& frame() const { return frame_; }
   const TileLists& lists() const { return lists_; }
-  std::uint64_t particle_count() const;
+  std::uint64_t particle_count() const { return splotchcl::particle_count(frame_); }
 
  private:
-  bool try_bin();
+  CountedSplats count() const;
 
   DeviceContext& device_;
-  Frame frame_;
-  Plan plan_;
-  FrameLayout layout_;
-  compute::buffer grids_;
+  const Frame frame_;
+  const FramePlan plan_;
   ParticleStore store_;
-  Projector projector_;
-  Binner binner_;
-  Compositor compositor_;
-  Resolver resolver_;
+  Pipeline pipeline_;
   SplatBlocks blocks_;
-  compute::buffer order_;
-  std::uint32_t length_ = 0;  // of each block, or of all where order matters
+  SortedSplats sorted_;
   TileLists lists_;
+  Planes planes_;
 };
 
 }  // namespace splotchcl::bench

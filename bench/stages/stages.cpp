@@ -16,7 +16,7 @@ Frame universe(bool quick, LightPlan light) {
 }
 
 void project(benchmark::State& state, DeviceContext& device, const Frame& frame) {
-  StageRig rig(device, frame, make_plan(frame));
+  StageRig rig(device, frame);
   rig.project();
   rig.finish();
   PieceTimer timer(state);
@@ -31,7 +31,7 @@ void project(benchmark::State& state, DeviceContext& device, const Frame& frame)
 }
 
 void bin(benchmark::State& state, DeviceContext& device, const Frame& frame) {
-  StageRig rig(device, frame, make_plan(frame));
+  StageRig rig(device, frame);
   const std::uint32_t splats = rig.prepare_lists();
   PieceTimer timer(state);
   for (auto _ : state) {
@@ -46,11 +46,11 @@ void bin(benchmark::State& state, DeviceContext& device, const Frame& frame) {
 }
 
 void resolve(benchmark::State& state, DeviceContext& device, const Frame& frame) {
-  StageRig rig(device, frame, make_plan(frame));
-  rig.clear();
-  rig.finish();
+  StageRig rig(device, frame);
   PieceTimer timer(state);
   for (auto _ : state) {
+    rig.clear();
+    rig.finish();
     timer.time([&] {
       rig.resolve();
       rig.finish();

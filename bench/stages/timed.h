@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_context.h"
+#include "device/opencl/device_context.h"
 #include "measure.h"
 
 namespace splotchcl::bench {

@@ -29,12 +29,12 @@ struct Image {
 };
 
 // The same in double precision, as the oracle draws it.
-struct ExactImage {
+struct ReferenceImage {
   int width = 0, height = 0;
   std::vector<double> pixels;  // 4 * width * height
 
-  ExactImage() = default;
-  ExactImage(int width_pixels, int height_pixels)
+  ReferenceImage() = default;
+  ReferenceImage(int width_pixels, int height_pixels)
       : width(width_pixels),
         height(height_pixels),
         pixels(4 * static_cast<std::size_t>(width_pixels) *

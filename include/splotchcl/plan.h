@@ -2,57 +2,140 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "splotchcl/frame.h"
 
+// What a frame needs, decided once from the structure of its light, its tolerance and its
+// particles. Every stage of the renderer takes its limits from here; nothing else reads
+// Frame::tolerance. docs/accuracy.md derives the numbers.
 namespace splotchcl {
 
-// What a frame costs follows from the structure of its light, never from comparing
-// floats:
+// Follows from the structure of the scene, never from comparing floats:
 //   emission      nothing absorbs:  I = background + sum E X
 //   proportional  E = q A for all:  I = q + (background - q) exp(-sum A X)
 //   ordered       anything else:    sort, then layers nearer over farther
 enum class LightPlan { emission, proportional, ordered };
 
-// What tolerance 0 promises instead, of max(1, |oracle|) (docs/accuracy.md).
-constexpr double most_exact_tolerance = 1e-6;
+enum class Precision {
+  fast,      // single precision, short polynomials: exp to 2.6e-6, erf to 6e-6
+  full,      // single precision to its last digits: exp to 7.5e-8, erf to 6e-7 or better
+  extended,  // numbers of 45 bits: double precision, or pairs of floats
+};
 
-// Clouds that lie upon one another in one place of the picture (docs/accuracy.md).
+// What Precision::extended promises, of max(1, |reference|).
+constexpr double extended_tolerance = 1e-6;
+
+// How the promise is shared out. The shares add up to it; each bounds (or estimates, where
+// docs/accuracy.md says so) one approximation's part of max(1, |reference|).
+struct ToleranceShares {
+  double promise = 0;       // Frame::tolerance, or extended_tolerance
+  double truncation = 0;    // light left out by ending a splat
+  double coarse_grids = 0;  // wide splats on grids of larger pixels (sums only)
+  double pixel_mean = 0;    // center values in place of means over pixels
+  double phi = 0;           // exp and (1 - exp(-y)) / y
+  double early_stop = 0;    // what lies behind an opaque tile (ordered only)
+  double arithmetic() const { return pixel_mean + phi + early_stop; }
+};
+
+// Clouds that lie upon one another in one place of the picture.
 struct Crowd {
-  double light = 0;  // or depth, of all of them; 0: there is no crowd
+  double light = 0;  // or optical depth, of all of them; 0: there is no crowd
   // Only clouds of such widths do: sigma in pixels.
   double narrowest_sigma = 0, widest_sigma = 0;
 };
 
-struct Plan {
-  LightPlan light = LightPlan::emission;
-  std::array<double, 3> source = {1, 1, 1};  // q, for proportional
-  bool needs_sort = false;
-  bool exact = false;  // tolerance 0: numbers of 45 bits, no coarse grids, no early stop
-
-  // How the tolerance (most_exact_tolerance for 0) is shared out (docs/accuracy.md). They
-  // add up to it.
-  double truncation_share = 0;  // of a splat's light left out by ending its disc
-  double coarse_share = 0;      // coarse grids (sums only)
-  double arithmetic_share = 0;  // of which:
-  double pixel_mean_share = 0;  // centre values in place of means over pixels
-  double phi_share = 0;         // exp and (1 - exp(-y)) / y
-  double stop_share = 0;        // what an early stop leaves out (ordered only)
-
-  Crowd crowd;  // from the particles: make_plan finds none
-  // Clouds are so sharp for a small tolerance that their places in single precision would not
-  // hold it: the frame is drawn as with tolerance 0. Also from the particles.
-  bool needs_exact_places = false;
+// Where a splat ends and how its pixels are sampled. Widths in pixels.
+struct SplatLimits {
+  float mean_sigma = 0;      // narrower splats take the pixel mean by erf; 0: none does
+  float widening = 0;        // of sigma^2, for wider ones, in pixels^2
+  float bright_peak = 0;     // brighter splats take means that keep more digits
+  float least_extent = 0;    // sigmas drawn of a faint splat
+  float restored_light = 0;  // part of a faint splat's weight that it gets back
+  float inverse_edge = 0;    // 1 / (value at which a splat may end)
+  // Splats of a crowd's widths count as bright as the crowd.
+  float crowd_light = 0, crowd_narrowest = 0, crowd_widest = 0;
+  float crowd_bright = 0;  // its light where that makes them bright splats, else 0
+  float crowd_extent = 0;  // sigmas drawn of them at least
 };
 
-Plan make_plan(const Frame& frame);
+// One grid of pixels: the picture's own, or a coarser one with a guard band around it.
+struct PictureGrid {
+  int level = 0;              // its pixels are 2^level of the picture's wide
+  int width = 0, height = 0;  // pixels, with the guard band
+  int guard = 0;              // pixels on each side
+};
 
-// The same with what the positions and widths of the particles tell: a millisecond or two.
-Plan make_plan_from_particles(const Frame& frame);
+// Ten taps of one axis that interpolate a grid to half its pixel size: weights of the old
+// pixels -4 .. 5 for a new one a quarter of a pixel right of old pixel 0; they add up to 1.
+struct RefinementFilter {
+  std::array<double, 10> weights = {0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
+  double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
+};
+
+// The grids of a frame: grid 0 is the picture. Sums add wide splats to coarser grids, which
+// are interpolated up afterwards.
+struct GridPyramid {
+  std::vector<PictureGrid> grids;
+  std::vector<int> level_grids;  // the grid that collects each level
+  // Two grids for each level l > 0: splats are drawn narrower, and the grid is blurred by
+  // these sigma^2 (its own pixels^2): grid 2 l - 1 by blur[0], grid 2 l by blur[1].
+  bool is_blurred = false;
+  double blur[2] = {0, 0};
+  double blur_error = 0;  // of a splat's peak
+  RefinementFilter refinement;
+  float coarse_peak = 0;   // brighter splats stay on grid 0
+  float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
+};
+
+// How layers are put together.
+struct LayerLimits {
+  float phi_short = 0, phi_series = 0;  // optical depths up to which 2 and 4 terms serve
+  float opaque = 0;                     // a tile this opaque is finished; above 1: never
+  // Light may show through opacities close to 1: transmittances are carried there.
+  bool keeps_transmittance = false;
+};
+
+struct FramePlan {
+  LightPlan light = LightPlan::emission;
+  std::array<double, 3> source = {1, 1, 1};  // q, for proportional
+  Precision precision = Precision::fast;
+  // The polynomial of erf would not hold the promise.
+  bool uses_device_erf = false;
+  // Clouds are so sharp for a small tolerance that their places in single precision would
+  // not hold it: the reason for Precision::extended where the tolerance is not 0.
+  bool has_sharp_clouds = false;
+  // Some particles have colors of their own.
+  bool has_vector_colors = false;
+  // Equirectangular pictures: splats are wider than high, and have copies beside the picture.
+  bool has_ellipses = false;
+  int splats_per_particle = 1;  // at most
+
+  ToleranceShares shares;
+  Crowd crowd;
+  SplatLimits splats;
+  GridPyramid pyramid;
+  LayerLimits layers;
+
+  bool needs_sort() const { return light == LightPlan::ordered; }
+  bool is_extended() const { return precision == Precision::extended; }
+};
+
+// Variations that measurements ask for; pictures are drawn with the default.
+struct PlanOptions {
+  bool coarse_grids = true;
+};
+
+// Decides everything. Looks at up to 16384 particles: a millisecond or two.
+FramePlan make_plan(const Frame& frame, const PlanOptions& options = {});
+
+// The light alone, which needs no particles.
+LightPlan choose_light(const Frame& frame);
 
 // Lines for --explain: the plan, why it is exact, and how the tolerance is spent.
-std::string explain(const Plan& plan, const Frame& frame);
+std::string explain(const FramePlan& plan, const Frame& frame);
 
 const char* name(LightPlan light);
+const char* name(Precision precision);
 
 }  // namespace splotchcl

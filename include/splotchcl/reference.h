@@ -41,7 +41,9 @@ void sort(std::vector<Splat>& splats, const SortOrder& order);
 // differences of erf) or the centre value, cut if the kernel says so.
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel);
 
-// A layer per channel: tau, S (DESIGN: S = E X phi(tau)).
+// What a splat, or several, make of the light behind a pixel, per channel: I becomes
+// exp(-tau) I + S. One splat of column X has tau = A X and S = E X phi(tau), where
+// phi(y) = (1 - exp(-y)) / y (docs/scene.md).
 struct Layer {
   double optical_depth[3] = {};
   double source[3] = {};
@@ -52,6 +54,6 @@ Layer over(const Layer& near_layer, const Layer& far_layer);
 Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const KernelSettings& kernel);
 
 // The whole frame: frame.crop in size. `progress` (may be empty) takes 0..1.
-ExactImage render(const Frame& frame, const std::function<void(double)>& progress = {});
+ReferenceImage render(const Frame& frame, const std::function<void(double)>& progress = {});
 
 }  // namespace splotchcl::reference

@@ -68,6 +68,8 @@ class Renderer {
 
   // The same frame gives the same bits on the same device.
   Image render(const Frame& frame);
+  // The same with a plan that was made of this frame already (plan.h).
+  Image render(const Frame& frame, const FramePlan& plan);
 
   const RenderStats& stats() const;  // of the last frame
 

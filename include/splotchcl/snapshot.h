@@ -90,7 +90,3 @@ class Snapshot {
 };
 
 }  // namespace splotchcl
-
-// Until the files that rely on it include what they use.
-#include "splotchcl/load.h"
-#include "splotchcl/snapshot_file.h"

@@ -7,9 +7,10 @@
 #include "cli/commands.h"
 #include "cli/render_stats.h"
 #include "cli/scene_argument.h"
-#include "io/common/unfinished_file.h"
+#include "common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
+#include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
@@ -91,7 +92,7 @@ Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, 
 }
 
 // The plan as comments, so that the whole is a scene file.
-void print_explanation(const Plan& plan, const Frame& frame, const Scene& scene) {
+void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene) {
   std::string line;
   for (const char c : explain(plan, frame)) {
     if (c != '\n') {
@@ -219,7 +220,7 @@ int run_render(const RenderOptions& options, Console& console) {
   const Stopwatch reading;
   report.frame = read_frame(source, options, console);
   report.read_seconds = reading.seconds();
-  report.plan = make_plan_from_particles(report.frame);
+  report.plan = make_plan(report.frame);
   if (options.explain) print_explanation(report.plan, report.frame, source.scene);
   if (!output) return 0;
 

@@ -14,10 +14,14 @@ Json particles_to_json(const RenderStats& stats) {
       {"total", stats.particles}, {"bad", stats.bad_particles}, {"drawn", stats.drawn_particles}};
 }
 
-Json plan_to_json(const Plan& plan) {
-  return {{"light", name(plan.light)},         {"source", plan.source},
-          {"needs_sort", plan.needs_sort},     {"truncation_share", plan.truncation_share},
-          {"coarse_share", plan.coarse_share}, {"arithmetic_share", plan.arithmetic_share}};
+Json plan_to_json(const FramePlan& plan) {
+  return {{"light", name(plan.light)},
+          {"precision", name(plan.precision)},
+          {"source", plan.source},
+          {"needs_sort", plan.needs_sort()},
+          {"truncation_share", plan.shares.truncation},
+          {"coarse_share", plan.shares.coarse_grids},
+          {"arithmetic_share", plan.shares.arithmetic()}};
 }
 
 Json seconds_to_json(const RenderReport& report) {

@@ -14,7 +14,7 @@ struct RenderReport {
   std::string scene, snapshot, output;
   bool reference = false;  // drawn by the reference instead of a device
   Frame frame;
-  Plan plan;
+  FramePlan plan;
   RenderStats stats;
   double read_seconds = 0, draw_seconds = 0, write_seconds = 0;
 };

@@ -8,7 +8,8 @@
 
 namespace splotchcl {
 
-// A Plummer sphere's light seen through, which is what the disk leaves to the bulge.
+// The light of a transparent Plummer sphere along the line of sight: what the disk leaves to the
+// bulge.
 class BulgeProfile {
  public:
   BulgeProfile(const LightMap& map, const GalaxySettings& settings)
@@ -27,7 +28,7 @@ class BulgeProfile {
     return rest;
   }
   const Light& peak() const { return peak_; }
-  // Of a face-on area that, at the peak's light, gives off all of the bulge's.
+  // Of the face-on area that would have all of the bulge's light at the peak's brightness.
   double area() const { return pi * radius_ * radius_; }
 
  private:

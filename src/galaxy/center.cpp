@@ -9,23 +9,23 @@
 namespace splotchcl {
 namespace {
 
-using Place = std::array<double, 2>;
+using Point = std::array<double, 2>;
 
-// The centroid of what lies within a radius; the place itself where that is dark.
-Place centroid(const Image& picture, const Place& place, double radius) {
+// The centroid of what lies within a radius; the point itself where that is dark.
+Point centroid(const Image& picture, const Point& point, double radius) {
   double sum = 0;
-  Place weighted = {0, 0};
+  Point weighted = {0, 0};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const double px = x + 0.5, py = y + 0.5;
-      if (std::hypot(px - place[0], py - place[1]) > radius) continue;
+      if (std::hypot(px - point[0], py - point[1]) > radius) continue;
       const double light = mean(light_at(picture, x, y));
       sum += light;
       weighted[0] += light * px;
       weighted[1] += light * py;
     }
   }
-  if (!(sum > 0)) return place;
+  if (!(sum > 0)) return point;
   return {weighted[0] / sum, weighted[1] / sum};
 }
 
@@ -45,15 +45,15 @@ std::array<double, 2> find_center(const Image& picture) {
   constexpr double shrink = 0.8;
   constexpr double last_fraction = 0.02;  // of the shorter side: a nucleus
   const double shorter = std::min(picture.width, picture.height);
-  Place place = {picture.width / 2.0, picture.height / 2.0};
-  place = centroid(picture, place, std::hypot(picture.width, picture.height));
+  Point point = {picture.width / 2.0, picture.height / 2.0};
+  point = centroid(picture, point, std::hypot(picture.width, picture.height));
   for (double radius = shorter / 2; radius > std::max(2.0, last_fraction * shorter);
        radius *= shrink) {
     // Twice: the circle follows what it found.
-    place = centroid(picture, place, radius);
-    place = centroid(picture, place, radius);
+    point = centroid(picture, point, radius);
+    point = centroid(picture, point, radius);
   }
-  return place;
+  return point;
 }
 
 }  // namespace splotchcl

@@ -11,7 +11,7 @@ GalaxyParticles make_clusters(const LightMap& map, const GalaxySettings& setting
   Random random(settings.seed + 3);
   GalaxyParticles stars;
   if (settings.clusters == 0) return stars;
-  constexpr double halo_fraction = 0.25;  // the Plummer radius of their places, of the galaxy's
+  constexpr double halo_fraction = 0.25;  // the Plummer radius of their positions, of the galaxy's
   constexpr double number_spread = 0.8, size_spread = 0.4;
   constexpr Light old_stars = {1.2, 1.0, 0.75};  // their mean is close to 1
   const double light_per_star = settings.cluster_light * map.total_light() /

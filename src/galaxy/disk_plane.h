@@ -7,14 +7,15 @@
 
 namespace splotchcl {
 
-// Between a picture's pixels and the plane of the galaxy's disk that it shows inclined.
+// Maps between a picture's pixels and the plane of the galaxy's disk, which the picture shows
+// inclined.
 class DiskPlane {
  public:
-  using Place = std::array<double, 2>;
+  using Point = std::array<double, 2>;  // of the picture in pixels, or of the disk in lengths
 
   // The position angle is that of the line along which the disk is not foreshortened, from
   // up, counter-clockwise.
-  DiskPlane(const Place& center_pixel, double inclination_degrees, double position_angle_degrees,
+  DiskPlane(const Point& center_pixel, double inclination_degrees, double position_angle_degrees,
             double pixel_size)
       : center_(center_pixel), pixel_size_(pixel_size) {
     constexpr double radians = pi / 180;
@@ -24,12 +25,12 @@ class DiskPlane {
   }
 
   // In the disk, from its centre: right and up as in the picture, in length units.
-  Place in_disk(const Place& pixel) const {
+  Point in_disk(const Point& pixel) const {
     return stretched({pixel_size_ * (pixel[0] - center_[0]), pixel_size_ * (center_[1] - pixel[1])},
                      1 / foreshortening_);
   }
-  Place in_picture(const Place& disk) const {
-    const Place seen = stretched(disk, foreshortening_);
+  Point in_picture(const Point& disk) const {
+    const Point seen = stretched(disk, foreshortening_);
     return {center_[0] + seen[0] / pixel_size_, center_[1] - seen[1] / pixel_size_};
   }
   // Of the disk, in squared length units.
@@ -38,13 +39,13 @@ class DiskPlane {
 
  private:
   // Across the major axis alone.
-  Place stretched(const Place& place, double factor) const {
-    const double along = place[0] * major_[0] + place[1] * major_[1];
-    const Place across = {place[0] - along * major_[0], place[1] - along * major_[1]};
+  Point stretched(const Point& point, double factor) const {
+    const double along = point[0] * major_[0] + point[1] * major_[1];
+    const Point across = {point[0] - along * major_[0], point[1] - along * major_[1]};
     return {along * major_[0] + factor * across[0], along * major_[1] + factor * across[1]};
   }
 
-  Place center_, major_;
+  Point center_, major_;
   double foreshortening_, pixel_size_;
 };
 

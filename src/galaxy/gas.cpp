@@ -12,9 +12,9 @@ Vec3 place_in_ball(Random& random) {
 
 }  // namespace
 
-// A cloud has the colour of the pixel that its centre falls in, and is wider than a pixel: so
-// clouds of different heights and colours overlap along z. (Were each particle coloured by the
-// pixel below it, every column of particles would have one colour.)
+// A ball of particles has the colour of the pixel that its centre falls in, and is wider than a
+// pixel: so balls of different heights and colours overlap along z. If each particle had the colour
+// of the pixel below it, every column of particles would have one colour.
 GalaxyParticles make_gas(const LightMap& map, const BulgeProfile& bulge,
                          const GalaxySettings& settings) {
   Random random(settings.seed);

@@ -5,7 +5,7 @@
 #include "generate/random.h"
 #include "splotchcl/galaxy.h"
 
-// The kinds of matter that a galaxy is made of: places, colours and orbits. Each draws from a
+// The kinds of matter that a galaxy is made of: positions, colours and orbits. Each draws from a
 // sequence of random numbers of its own, so that one does not change with another.
 namespace splotchcl {
 

@@ -18,10 +18,10 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
-DiskPlane::Place choose_center(const Image& picture, const GalaxySettings& settings,
+DiskPlane::Point choose_center(const Image& picture, const GalaxySettings& settings,
                                double file_pixels) {
   if (!settings.center) return find_center(picture);
-  const DiskPlane::Place center = {(*settings.center)[0] / file_pixels,
+  const DiskPlane::Point center = {(*settings.center)[0] / file_pixels,
                                    (*settings.center)[1] / file_pixels};
   const bool inside =
       center[0] >= 0 && center[1] >= 0 && center[0] <= picture.width && center[1] <= picture.height;
@@ -38,7 +38,7 @@ double whole_radius(const Image& picture, const DiskPlane& plane) {
   double radius = 0;
   for (const double x : {0.0, static_cast<double>(picture.width)}) {
     for (const double y : {0.0, static_cast<double>(picture.height)}) {
-      const DiskPlane::Place corner = plane.in_disk({x, y});
+      const DiskPlane::Point corner = plane.in_disk({x, y});
       radius = std::max(radius, std::hypot(corner[0], corner[1]));
     }
   }
@@ -79,7 +79,7 @@ void LightMap::fade(const GalaxySettings& settings) {
       std::max(1.0, settings.border_fade * std::min(picture_.width, picture_.height));
   for (int y = 0; y < picture_.height; ++y) {
     for (int x = 0; x < picture_.width; ++x) {
-      const DiskPlane::Place disk = plane_.in_disk({x + 0.5, y + 0.5});
+      const DiskPlane::Point disk = plane_.in_disk({x + 0.5, y + 0.5});
       const int edge = std::min({x, y, picture_.width - 1 - x, picture_.height - 1 - y});
       // From half to one and a half thresholds: a sharp limit would show as an edge.
       const double brightness = mean(light_at(picture_, x, y));
@@ -99,7 +99,7 @@ Light LightMap::mean_light_within(double radius) const {
   int count = 0;
   for (int y = 0; y < picture_.height; ++y) {
     for (int x = 0; x < picture_.width; ++x) {
-      const DiskPlane::Place disk = plane_.in_disk({x + 0.5, y + 0.5});
+      const DiskPlane::Point disk = plane_.in_disk({x + 0.5, y + 0.5});
       if (std::hypot(disk[0], disk[1]) > radius) continue;
       const Light light = light_at(picture_, x, y);
       for (std::size_t i = 0; i < 3; ++i)
@@ -119,8 +119,8 @@ double LightMap::total_light() const {
   return sum * plane_.area_of_pixel();
 }
 
-Light LightMap::at(const DiskPlane::Place& disk) const {
-  const DiskPlane::Place pixel = plane_.in_picture(disk);
+Light LightMap::at(const DiskPlane::Point& disk) const {
+  const DiskPlane::Point pixel = plane_.in_picture(disk);
   const bool inside =
       pixel[0] >= 0 && pixel[1] >= 0 && pixel[0] < picture_.width && pixel[1] < picture_.height;
   if (!inside) return {0, 0, 0};

@@ -7,7 +7,7 @@
 
 namespace splotchcl {
 
-// The galaxy's own light by place in its disk: a picture without sky, foreground stars and
+// The galaxy's own light at each point of its disk: a picture without sky, foreground stars and
 // border.
 class LightMap {
  public:
@@ -16,18 +16,17 @@ class LightMap {
 
   const Image& picture() const { return picture_; }
   const DiskPlane& plane() const { return plane_; }
-  double radius() const { return radius_; }        // kpc; no light lies beyond
-  double threshold() const { return threshold_; }  // of a pixel's mean light
-  double center_light() const { return mean(center_color_); }
+  double radius() const { return radius_; }                    // kpc; no light lies beyond
+  double threshold() const { return threshold_; }              // of a pixel's mean light
   const Light& center_color() const { return center_color_; }  // mean within the bulge
   double total_light() const;  // summed over the disk's area, mean of the channels
   // None outside the picture.
-  Light at(const DiskPlane::Place& disk) const;
+  Light at(const DiskPlane::Point& disk) const;
 
   // What make_galaxy tells of it.
   Sky sky() const { return sky_; }
   std::uint64_t pixels_of_stars() const { return pixels_of_stars_; }
-  DiskPlane::Place center() const { return center_; }
+  DiskPlane::Point center() const { return center_; }
 
  private:
   void fade(const GalaxySettings& settings);
@@ -35,7 +34,7 @@ class LightMap {
 
   Sky sky_;
   Image picture_;
-  DiskPlane::Place center_;
+  DiskPlane::Point center_;
   std::uint64_t pixels_of_stars_ = 0;
   DiskPlane plane_;
   double radius_ = 0;

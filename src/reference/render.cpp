@@ -18,8 +18,8 @@ struct Range {
 };
 
 // Beyond this distance from its centre a splat adds less than 1e-14 to any pixel: far
-// below what the other terms of a pixel's sum lose in double precision. The pixel more
-// is for means, whose pixels reach closer to the splat than their centres do.
+// below what the other terms of a pixel's sum lose in double precision. One pixel
+// more is for means: their pixels reach closer to the splat than their centres do.
 double reach_in_sigmas(const Splat& splat) {
   double strongest = 1;
   for (int c = 0; c < 3; ++c) {
@@ -135,8 +135,8 @@ bool is_in_picture(std::size_t i, const Frame& frame) {
   return across * across + along * along <= diameter * diameter;
 }
 
-ExactImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
-  ExactImage image(frame.crop.width, frame.crop.height);
+ReferenceImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
+  ReferenceImage image(frame.crop.width, frame.crop.height);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     if (!is_in_picture(i, frame)) continue;
     const std::array<double, 3> background = background_of(i, frame);
@@ -155,7 +155,7 @@ ExactImage resolve(const std::vector<Layer>& layers, const Frame& frame) {
 
 // Composited in depth order even where the plan needs no order: that is how the plans'
 // shortcuts are checked.
-ExactImage render(const Frame& frame, const std::function<void(double)>& progress) {
+ReferenceImage render(const Frame& frame, const std::function<void(double)>& progress) {
   std::vector<Splat> splats = project(frame);
   sort(splats, frame.sort);
   const std::vector<Layer> layers = composite(splats, frame, progress);

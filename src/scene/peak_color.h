@@ -5,7 +5,7 @@
 namespace splotchcl {
 
 // The largest of E and A per unit of a particle's weight, in any channel: a bound over the
-// whole palette. Colours of the particles' own multiply it, but for peak_own_absorption.
+// whole palette. The particles' own colours multiply it, except for what peak_own_absorption says.
 double peak_color(const DrawnComponent& component);
 
 // That of an absorption palette of the component's own, 0 without one.

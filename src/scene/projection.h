@@ -22,8 +22,8 @@ struct Projected {
 std::optional<Projected> project_point(const Vec3& from_camera, const CameraFrame& camera,
                                        Projection projection);
 
-// How many times wider than high a cloud is, sigma pixels high. 1 but in equirectangular
-// pictures, where it grows towards the poles so that the cloud keeps its light.
+// How many times as wide as high a splat of height sigma (pixels) is. 1, except in equirectangular
+// pictures, where it grows towards the poles so that the splat keeps its flux.
 double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
                        Projection projection);
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/cloud_in_picture.h"
+#include "scene/plan/cloud_in_picture.h"
 #include "scene/constants.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"

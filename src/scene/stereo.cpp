@@ -78,7 +78,8 @@ CameraFrame eye_camera(const CameraFrame& camera, Projection projection, const S
     frame.eye_offset = offset;
     frame.turn_axis = head_axis(camera, projection);
     if (stereo.mode == StereoMode::off_axis) {
-      // Turned as what lies at the look-at distance is, the camera sees that unchanged.
+      // The camera turns by as much as what lies at the look-at distance, which so stays where it
+      // is.
       const auto turn = rot_quat(frame.turn_axis, std::asin(offset / camera.look_at_distance));
       frame.right = turn * camera.right;
       frame.down = turn * camera.down;

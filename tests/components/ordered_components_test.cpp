@@ -96,11 +96,11 @@ class OrderedComponents : public PictureTest, public ::testing::WithParamInterfa
   void expect_within_tolerance(const Scene& scene) {
     const MemorySnapshot snapshot = cluster();
     const Frame frame = load(scene, snapshot);
-    ASSERT_EQ(make_plan(frame).light, LightPlan::ordered);
+    ASSERT_EQ(choose_light(frame), LightPlan::ordered);
     for (const DrawnComponent& component : frame.components) {
       EXPECT_GT(component.particles.count, 100u) << component.name;
     }
-    const ExactImage exact = reference::render(frame);
+    const ReferenceImage exact = reference::render(frame);
     EXPECT_GT(largest_value(exact), 0.5);
     EXPECT_LE(largest_error(draw(frame, GetParam()), exact), frame.tolerance);
   }
@@ -180,8 +180,8 @@ TEST(DividedComponents, DrawWhatTheWholeDraws) {
   Scene divided = whole;
   whole.components = {gas};
   divided.components = {first, second};
-  const ExactImage a = reference::render(load(whole, snapshot));
-  const ExactImage b = reference::render(load(divided, snapshot));
+  const ReferenceImage a = reference::render(load(whole, snapshot));
+  const ReferenceImage b = reference::render(load(divided, snapshot));
   double largest = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     largest = std::max(largest, std::abs(a.pixels[i] - b.pixels[i]));

@@ -38,8 +38,8 @@ using Kind = Absorption::Kind;
 class VectorColors : public PictureTest, public testing::WithParamInterface<CompositeShape> {
  protected:
   void expect_within_tolerance(const Frame& frame, LightPlan light) {
-    ASSERT_EQ(make_plan(frame).light, light);
-    const ExactImage exact = reference::render(frame);
+    ASSERT_EQ(choose_light(frame), light);
+    const ReferenceImage exact = reference::render(frame);
     ASSERT_GT(largest_value(exact), 0.05);
     EXPECT_LE(largest_error(draw(frame, GetParam()), exact), frame.tolerance);
   }
@@ -165,7 +165,7 @@ TEST_F(AbsorptionPalettes, MayHaveKnotsOfAnotherNumber) {
                                               static_cast<float>(random.uniform(0.1, 1))});
     }
     const Frame frame = frame_of(setup.width, setup.height, {component});
-    ASSERT_EQ(make_plan(frame).light, LightPlan::ordered);
+    ASSERT_EQ(choose_light(frame), LightPlan::ordered);
     EXPECT_LE(largest_error(draw(frame), reference::render(frame)), frame.tolerance) << knots;
   }
 }

@@ -31,11 +31,11 @@ class Agreement : public testing::TestWithParam<Case> {
     DrawnComponent component = random_clouds(setup);
     set_light(component, light());
     Frame frame = frame_of(setup.width, setup.height, {component});
-    EXPECT_EQ(make_plan(frame).light, light());
+    EXPECT_EQ(choose_light(frame), light());
     return frame;
   }
   void expect_within_tolerance(const Frame& frame) const {
-    const ExactImage exact = reference::render(frame);
+    const ReferenceImage exact = reference::render(frame);
     EXPECT_GT(largest_value(exact), 0.05) << "the scene must have something to see";
     const double error = largest_error(draw(frame), exact);
     RecordProperty("error", std::to_string(error));

@@ -37,7 +37,7 @@ class BackgroundImage : public PictureTest, public testing::WithParamInterface<C
     DrawnComponent& clouds = frame.components.front();
     if (plan == LightPlan::emission) clouds.absorption = {Absorption::Kind::none, 0};
     if (plan == LightPlan::ordered) clouds.palette.absorption = {Rgb{1, 1, 1}, Rgb{2, 1, 0.5f}};
-    EXPECT_EQ(make_plan(frame).light, plan);
+    EXPECT_EQ(choose_light(frame), plan);
     return frame;
   }
   LightPlan plan() const { return std::get<0>(GetParam()); }
@@ -53,7 +53,7 @@ TEST_P(BackgroundImage, AgreesWithTheReference) {
 TEST_P(BackgroundImage, IsCutAsThePictureIs) {
   Frame frame = scene_of(plan());
   frame.background_image = numbered_pixels(61, 45);
-  const ExactImage whole = reference::render(frame);
+  const ReferenceImage whole = reference::render(frame);
   frame.crop = {13, 7, 30, 21};
   const Image part = draw(frame, shape());
   for (int y = 0; y < 21; ++y) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,13 @@ struct Lists {
 class Bin : public StageTest, public testing::WithParamInterface<Setup> {
  protected:
   static Lists read_lists(Stages& stages, const TileLists& lists) {
-    const std::size_t tiles = stages.layout().tile_count;
-    return {stages.entries(lists), stages.read<std::uint32_t>("tile starts", tiles),
-            stages.read<std::uint32_t>("tile lengths", tiles)};
+    Lists read = {stages.entries(lists), {}, stages.lengths()};
+    std::uint32_t start = 0;
+    for (const std::uint32_t length : read.lengths) {
+      read.starts.push_back(start);
+      start += length;
+    }
+    return read;
   }
 
   // Clouds of all sizes in and around the picture, equal depths among them.
@@ -60,27 +65,23 @@ class Bin : public StageTest, public testing::WithParamInterface<Setup> {
   }
 };
 
-TEST_P(Bin, StartsAndTotalsAddUp) {
-  Stages stages(device(), clouds(), true, GetParam().rows);
+TEST_P(Bin, CountsTheEntriesOfAllLists) {
+  Stages stages(device(), clouds(), GetParam().rows);
   const TileLists lists = stages.bin();
-  const Lists read = read_lists(stages, lists);
-  std::uint64_t running = 0;
-  for (std::size_t tile = 0; tile < read.lengths.size(); ++tile) {
-    ASSERT_EQ(read.starts[tile], running) << "of tile " << tile;
-    running += read.lengths[tile];
-  }
-  EXPECT_EQ(lists.entry_count, running);
-  EXPECT_GT(running, 500u) << "the scene must fill some lists";
+  const std::vector<std::uint32_t>& lengths = stages.lengths();
+  ASSERT_EQ(lengths.size(), stages.layout().tile_count);
+  EXPECT_EQ(lists.entry_count, std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0}));
+  EXPECT_GT(lists.entry_count, 500u) << "the scene must fill some lists";
 }
 
 // Segments cut every list into pieces in order; only lists of several pieces have partial
 // layers, each its own.
 TEST_P(Bin, SegmentsCoverEveryListInOrder) {
   device().traits.segment_length = 16;
-  Stages stages(device(), clouds(), true, GetParam().rows);
+  Stages stages(device(), clouds(), GetParam().rows);
   const TileLists lists = stages.bin();
   const Lists read = read_lists(stages, lists);
-  const auto segments = stages.read<kernel::Segment>(lists.segments, lists.segment_count);
+  const auto segments = stages.read(lists.segments, lists.segment_count);
   std::uint32_t next_partial = 0;
   std::size_t s = 0;
   for (std::uint32_t tile = 0; tile < read.lengths.size(); ++tile) {
@@ -104,7 +105,7 @@ TEST_P(Bin, SegmentsCoverEveryListInOrder) {
 }
 
 TEST_P(Bin, ListsAreInTheOraclesOrder) {
-  Stages stages(device(), clouds(), true, GetParam().rows);
+  Stages stages(device(), clouds(), GetParam().rows);
   const Lists lists = read_lists(stages, stages.bin());
   const std::map<std::uint64_t, std::size_t> place = places(stages.frame());
   for (std::size_t tile = 0; tile < lists.lengths.size(); ++tile) {
@@ -123,12 +124,13 @@ struct Drawn {
 };
 
 // On grids that are blurred afterwards splats are drawn narrower.
-Drawn on_grid(const reference::Splat& splat, std::uint32_t g, const FrameLayout& layout) {
-  const kernel::Grid& grid = layout.grids[g];
-  const double pixel = std::ldexp(1.0, level_of_grid(layout, g));
+Drawn on_grid(const reference::Splat& splat, std::uint32_t g, const Stages& stages) {
+  const shared::Grid& grid = stages.layout().grids[g];
+  const FramePlan& plan = stages.plan();
+  const double pixel = std::ldexp(1.0, plan.pyramid.grids[g].level);
   Drawn drawn{};
-  drawn.by_mean = splat.sigma < static_cast<double>(layout.mean_sigma);
-  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur_of_grid(layout, g));
+  drawn.by_mean = splat.sigma < static_cast<double>(plan.splats.mean_sigma);
+  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur_of_grid(plan, g));
   drawn.x = splat.x / pixel + grid.guard;
   drawn.y = splat.y / pixel + grid.guard;
   for (int c = 0; c < 3; ++c) {
@@ -153,15 +155,15 @@ double contribution(const Drawn& splat, int x, int y) {
 // A centre is known to 1e-5 pixels here (orthographic, 150 pixels: 5 roundings of 150), by
 // which contributions err by 2 k / sigma of it: 1.3e-3 for k = 3 and sigma = 0.05.
 TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
-  Stages stages(device(), clouds(), true, GetParam().rows);
-  const double smallest = stages.plan().truncation_share / 24 * 1.01;
+  Stages stages(device(), clouds(), GetParam().rows);
+  const double smallest = stages.plan().shares.truncation / 24 * 1.01;
   const Lists lists = read_lists(stages, stages.bin());
-  const FrameLayout& layout = stages.layout();
+  const PictureLayout& layout = stages.layout();
 
   // The grid that the device chose for each particle; off the picture it may have none.
   std::map<std::uint64_t, std::uint32_t> level;
   for (std::uint32_t g = 0; g < layout.grids.size(); ++g) {
-    const kernel::Grid& grid = layout.grids[g];
+    const shared::Grid& grid = layout.grids[g];
     const std::uint32_t tiles = static_cast<std::uint32_t>(grid.tiles_x * grid.tiles_y);
     for (std::uint32_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
       for (std::uint32_t i = 0; i < lists.lengths[tile]; ++i) {
@@ -172,13 +174,13 @@ TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
   }
 
   int pixels_checked = 0;
-  const int tile_width = static_cast<int>(layout.tile_width);
-  const int tile_height = static_cast<int>(layout.tile_height);
+  const int tile_width = static_cast<int>(stages.context().specialization.tile_width());
+  const int tile_height = static_cast<int>(stages.context().specialization.tile_height());
   for (const reference::Splat& splat : reference::project(stages.frame())) {
     const auto found = level.find(splat.particle);
     const std::uint32_t g = found == level.end() ? 0 : found->second;
-    const kernel::Grid& grid = layout.grids[g];
-    const Drawn drawn = on_grid(splat, g, layout);
+    const shared::Grid& grid = layout.grids[g];
+    const Drawn drawn = on_grid(splat, g, stages);
     for (int y = 0; y < grid.height; ++y) {
       for (int x = 0; x < grid.width; ++x) {
         if (contribution(drawn, x, y) <= smallest) continue;
@@ -214,54 +216,54 @@ INSTANTIATE_TEST_SUITE_P(Plans, Bin,
                                          Setup{LightPlan::ordered, false}),
                          setup_name);
 
-// Sums of list lengths are counted in 64 bits: what does not fit is refused, never wrapped.
-class BinTotals : public StageTest {};
-
-TEST_F(BinTotals, AreCountedBeyond32Bits) {
-  Frame frame = frame_of(64, 96, {component_of({{0, 0, 1, 2, 1}}, one_color(1, 1, 1))});
-  frame.components.front().absorption = {Absorption::Kind::gray, 1};  // one grid of 2 x 3 tiles
-  Stages stages(device(), frame);
-  const std::uint32_t tiles = stages.layout().tile_count;
-  ASSERT_GE(tiles, 6u);
-  const std::vector<std::uint32_t> lengths(tiles, 0xfffffff0u);
-
-  Buffers& buffers = device().buffers;
-  constexpr std::uint32_t segment_capacity = 100;
-  kernel::BinParameters parameters{};
-  parameters.tile_count = tiles;
-  parameters.grid_count = 1;
-  parameters.segment_length = 8192;
-  const compute::buffer totals = buffers.get("totals", sizeof(kernel::BinTotals));
-  const compute::program program = device().programs.get(
-      kernel_defines(frame, stages.plan(), stages.layout()), {"common.cl", "bin.cl"});
-  Launch(device(), "bin", program.create_kernel("bin_scan_tiles"))
-      .value(parameters)
-      .arg(buffers.upload("grids", stages.layout().grids))
-      .arg(buffers.upload("long lengths", lengths))
-      .arg(buffers.get("tile starts", 4ull * tiles))
-      .value(segment_capacity)
-      .arg(buffers.get("segments", segment_capacity * sizeof(kernel::Segment)))
-      .arg(totals)
-      .run_items(1);
-  const kernel::BinTotals read = stages.read<kernel::BinTotals>(totals, 1).front();
-  const std::uint64_t entries =
-      read.entries_low | (static_cast<std::uint64_t>(read.entries_high) << 32);
-  EXPECT_EQ(entries, std::uint64_t{tiles} * 0xfffffff0u);
-  EXPECT_LE(read.segment_count, segment_capacity);
+// Lists that do not fit together are made band by band.
+TEST(TileBands, AreOneWhereAllFits) {
+  const std::vector<TileBand> bands = cut_in_bands({3, 0, 4}, 7);
+  ASSERT_EQ(bands.size(), 1u);
+  EXPECT_EQ(bands.front().first, 0u);
+  EXPECT_EQ(bands.front().end, 3u);
 }
 
-// More list entries than one pass takes: nothing is scattered, and the caller is told.
-TEST_F(BinTotals, BeyondTheBuffersAreRefused) {
-  std::vector<Cloud> clouds(4000, Cloud{0, 0, 1, 1e6, 1e-3});
-  Frame frame = frame_of(1024, 1024, {component_of(clouds, one_color(1, 1, 1))});
-  frame.components.front().absorption = {Absorption::Kind::gray, 1};
-  frame = with_identities(frame);
-  Stages stages(device(), frame);
-  const std::uint64_t expected = std::uint64_t{4000} * stages.layout().tile_count;
-  ASSERT_GT(expected, std::uint64_t{3} << 20);
-  TileLists lists;
-  EXPECT_FALSE(stages.try_bin(lists));
-  EXPECT_EQ(lists.entry_count, expected);
+TEST(TileBands, EndBeforeTheTileThatIsTooMuch) {
+  const std::vector<TileBand> bands = cut_in_bands({3, 4, 1, 5, 1}, 7);
+  ASSERT_EQ(bands.size(), 2u);
+  EXPECT_EQ(bands[0].end, 2u);
+  EXPECT_EQ(bands[1].first, 2u);
+  EXPECT_EQ(bands[1].end, 5u);
+}
+
+TEST(TileBands, CountEntriesBeyond32Bits) {
+  const std::vector<std::uint32_t> lengths(6, 0xfffffff0u);
+  EXPECT_EQ(cut_in_bands(lengths, std::uint64_t{1} << 40).size(), 1u);
+  EXPECT_EQ(cut_in_bands(lengths, std::uint64_t{1} << 33).size(), 3u);
+}
+
+class DrawnInBands : public StageTest {};
+
+TEST_F(DrawnInBands, IsTheSamePictureBitForBit) {
+  for (const bool ordered : {false, true}) {
+    CloudSetup setup;
+    setup.count = 3000;
+    setup.width = 300;
+    setup.height = 200;
+    setup.sigma_low = 5;
+    DrawnComponent component = random_clouds(setup);
+    if (ordered) component.absorption = {Absorption::Kind::gray, 1};
+    const Frame frame = frame_of(setup.width, setup.height, {component});
+    const FramePlan plan = make_plan(frame);
+    ParticleStore particles(device());
+    const DeviceTraits traits = device().traits;
+    // One tile may have all splats of a chunk, so that a band holds as many at least.
+    device().traits.chunk_blocks = 1;
+    device().traits.project_block = 1024;
+    const Image whole = Pipeline(device(), particles, frame, plan).draw();
+    device().traits.list_capacity = 1;
+    Pipeline in_bands(device(), particles, frame, plan);
+    const Image banded = in_bands.draw();
+    EXPECT_GT(in_bands.counts().tile_entries, 3 * 1024u) << "the lists must not fit";
+    device().traits = traits;
+    EXPECT_EQ(whole.pixels, banded.pixels);
+  }
 }
 
 }  // namespace

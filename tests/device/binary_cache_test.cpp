@@ -1,4 +1,4 @@
-#include "device/binary_cache.h"
+#include "device/opencl/binary_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -30,8 +30,8 @@ TEST_P(LongLists, GiveTheOraclesPicture) {
   if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
   if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.01};
   const Frame frame = frame_of(16, 16, {component});
-  ASSERT_EQ(make_plan(frame).light, plan);
-  const ExactImage exact = reference::render(frame);
+  ASSERT_EQ(choose_light(frame), plan);
+  const ReferenceImage exact = reference::render(frame);
   EXPECT_GT(largest_value(exact), 0.2);
   EXPECT_LE(largest_error(draw(frame, shape), exact), frame.tolerance);
   EXPECT_EQ(renderer(shape).stats().tile_entries, 50000u);

@@ -42,7 +42,6 @@ Column field_values(std::size_t count) {
 void expect_order_of_the_oracle(DeviceContext& device, Frame frame) {
   frame = with_identities(frame);
   Stages stages(device, frame);
-  stages.project();
   const std::vector<std::uint64_t> order = stages.sorted_particles();
   std::vector<reference::Splat> expected = reference::project(frame);
   reference::sort(expected, frame.sort);

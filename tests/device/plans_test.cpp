@@ -35,8 +35,8 @@ Frame with_empty_component(Frame frame) {
 class Plans : public PictureTest {
  protected:
   void expect_same_picture(const Frame& a, LightPlan plan_a, const Frame& b, LightPlan plan_b) {
-    ASSERT_EQ(make_plan(a).light, plan_a);
-    ASSERT_EQ(make_plan(b).light, plan_b);
+    ASSERT_EQ(choose_light(a), plan_a);
+    ASSERT_EQ(choose_light(b), plan_b);
     const Image picture_b = draw(b);
     EXPECT_GT(sum_of_light(picture_b), 10) << "there must be something to see";
     EXPECT_LE(largest_difference(draw(a), picture_b), 2 * a.tolerance);
@@ -109,10 +109,10 @@ TEST_F(Plans, KeepEveryTolerance) {
        {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0},
         Absorption{Absorption::Kind::gray, 0.2}}) {
     Frame frame = clouds(absorption, 5);
-    const ExactImage exact = reference::render(frame);
+    const ReferenceImage exact = reference::render(frame);
     for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-5}) {
       frame.tolerance = tolerance;
-      EXPECT_LE(largest_error(draw(frame), exact), tolerance) << name(make_plan(frame).light);
+      EXPECT_LE(largest_error(draw(frame), exact), tolerance) << name(choose_light(frame));
     }
   }
 }
@@ -126,11 +126,11 @@ TEST_F(Plans, KeepEveryToleranceForACloudOfAnyWidth) {
           Absorption{Absorption::Kind::gray, 0.2}}) {
       Frame frame = frame_of(80, 60, {cloud});
       frame.components.front().absorption = absorption;
-      const ExactImage exact = reference::render(frame);
+      const ReferenceImage exact = reference::render(frame);
       for (const double tolerance : {1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
         frame.tolerance = tolerance;
         EXPECT_LE(largest_error(draw(frame), exact), tolerance)
-            << name(make_plan(frame).light) << ", sigma " << sigma;
+            << name(choose_light(frame)) << ", sigma " << sigma;
       }
     }
   }

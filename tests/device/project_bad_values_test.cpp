@@ -51,7 +51,7 @@ void set_value(DrawnComponent& component, const Field& field, std::size_t partic
 std::uint64_t count_of_device(DeviceContext& device, const Frame& frame, bool lanes) {
   Stages stages(device, frame, lanes);
   stages.project();
-  return stages.projector().bad_particles();
+  return stages.keyed().particles.bad;
 }
 
 class BadValues : public StageTest, public testing::WithParamInterface<bool> {

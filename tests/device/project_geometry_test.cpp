@@ -101,9 +101,9 @@ double width_bound(const Expected& e) {
 }
 
 // Widths of splats as they are stored: widened for those that take the centre's value.
-double stored_sigma(double sigma, const FrameLayout& layout) {
-  const bool by_mean = sigma < static_cast<double>(layout.mean_sigma);
-  return by_mean ? sigma : std::sqrt(sigma * sigma + static_cast<double>(layout.widening));
+double stored_sigma(double sigma, const FramePlan& plan) {
+  const bool by_mean = sigma < static_cast<double>(plan.splats.mean_sigma);
+  return by_mean ? sigma : std::sqrt(sigma * sigma + static_cast<double>(plan.splats.widening));
 }
 
 class ProjectGeometry : public StageTest, public testing::WithParamInterface<bool> {
@@ -113,13 +113,13 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
   void for_each_splat(const Frame& frame, Check check) const {
     Stages stages(device(), frame, GetParam());
     stages.project();
-    const std::vector<kernel::Splat> splats = stages.splats();
+    const std::vector<shared::Splat> splats = stages.splats();
     const std::vector<reference::Splat> oracle = reference::project(frame);
     ASSERT_EQ(splats.size(), oracle.size()) << "every particle should be in view";
     for (std::size_t i = 0; i < splats.size(); ++i) {
       ASSERT_EQ(identity_of(splats[i]), oracle[i].particle);
       const std::uint32_t grid = splats[i].component_and_grid >> 16;
-      check(expected_of(oracle[i], frame), splats[i], stages.layout(), grid);
+      check(expected_of(oracle[i], frame), splats[i], stages.plan(), grid);
       if (HasFatalFailure()) return;
     }
   }
@@ -127,10 +127,10 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
   // The largest distance of a centre from the oracle's, in pixels.
   double expect_centers_and_widths(const Frame& frame) const {
     double farthest = 0;
-    for_each_splat(frame, [&](const Expected& e, const kernel::Splat& splat,
-                              const FrameLayout& layout, std::uint32_t grid) {
-      const double pixel = std::ldexp(1.0, level_of_grid(layout, grid));
-      const double guard = pixel * layout.grids[grid].guard;
+    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat, const FramePlan& plan,
+                              std::uint32_t grid) {
+      const double pixel = std::ldexp(1.0, plan.pyramid.grids[grid].level);
+      const double guard = pixel * plan.pyramid.grids[grid].guard;
       const double x = pixel * static_cast<double>(splat.x) - guard;
       const double y = pixel * static_cast<double>(splat.y) - guard;
       const double error = std::max(std::abs(x - e.x), std::abs(y - e.y));
@@ -141,10 +141,10 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
                 center_bound(e, e.y, frame.camera.center_y - frame.crop.y, guard));
       // Drawn narrower where its grid is blurred: undone with three more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double sigma = pixel * std::sqrt(drawn * drawn + blur_of_grid(layout, grid));
-      const double expected = stored_sigma(e.splat.sigma, layout);
+      const double sigma = pixel * std::sqrt(drawn * drawn + blur_of_grid(plan, grid));
+      const double expected = stored_sigma(e.splat.sigma, plan);
       // Either form is right where the width is at the limit between them.
-      const double limit = static_cast<double>(layout.mean_sigma);
+      const double limit = static_cast<double>(plan.splats.mean_sigma);
       if (std::abs(e.splat.sigma - limit) < 1e-3 * limit) return;
       ASSERT_LE(std::abs(sigma - expected), (width_bound(e) + 3 * unit) * expected);
     });
@@ -227,16 +227,16 @@ TEST_P(ProjectGeometry, WeightsAreTheOraclesInEveryModel) {
     component.intensity = {Scaling::linear, -2, 2};
     // A faint splat may carry the light back that its end leaves out, at most the truncation's
     // share of it as absorption shows it: share / 0.37.
-    const double restored = make_plan(frame).truncation_share / 0.36;
-    for_each_splat(frame, [&](const Expected& e, const kernel::Splat& splat,
-                              const FrameLayout& layout, std::uint32_t grid) {
+    const double restored = make_plan(frame).shares.truncation / 0.36;
+    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat, const FramePlan& plan,
+                              std::uint32_t grid) {
       const double sigma = e.splat.sigma;
-      const double narrowing = sigma / stored_sigma(sigma, layout);
-      const double limit = static_cast<double>(layout.mean_sigma);
+      const double narrowing = sigma / stored_sigma(sigma, plan);
+      const double limit = static_cast<double>(plan.splats.mean_sigma);
       if (std::abs(sigma - limit) < 1e-3 * limit) return;
       // Drawn narrower, it carries the same light: undone with eight more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double spread = 1 + blur_of_grid(layout, grid) / (drawn * drawn);
+      const double spread = 1 + blur_of_grid(plan, grid) / (drawn * drawn);
       const double expected = e.splat.weight * narrowing * narrowing * spread;
       const double bound = weight_bound(e) + 8 * unit;
       ASSERT_GE(static_cast<double>(splat.weight), expected * (1 - bound));

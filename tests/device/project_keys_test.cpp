@@ -11,7 +11,7 @@
 namespace splotchcl::test {
 namespace {
 
-// Unsigned integers in the order of floats: DESIGN's rule for keys, with -0 as +0.
+// The rule for keys: unsigned integers in the order of the floats, with -0 as +0.
 std::uint32_t ordered_bits(float value, bool descending) {
   if (value == 0) value = 0;
   std::uint32_t bits = 0;
@@ -58,7 +58,7 @@ void expect_keys_of_the_oracle(DeviceContext& device, const Frame& frame, bool l
   Stages stages(device, frame, lanes);
   stages.project();
   const std::vector<reference::Splat> expected = reference::project(stages.frame());
-  const std::vector<kernel::Splat> splats = stages.splats();
+  const std::vector<shared::Splat> splats = stages.splats();
   const std::vector<std::uint32_t> keys = stages.keys();
   ASSERT_EQ(splats.size(), expected.size()) << "every particle should be in view";
   for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -35,7 +35,7 @@ class ProjectLimits : public StageTest, public testing::WithParamInterface<bool>
     Stages stages(device(), frame, GetParam());
     stages.project();
     std::vector<std::uint64_t> drawn, expected;
-    for (const kernel::Splat& splat : stages.splats())
+    for (const shared::Splat& splat : stages.splats())
       drawn.push_back(identity_of(splat));
     for (const reference::Splat& splat : reference::project(frame))
       expected.push_back(splat.particle);

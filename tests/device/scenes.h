@@ -63,7 +63,7 @@ inline DrawnComponent random_clouds(const CloudSetup& setup) {
 
 // The largest |frame - oracle| / max(1, |oracle|) over pixels and colours: what
 // `tolerance` bounds.
-inline double largest_error(const Image& image, const ExactImage& exact) {
+inline double largest_error(const Image& image, const ReferenceImage& exact) {
   double largest = 0;
   for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
     if (i % 4 == 3) continue;
@@ -74,7 +74,7 @@ inline double largest_error(const Image& image, const ExactImage& exact) {
   return largest;
 }
 
-inline double largest_value(const ExactImage& exact) {
+inline double largest_value(const ReferenceImage& exact) {
   return *std::max_element(exact.pixels.begin(), exact.pixels.end());
 }
 

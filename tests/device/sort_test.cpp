@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
-#include "device/device_context.h"
+#include "device/opencl/device_context.h"
 #include "device/scenes.h"
-#include "device/sorter.h"
+#include "device/stages/sorter.h"
 
 namespace splotchcl::test {
 namespace {
@@ -27,13 +27,9 @@ Keys device_order(const Keys& keys) {
   const auto count = static_cast<std::uint32_t>(keys.size());
   Keys order(keys.size());
   std::iota(order.begin(), order.end(), 0u);
-  const Sorter::Pairs pairs = {device.buffers.upload("keys", keys),
-                               device.buffers.upload("order", order)};
-  const Sorter::Pairs sorted = Sorter(device).sort(pairs, count);
-  if (count > 0) {
-    device.queue.enqueue_read_buffer(sorted.values, 0, 4 * keys.size(), order.data());
-  }
-  return order;
+  const Buffer<std::uint32_t> sorted = Sorter(device).sort(
+      device.pool.upload(keys, "keys"), device.pool.upload(order, "order"), count);
+  return device.pool.download(sorted, count);
 }
 
 Keys random_keys(std::size_t count, double low, double high) {

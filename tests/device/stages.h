@@ -5,18 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "device/binner.h"
-#include "device/compositor.h"
-#include "device/device_context.h"
-#include "device/frame_layout.h"
-#include "device/particle_buffers.h"
-#include "device/projector.h"
+#include "device/opencl/device_context.h"
+#include "device/pipeline.h"
 #include "device/scenes.h"
-#include "device/sorter.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
@@ -40,81 +36,80 @@ inline Frame with_identities(Frame frame) {
   return frame;
 }
 
-inline std::uint64_t identity_of(const kernel::Splat& splat) {
+inline std::uint64_t identity_of(const shared::Splat& splat) {
   return static_cast<std::uint64_t>(std::lround(static_cast<double>(splat.color) * identity_steps));
 }
 
-// What compositing makes of a splat in a list, in the layout of the sums and of the
-// ordered plan (common.cl, TileSplat).
+// What compositing makes of a splat in a list (kernels/bin/bin.h, TileSplat).
 struct ListedSplat {
   double x = 0, y = 0, sigma = 0, radius = 0;  // x and y in the tile
   std::uint64_t particle = 0;
 };
 
-// The device's stages of one frame, run one by one, with what they leave in the device's
-// memory read back. The frame should have identities.
+// sigma^2 by which a grid is blurred afterwards, in pixels of its own.
+inline double blur_of_grid(const FramePlan& plan, std::uint32_t grid) {
+  const GridPyramid& pyramid = plan.pyramid;
+  return pyramid.is_blurred && grid > 0 ? pyramid.blur[grid % 2 == 1 ? 0 : 1] : 0;
+}
+
+// The stages of one frame, run one by one, with what they hand on read back. The frame should
+// have identities.
 class Stages {
  public:
-  // `lanes`: project eight particles at a time, as on a processor, or one, as on a GPU.
-  Stages(DeviceContext& device, const Frame& frame, bool lanes = true, bool rows = true)
-      : frame_(frame),
-        plan_(make_plan(frame_)),
-        device_(device),
-        layout_(make_layout(frame_, plan_, rows)),
-        grids_(device_.buffers.upload("grids", layout_.grids)),
-        particles_(device_),
-        projector_(device_, frame_, layout_, grids_),
-        binner_(device_, layout_, frame_, plan_, grids_) {
-    device_.traits.rows = lanes;
+  // `rows`: the shape of a processor, which projects eight particles at a time, or that of a
+  // GPU.
+  Stages(DeviceContext& device, const Frame& frame, bool rows = true)
+      : frame_(frame), plan_(make_plan(frame_)), device_(device), particles_(device) {
+    device.traits.rows = rows;
+    pipeline_ = std::make_unique<Pipeline>(device, particles_, frame_, plan_);
   }
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
   // Projects all components at once, as the ordered plan does.
-  void project() {
-    std::vector<ParticleBuffers> buffers;
-    for (const DrawnComponent& component : frame_.components)
-      buffers.push_back(particles_.get(component.particles));
-    splat_count_ = projector_.project_all(frame_.components, buffers);
-  }
+  void project() { keyed_ = pipeline_->project_all(); }
   // After project().
-  std::vector<kernel::Splat> splats() { return read<kernel::Splat>("splats", splat_count_); }
-  std::vector<std::uint32_t> keys() { return read<std::uint32_t>("keys", splat_count_); }
+  std::vector<shared::Splat> splats() { return splats(keyed_.splats, keyed_.count); }
+  std::vector<std::uint32_t> keys() { return read(keyed_.keys, keyed_.count); }
+  const KeyedSplats& keyed() const { return keyed_; }
 
-  // After project(): the particles in the device's order, nearest first.
+  // The particles in the device's order, nearest first.
   std::vector<std::uint64_t> sorted_particles() {
+    project();
     sort();
-    const std::vector<kernel::Splat> all = splats();
+    const std::vector<shared::Splat> all = splats(sorted_.splats, sorted_.count);
     std::vector<std::uint64_t> particles;
-    for (const std::uint32_t slot : read<std::uint32_t>(order_, splat_count_))
+    for (const std::uint32_t slot : read(sorted_.order, sorted_.count))
       particles.push_back(identity_of(all[slot]));
     return particles;
   }
 
-  // The lists of all splats of the first component, in one pass; false if they do not fit.
-  bool try_bin(TileLists& lists) {
-    if (plan_.light == LightPlan::ordered) {
+  // Counts the tiles of all splats of the first chunk.
+  const CountedSplats& count() {
+    if (plan_.needs_sort()) {
       project();
       sort();
-      return binner_.bin_order(order_, 0, splat_count_, lists);
+      counted_ =
+          pipeline_->binner().count(sorted_, splat_chunks(sorted_.count, device_.traits).front());
+    } else {
+      blocks_ = pipeline_->project(pipeline_->particle_chunks().front());
+      counted_ = pipeline_->binner().count(blocks_);
     }
-    const DrawnComponent& component = frame_.components.front();
-    const SplatBlocks blocks =
-        projector_.project_chunk(component, 0, particles_.get(component.particles), 0,
-                                 static_cast<std::uint32_t>(component.particles.count));
-    return binner_.bin_blocks(blocks, 0, blocks.stride, lists);
+    return counted_;
   }
+  // Their lists, which must fit into one band.
   TileLists bin() {
-    TileLists lists;
-    EXPECT_TRUE(try_bin(lists));
-    return lists;
+    count();
+    EXPECT_EQ(counted_.bands.size(), 1u);
+    return pipeline_->binner().make_lists(counted_, counted_.bands.front());
   }
+  // After bin().
+  const std::vector<std::uint32_t>& lengths() const { return counted_.lengths; }
 
   // The lists' splats, tile after tile.
   std::vector<ListedSplat> entries(const TileLists& lists) {
-    const bool ordered = plan_.light == LightPlan::ordered;
-    const std::size_t floats = ordered ? 10 : 7;
-    const auto values = read<float>(lists.entries, lists.entry_count * floats);
+    const std::size_t floats = context().specialization.tile_splat_bytes() / sizeof(float);
+    const std::vector<float> values = read_as<float>(lists.entries, lists.entry_count * floats);
     std::vector<ListedSplat> entries;
     for (std::size_t i = 0; i < values.size(); i += floats) {
       ListedSplat entry;
@@ -131,42 +126,37 @@ class Stages {
   }
 
   template <class T>
-  std::vector<T> read(const compute::buffer& buffer, std::size_t count) {
-    std::vector<T> values(count);
-    if (count > 0) {
-      device_.queue.enqueue_read_buffer(buffer, 0, count * sizeof(T), values.data());
-    }
-    return values;
+  std::vector<T> read(const Buffer<T>& buffer, std::size_t count) {
+    return device_.pool.download(buffer, count);
   }
-  template <class T>
-  std::vector<T> read(const std::string& name, std::size_t count) {
-    return read<T>(device_.buffers.get(name, 0), count);
+  template <class T, class Stored>
+  std::vector<T> read_as(const Buffer<Stored>& buffer, std::size_t count) {
+    const std::vector<Stored> stored = read(buffer, count * sizeof(T) / sizeof(Stored));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), stored.data(), count * sizeof(T));
+    return values;
   }
 
   const Frame& frame() const { return frame_; }
-  const Plan& plan() const { return plan_; }
-  const FrameLayout& layout() const { return layout_; }
-  const Projector& projector() const { return projector_; }
-  DeviceContext& device() { return device_; }
+  const FramePlan& plan() const { return plan_; }
+  const StageContext& context() const { return pipeline_->context(); }
+  const PictureLayout& layout() const { return context().layout; }
 
  private:
-  void sort() {
-    order_ =
-        Sorter(device_)
-            .sort({device_.buffers.get("keys", 0), device_.buffers.get("order", 0)}, splat_count_)
-            .values;
+  void sort() { sorted_ = pipeline_->sorter().sort(std::move(keyed_)); }
+  std::vector<shared::Splat> splats(const SplatMemory& memory, std::size_t count) {
+    return read_as<shared::Splat>(memory.splats, count);
   }
 
   const Frame frame_;
-  const Plan plan_;
+  const FramePlan plan_;
   DeviceContext& device_;
-  const FrameLayout layout_;
-  compute::buffer grids_;
   ParticleStore particles_;
-  Projector projector_;
-  Binner binner_;
-  compute::buffer order_;
-  std::uint32_t splat_count_ = 0;
+  std::unique_ptr<Pipeline> pipeline_;
+  KeyedSplats keyed_;
+  SortedSplats sorted_;
+  SplatBlocks blocks_;
+  CountedSplats counted_;
 };
 
 // Tests of stages share one device and its compiled kernels.

@@ -64,9 +64,9 @@ Frame one_more_than_floats_count(LightPlan plan) {
 }
 
 // A grain of mass m that lies in one pixel has X = m there.
-ExactImage one_more_exact(const Frame& frame) {
+ReferenceImage one_more_exact(const Frame& frame) {
   const bool absorbs = frame.components.front().absorption.kind != Absorption::Kind::none;
-  ExactImage image = even_picture(frame, 0, 0, 0);
+  ReferenceImage image = even_picture(frame, 0, 0, 0);
   for (std::size_t c = 0; c < 3; ++c) {
     image.pixels[c] = absorbs ? -std::expm1(-1.0) : 1.0;
     image.pixels[4 + c] = absorbs ? -std::expm1(-0.5) : 0.5;
@@ -92,10 +92,10 @@ Frame lists_of_several_passes(LightPlan plan) {
   return lit(frame, plan);
 }
 
-ExactImage one_pixel_everywhere(const Frame& frame) {
+ReferenceImage one_pixel_everywhere(const Frame& frame) {
   Frame one_pixel = frame;
   one_pixel.crop = {512, 512, 1, 1};
-  const ExactImage pixel = reference::render(one_pixel);
+  const ReferenceImage pixel = reference::render(one_pixel);
   return even_picture(frame, pixel.pixels[0], pixel.pixels[1], pixel.pixels[2]);
 }
 

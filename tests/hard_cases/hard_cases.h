@@ -18,7 +18,7 @@ struct HardCase {
   std::function<Frame(LightPlan)> frame;
   std::vector<LightPlan> plans = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
   // The picture as it should be: the oracle's, or a closed form where that would take minutes.
-  std::function<ExactImage(const Frame&)> exact = [](const Frame& frame) {
+  std::function<ReferenceImage(const Frame&)> exact = [](const Frame& frame) {
     return reference::render(frame);
   };
   bool dark = false;       // nothing to see: a black picture is right

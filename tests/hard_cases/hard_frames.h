@@ -53,8 +53,8 @@ inline DrawnComponent in_random_colors(DrawnComponent component, std::uint64_t s
 }
 
 // Every pixel of the frame's crop has this light.
-inline ExactImage even_picture(const Frame& frame, double red, double green, double blue) {
-  ExactImage image(frame.crop.width, frame.crop.height);
+inline ReferenceImage even_picture(const Frame& frame, double red, double green, double blue) {
+  ReferenceImage image(frame.crop.width, frame.crop.height);
   for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
     image.pixels[i] = red;
     image.pixels[i + 1] = green;

@@ -47,7 +47,7 @@ Frame equal_layers(LightPlan plan) {
   return frame;
 }
 
-ExactImage equal_layers_exact(const Frame& frame) {
+ReferenceImage equal_layers_exact(const Frame& frame) {
   const double total = layer_count * layer_depth;
   const double light = frame.components.front().absorption.kind == Absorption::Kind::none
                            ? total
@@ -69,7 +69,7 @@ Frame alternating_layers(LightPlan) {
   return frame;
 }
 
-ExactImage alternating_layers_exact(const Frame& frame) {
+ReferenceImage alternating_layers_exact(const Frame& frame) {
   const double pairs = 0.5 * layer_count;
   const double t = layer_depth;
   // Sources of a bright layer with and without absorption, added up behind all before it.

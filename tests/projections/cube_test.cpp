@@ -62,7 +62,7 @@ TEST(Cube, EdgesContinueInTheNextFace) {
     double light[2] = {}, brightest[2] = {};
     const char* names[] = {edge.a, edge.b};
     for (int i = 0; i < 2; ++i) {
-      const ExactImage image = reference::render(faces.at(names[i]));
+      const ReferenceImage image = reference::render(faces.at(names[i]));
       for (std::size_t pixel = 0; pixel < image.pixels.size(); pixel += 4) {
         light[i] += image.pixels[pixel];
         brightest[i] = std::max(brightest[i], image.pixels[pixel]);
@@ -85,7 +85,7 @@ TEST(Cube, CloudsHaveOneDepthInAllFaces) {
 
 TEST(Cube, ShowsAnEvenSkyEvenly) {
   for (const auto& [name, frame] : faces_of(even_sky(8000, 0.05))) {
-    const ExactImage image = reference::render(frame);
+    const ReferenceImage image = reference::render(frame);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x)
         EXPECT_NEAR(red_of(image, x, y), 1, 0.06) << name << ": " << x << ", " << y;

@@ -49,7 +49,7 @@ TEST(Dome, LimitsAreDistances) {
 TEST(Dome, IsDarkOutsideItsCircle) {
   Frame frame = wide_frame({Projection::fisheye, 90, 60, 180.0}, {even_sky(500, 0.1)});
   frame.background = {0.5, 0.5, 0.5};
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 90; ++x) {
       const bool inside = std::hypot(x + 0.5 - 45, y + 0.5 - 30) <= 30;
@@ -60,7 +60,7 @@ TEST(Dome, IsDarkOutsideItsCircle) {
 
 // Within what neighbouring clouds leave uneven, and what flat splats on a curved sky err.
 TEST(Dome, ShowsAnEvenSkyEvenly) {
-  const ExactImage image =
+  const ReferenceImage image =
       reference::render(wide_frame({Projection::fisheye, 60, 60, 220.0}, {even_sky(8000, 0.05)}));
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) {

@@ -21,7 +21,7 @@ Frame panorama(const std::vector<Cloud>& clouds, int width = 200) {
 }
 
 // The light of the picture on the sphere: pixels near the poles are narrower there.
-double light_on_sphere(const ExactImage& image) {
+double light_on_sphere(const ReferenceImage& image) {
   double sum = 0;
   const double pixel = 2 * pi / image.width;
   for (int y = 0; y < image.height; ++y) {
@@ -52,7 +52,7 @@ TEST(Panorama, CloudsWidenTowardsThePoles) {
 }
 
 TEST(Panorama, CloudAtThePoleIsARingOfEvenLight) {
-  const ExactImage image = reference::render(panorama({at_place(1, 0.5 * pi, 0.2)}));
+  const ReferenceImage image = reference::render(panorama({at_place(1, 0.5 * pi, 0.2)}));
   // The first overtone of the copies' sum is 2 exp(-pi) (docs/projections.md).
   for (int x = 0; x < 200; ++x)
     EXPECT_NEAR(red_of(image, x, 0), 1, 2 * std::exp(-pi) + 0.01);
@@ -62,15 +62,15 @@ TEST(Panorama, CloudAtThePoleIsARingOfEvenLight) {
 TEST(Panorama, CloudsKeepTheirLightUpToThePole) {
   constexpr double sigma = 0.1;
   for (const double from_pole : {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.5}) {
-    const ExactImage image =
+    const ReferenceImage image =
         reference::render(panorama({at_place(0.3, 0.5 * pi - from_pole, sigma)}));
     EXPECT_NEAR(light_on_sphere(image) / (pi * sigma * sigma), 1, 2 * sigma * sigma) << from_pole;
   }
 }
 
 TEST(Panorama, CloudOnTheSeamIsOnBothSides) {
-  const ExactImage seam = reference::render(panorama({at_place(pi - 0.004, 0.2, 0.1)}));
-  const ExactImage middle = reference::render(panorama({at_place(-0.004, 0.2, 0.1)}));
+  const ReferenceImage seam = reference::render(panorama({at_place(pi - 0.004, 0.2, 0.1)}));
+  const ReferenceImage middle = reference::render(panorama({at_place(-0.004, 0.2, 0.1)}));
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 200; ++x) {
       EXPECT_NEAR(red_of(seam, x, y), red_of(middle, (x + 100) % 200, y), 1e-4) << x << ", " << y;
@@ -81,7 +81,7 @@ TEST(Panorama, CloudOnTheSeamIsOnBothSides) {
 // But within two widths of a pole: a round cloud there is no ellipse in the picture, and what
 // has the right light as a whole has less of it at the pole itself (docs/projections.md).
 TEST(Panorama, ShowsAnEvenSkyEvenly) {
-  const ExactImage image =
+  const ReferenceImage image =
       reference::render(wide_frame({Projection::equirectangular, 120, 60}, {even_sky(8000, 0.05)}));
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 120; ++x) {

@@ -37,13 +37,13 @@ std::vector<double> light_on_edges(const Frame& frame) {
 
 std::string describe(const Frame& frame) {
   std::ostringstream out;
-  out << name(make_plan(frame).light) << ", projection " << static_cast<int>(frame.projection)
-      << ", " << frame.width << " x " << frame.height << ", cut " << frame.kernel.cut.value_or(0)
+  out << name(choose_light(frame)) << ", projection " << static_cast<int>(frame.projection) << ", "
+      << frame.width << " x " << frame.height << ", cut " << frame.kernel.cut.value_or(0)
       << ", eye " << frame.camera.eye_offset << ", tolerance " << frame.tolerance;
   return out.str();
 }
 
-double worst_error(const Frame& frame, const Image& image, const ExactImage& exact) {
+double worst_error(const Frame& frame, const Image& image, const ReferenceImage& exact) {
   const std::vector<double> ambiguous = light_on_edges(frame);
   double worst = 0;
   for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
@@ -61,7 +61,7 @@ TEST_F(WideAngleScenes, KeepTheirTolerance) {
   int lit = 0;
   for (std::uint64_t seed = 1; seed <= 90; ++seed) {
     const Frame frame = WideSceneMaker(seed).make();
-    const ExactImage exact = reference::render(frame);
+    const ReferenceImage exact = reference::render(frame);
     lit += largest_value(exact) > 0.05;
     EXPECT_LE(worst_error(frame, draw(frame), exact), frame.tolerance)
         << "seed " << seed << ": " << describe(frame);

@@ -66,7 +66,7 @@ inline DrawnComponent even_sky(int count, double sigma) {
   return white_light(clouds);
 }
 
-inline double red_of(const ExactImage& image, int x, int y) {
+inline double red_of(const ReferenceImage& image, int x, int y) {
   return image.pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                            static_cast<std::size_t>(x))];
 }

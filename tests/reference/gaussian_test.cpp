@@ -109,7 +109,7 @@ TEST(Gaussian, PeakOfAnEmittingCloudIsBrightnessTimesColumnTimesColor) {
   component.reference_column = 4;
   Frame frame = frame_of(32, 32, {component});
   frame.kernel.sampling = Sampling::center;
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   const double* peak = &image.pixels[4 * (16 * 32 + 16)];
   // The mass is stored in single precision.
   EXPECT_NEAR(peak[0], 0.4, 1e-7);
@@ -123,7 +123,7 @@ TEST(Gaussian, FluxOfThePictureDoesNotDependOnSubpixelShiftsOrSize) {
     for (const double shift : {0.0, 0.125, 0.5, 0.77}) {
       const double column = 1 / (pi * sigma * sigma);
       const Frame frame = frame_of(96, 96, {emitting({Cloud{shift, -shift, 1, sigma, column}})});
-      const ExactImage image = reference::render(frame);
+      const ReferenceImage image = reference::render(frame);
       double sum = 0;
       for (std::size_t i = 0; i < image.pixels.size(); i += 4)
         sum += image.pixels[i];

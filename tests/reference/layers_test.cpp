@@ -15,7 +15,7 @@ using test::component_of;
 using test::frame_of;
 using test::one_color;
 
-const double* pixel(const ExactImage& image, int x, int y) {
+const double* pixel(const ReferenceImage& image, int x, int y) {
   return &image.pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x))];
 }
@@ -74,7 +74,7 @@ TEST(Render, ColumnOfEqualAbsorbersApproachesItsSource) {
     component.brightness = 0.7;  // q = E / A = 0.7
     Frame frame = frame_of(16, 16, {component});
     frame.kernel.sampling = Sampling::center;
-    const ExactImage image = reference::render(frame);
+    const ReferenceImage image = reference::render(frame);
     EXPECT_NEAR(pixel(image, 8, 8)[0], 0.7 * (1 - std::exp(-count * tau)), 2e-7);
     EXPECT_NEAR(pixel(image, 8, 8)[3], 1 - std::exp(-count * tau), 2e-7);
   }
@@ -94,14 +94,14 @@ Frame star_and_cloud(double star_z, double cloud_z) {
 }
 
 TEST(Render, StarBehindACloudIsReddened) {
-  const ExactImage image = reference::render(star_and_cloud(5, 3));
+  const ReferenceImage image = reference::render(star_and_cloud(5, 3));
   EXPECT_NEAR(pixel(image, 8, 8)[0], 3 * std::exp(-0.5), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[1], 3 * std::exp(-1), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[2], 3 * std::exp(-2), 1e-6);
 }
 
 TEST(Render, StarInFrontOfACloudIsNot) {
-  const ExactImage image = reference::render(star_and_cloud(2, 3));
+  const ReferenceImage image = reference::render(star_and_cloud(2, 3));
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(pixel(image, 8, 8)[c], 3, 1e-6);
 }
@@ -110,7 +110,7 @@ TEST(Render, BackgroundShinesThroughWhatAbsorbs) {
   Frame frame = star_and_cloud(2, 3);
   frame.components.erase(frame.components.begin());
   frame.background = {1, 2, 3};
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   EXPECT_NEAR(pixel(image, 8, 8)[0], std::exp(-0.5), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[1], 2 * std::exp(-1), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[2], 3 * std::exp(-2), 1e-6);
@@ -139,7 +139,7 @@ double summed_column(const std::vector<reference::Splat>& splats, int x, int y) 
 TEST(Render, EmissionEqualToAbsorptionNeedsNoOrder) {
   Frame frame = frame_of(40, 40, {component_of(random_clouds(300, 4), one_color(1, 0.5f, 0.1f))});
   frame.background = {0.3, 0, 2};
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   const auto splats = reference::project(frame);
   const double color[3] = {1, 0.5, static_cast<double>(0.1f)};
   for (int y = 0; y < 40; y += 7) {
@@ -157,7 +157,7 @@ TEST(Render, WithoutAbsorptionIsAPlainSum) {
   DrawnComponent component = component_of(random_clouds(300, 5), one_color(1, 0.5f, 0.1f));
   component.absorption.kind = Absorption::Kind::none;
   const Frame frame = frame_of(40, 40, {component});
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   const auto splats = reference::project(frame);
   for (int y = 0; y < 40; y += 7) {
     for (int x = 0; x < 40; x += 3) {
@@ -169,8 +169,8 @@ TEST(Render, WithoutAbsorptionIsAPlainSum) {
 }
 
 TEST(Render, OrderMattersWhenEmissionAndAbsorptionDiffer) {
-  const ExactImage front = reference::render(star_and_cloud(2, 3));
-  const ExactImage behind = reference::render(star_and_cloud(4, 3));
+  const ReferenceImage front = reference::render(star_and_cloud(2, 3));
+  const ReferenceImage behind = reference::render(star_and_cloud(4, 3));
   EXPECT_GT(pixel(front, 8, 8)[0], 1.5 * pixel(behind, 8, 8)[0]);
 }
 
@@ -180,7 +180,7 @@ TEST(Render, AgreesWithTheListOfOnePixel) {
   Frame frame = frame_of(40, 40, {component});
   frame.kernel.cut = 2.5;
   frame.crop = {3, 5, 20, 17};
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   auto splats = reference::project(frame);
   reference::sort(splats, frame.sort);
   for (int y = 0; y < frame.crop.height; ++y) {
@@ -198,7 +198,7 @@ TEST(Render, GrayAbsorptionTendsToAmplitudeOverAmplitudePlusGray) {
   component.absorption = {Absorption::Kind::gray, 20};
   Frame frame = frame_of(16, 16, {component});
   frame.kernel.sampling = Sampling::center;
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   EXPECT_NEAR(pixel(image, 8, 8)[0], 40.0 / 60 * (1 - std::exp(-40.0)), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[1], 20.0 / 40 * (1 - std::exp(-20.0)), 1e-6);
   EXPECT_NEAR(pixel(image, 8, 8)[2], 10.0 / 30 * (1 - std::exp(-10.0)), 1e-6);

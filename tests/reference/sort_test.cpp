@@ -89,7 +89,7 @@ TEST(Render, SortsByAFieldInsteadOfDepthWhenTheSceneSaysSo) {
   opaque.particles.sort_field = Column::owning({2, 1});
   Frame frame = frame_of(16, 16, {opaque});
   frame.sort = by_field(false);
-  const ExactImage image = reference::render(frame);
+  const ReferenceImage image = reference::render(frame);
   const double* middle = &image.pixels[4 * (8 * 16 + 8)];
   EXPECT_LT(middle[0], 1e-6);
   EXPECT_GT(middle[1], 0.01);

@@ -1,5 +1,5 @@
 // How many clouds lie upon one another before something darker.
-#include "scene/crowding.h"
+#include "scene/plan/crowding.h"
 
 #include <gtest/gtest.h>
 

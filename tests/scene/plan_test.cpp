@@ -30,7 +30,7 @@ Frame frame_of(const std::vector<DrawnComponent>& components) {
 }
 
 LightPlan light_of(const std::vector<DrawnComponent>& components) {
-  return make_plan(frame_of(components)).light;
+  return choose_light(frame_of(components));
 }
 
 TEST(Plan, AddsUpEmissionWhereNothingAbsorbs) {
@@ -45,7 +45,7 @@ TEST(Plan, AddsUpEmissionWhereThePalettesAbsorptionIsSwitchedOff) {
 TEST(Plan, NeedsNoOrderWhereEverythingAbsorbsWhatItEmits) {
   DrawnComponent bright = component(Kind::as_emission);
   bright.brightness = 7;
-  const Plan plan = make_plan(frame_of({component(Kind::as_emission), bright}));
+  const FramePlan plan = make_plan(frame_of({component(Kind::as_emission), bright}));
   EXPECT_EQ(plan.light, LightPlan::proportional);
   EXPECT_EQ(plan.source, (std::array<double, 3>{1, 1, 1}));
 }
@@ -53,7 +53,7 @@ TEST(Plan, NeedsNoOrderWhereEverythingAbsorbsWhatItEmits) {
 TEST(Plan, NeedsNoOrderWhereOneComponentAbsorbsAFactorOfWhatItEmits) {
   DrawnComponent gas = component(Kind::factor, 4);
   gas.brightness = 3;
-  const Plan plan = make_plan(frame_of({gas}));
+  const FramePlan plan = make_plan(frame_of({gas}));
   EXPECT_EQ(plan.light, LightPlan::proportional);
   // E = brightness I palette, A = factor I palette.
   EXPECT_EQ(plan.source, (std::array<double, 3>{0.75, 0.75, 0.75}));
@@ -84,9 +84,9 @@ TEST(Plan, OrdersComponentsThatAbsorbDifferently) {
 }
 
 TEST(Plan, SortsOnlyWhatItOrders) {
-  EXPECT_FALSE(make_plan(frame_of({component(Kind::none)})).needs_sort);
-  EXPECT_FALSE(make_plan(frame_of({component(Kind::as_emission)})).needs_sort);
-  EXPECT_TRUE(make_plan(frame_of({component(Kind::gray, 1)})).needs_sort);
+  EXPECT_FALSE(make_plan(frame_of({component(Kind::none)})).needs_sort());
+  EXPECT_FALSE(make_plan(frame_of({component(Kind::as_emission)})).needs_sort());
+  EXPECT_TRUE(make_plan(frame_of({component(Kind::gray, 1)})).needs_sort());
 }
 
 TEST(Plan, SharesOutTheWholeTolerance) {
@@ -94,28 +94,46 @@ TEST(Plan, SharesOutTheWholeTolerance) {
     for (const double tolerance : {0.0, 1e-6, 1e-3, 1.0}) {
       Frame frame = frame_of({component(kind, 1)});
       frame.tolerance = tolerance;
-      const Plan plan = make_plan(frame);
-      EXPECT_GE(plan.truncation_share, 0);
-      EXPECT_GE(plan.coarse_share, 0);
-      EXPECT_GE(plan.arithmetic_share, 0);
+      const FramePlan plan = make_plan(frame);
+      const ToleranceShares& shares = plan.shares;
+      EXPECT_GE(shares.truncation, 0);
+      EXPECT_GE(shares.coarse_grids, 0);
+      EXPECT_GE(shares.pixel_mean, 0);
+      EXPECT_GE(shares.phi, 0);
+      EXPECT_GE(shares.early_stop, 0);
       // Tolerance 0 shares out what it promises instead.
-      const double promise = tolerance > 0 ? tolerance : most_exact_tolerance;
-      EXPECT_NEAR(plan.truncation_share + plan.coarse_share + plan.arithmetic_share, promise,
-                  1e-15 * promise);
-      EXPECT_NEAR(plan.pixel_mean_share + plan.phi_share + plan.stop_share, plan.arithmetic_share,
-                  1e-15 * promise);
+      const double promise = tolerance > 0 ? tolerance : extended_tolerance;
+      EXPECT_EQ(shares.promise, promise);
+      EXPECT_NEAR(shares.truncation + shares.coarse_grids + shares.pixel_mean + shares.phi +
+                      shares.early_stop,
+                  promise, 1e-15 * promise);
     }
   }
 }
 
 TEST(Plan, HasNoCoarseGridsWhereOrderMatters) {
-  EXPECT_EQ(make_plan(frame_of({component(Kind::gray, 1)})).coarse_share, 0);
+  const FramePlan plan = make_plan(frame_of({component(Kind::gray, 1)}));
+  EXPECT_EQ(plan.shares.coarse_grids, 0);
+  EXPECT_EQ(plan.pyramid.grids.size(), 1u);
+}
+
+TEST(Plan, TakesThePrecisionThatTheToleranceNeeds) {
+  Frame frame = frame_of({component(Kind::none)});
+  const auto precision_at = [&frame](double tolerance) {
+    frame.tolerance = tolerance;
+    return make_plan(frame).precision;
+  };
+  EXPECT_EQ(precision_at(1e-3), Precision::fast);
+  EXPECT_EQ(precision_at(1e-4), Precision::full);
+  EXPECT_EQ(precision_at(0), Precision::extended);
+  frame.projection = Projection::fisheye;
+  EXPECT_EQ(precision_at(0), Precision::full) << "wide angles have single precision only";
 }
 
 TEST(Plan, ExplainsItselfByName) {
   for (const Kind kind : {Kind::none, Kind::as_emission, Kind::gray}) {
     const Frame frame = frame_of({component(kind, 1)});
-    const Plan plan = make_plan(frame);
+    const FramePlan plan = make_plan(frame);
     EXPECT_THAT(explain(plan, frame), HasSubstr(std::string("plan: ") + name(plan.light)));
   }
 }

@@ -1,0 +1,53 @@
+// What host and kernels share of the lists: 4-byte members only (splat.h).
+#ifndef SPLOTCHCL_BIN_H
+#define SPLOTCHCL_BIN_H
+
+// A splat in the list of one tile, positions relative to the tile's corner, amplitudes at
+// the splat's center.
+struct TileSplat {
+#ifdef EXTENDED_NUMBERS
+  unsigned int slot;  // of the extended splat (composite_extended.cl)
+#else
+  float x, y;
+  float sigma, radius;  // sigma as in Splat
+#ifdef ELLIPSES
+  struct WidthAlongX along_x;
+#endif
+#ifdef LIGHT_ORDERED
+  float absorption[3];  // A w
+  float emission[3];    // E w
+#else
+  float summed[3];  // A w, or E w where nothing absorbs
+#endif
+#endif
+};
+
+// Which splats a binning pass takes: work-item b walks the slots first + b * stride ...
+// of at most `length` splats.
+struct BinParameters {
+  unsigned int first, stride, length;
+  unsigned int end;  // slots from here on do not exist
+  unsigned int block_count;
+  unsigned int tile_count;
+  unsigned int grid_count;
+  unsigned int segment_length;    // entries of a tile's list per work-item or group
+  unsigned int segment_capacity;  // segments that the buffer holds
+  unsigned int first_tile, end_tile;  // lists are made of these only
+  float mean_sigma;
+  float widening;
+};
+
+// A stretch of one tile's list, composited by one work-item or work-group.
+struct Segment {
+  unsigned int tile, begin, end;
+  unsigned int partial;  // where the layer goes; NO_PARTIAL: into the planes
+};
+#define NO_PARTIAL 0xffffffffu
+
+#ifdef __OPENCL_VERSION__
+typedef struct TileSplat TileSplat;
+typedef struct BinParameters BinParameters;
+typedef struct Segment Segment;
+#endif
+
+#endif

@@ -1,0 +1,305 @@
+// Compositing for processors with wide registers: a work-item takes a segment of one
+// tile's list and updates rows of eight pixels in a private copy of the tile.
+// Rows are padded on the right: a row of eight may start at any column.
+#define ROW (TILE_WIDTH + 8)
+#define TILE_PIXELS (TILE_HEIGHT * ROW)
+// Eight floats at any address in one access: vstore8 may become two, and a processor cannot
+// forward two stores to the load of the next splat's row.
+#ifdef __clang__
+typedef float8 __attribute__((aligned(4))) Eight;
+#define load_eight(p) (*(const Eight*)(p))
+#define store_eight(v, p) (*(Eight*)(p) = (v))
+#else
+#define load_eight(p) vload8(0, p)
+#define store_eight(v, p) vstore8(v, 0, p)
+#endif
+
+inline void load_tile(float* tile, __global const float* planes, const Grid grid, size_t corner) {
+  for (int c = 0; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      __global const float* row =
+          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        vstore8(vload8(0, row + x), 0, tile + c * TILE_PIXELS + y * ROW + x);
+      }
+    }
+  }
+}
+
+inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
+  for (int c = 0; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      __global float* row =
+          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        vstore8(vload8(0, tile + c * TILE_PIXELS + y * ROW + x), 0, row + x);
+      }
+    }
+  }
+}
+
+inline void store_partial(const float* tile, __global float* partial) {
+  for (int c = 0; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        vstore8(vload8(0, tile + c * TILE_PIXELS + y * ROW + x), 0,
+                partial + (c * TILE_HEIGHT + y) * TILE_WIDTH + x);
+      }
+    }
+  }
+}
+
+#ifdef KERNEL_CUT
+// `shape` of eight pixels of a row, zero outside the cut.
+inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squeeze) {
+#ifdef ELLIPSES
+  int8 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
+#else
+  int8 outside = dx * dx + dy * dy > cut2;
+#endif
+#ifdef SAMPLING_MEAN
+  // The pixel that holds the centre keeps its light.
+  outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
+#endif
+  return select(shape, (float8)(0.0f), outside);
+}
+#else
+#define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
+#endif
+
+#ifdef LIGHT_ORDERED
+// The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
+// by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
+// since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
+#define LAYER_CHANNEL(c, PHI, PASSED)                                         \
+  {                                                                           \
+    float* const source = pixel + c * TILE_PIXELS;                            \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                     \
+    const float8 o = load_eight(opacity), t = transmittance_of(o);            \
+    const float8 depth = shape * absorption##c, phi = PHI(depth);             \
+    const float8 covered = shape * phi;                                       \
+    const float8 u = t * covered;                                             \
+    store_eight(load_eight(source) + u * emission##c, source);                \
+    store_eight(carry(o, u * absorption##c, t * PASSED(depth, phi)), opacity); \
+  }
+
+#define LAYER_ROWS(PHI, PASSED)                                                          \
+  for (int k = 0; k < window.rows; ++k, pixel += ROW) {                                  \
+    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
+    LAYER_CHANNEL(0, PHI, PASSED)                                                        \
+    LAYER_CHANNEL(1, PHI, PASSED)                                                        \
+    LAYER_CHANNEL(2, PHI, PASSED)                                                        \
+  }
+#endif
+
+// One axis of the separable shape at `count` pixels, the first one's centre at distance
+// `first`. Writes whole eights: `values` has room for 16 more than `count`.
+inline void fill_axis(float* values, float first, int count, float sigma, float inverse,
+                      float mean_sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma < 0.0f) {
+    for (int k = 0; k < count; k += 8) {
+      vstore8(bright_mean(first + (float)k + ramp, -sigma), 0, values + k);
+    }
+    return;
+  }
+  if (sigma >= mean_sigma) {
+    for (int k = 0; k < count; k += 8) {
+      vstore8(gaussian(first + (float)k + ramp, inverse), 0, values + k);
+    }
+    return;
+  }
+  // Neighbouring pixels share an edge.
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 8) {
+    vstore8(error_function((first - 0.5f + (float)k + ramp) * per_sigma), 0, values + k);
+  }
+  // Pixels beyond `count` in its last eight are drawn, too: the very last has no far edge.
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 8) {
+    const float8 mean = vload8(0, values + k + 1) - vload8(0, values + k);
+    vstore8(mean * (PIXEL_MEAN_SCALE * sigma), 0, values + k);
+  }
+}
+
+// The window that one splat updates: `count` rows of eight pixels from (x, y) on.
+typedef struct Window {
+  int x, y, rows;
+} Window;
+
+// Updates the window with across[8] * along[rows].
+inline void update_window(float* tile, Window window, float8 across, const float* along,
+                          __global const TileSplat* splat, float deepest,
+                          const CompositeParameters p) {
+#ifdef KERNEL_CUT
+  const float8 dx = (float)window.x + 0.5f - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float dy = (float)window.y + 0.5f - splat->y;
+  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
+  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+#endif
+  float* pixel = tile + window.y * ROW + window.x;
+#ifdef LIGHT_ORDERED
+  const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
+  const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
+  const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
+  if (deepest <= p.phi_short) {
+    LAYER_ROWS(phi_short, passed_by_series)
+  } else if (deepest <= p.phi_series) {
+    LAYER_ROWS(phi_series, passed_by_series)
+  } else {
+    LAYER_ROWS(phi_full, passed_in_full)
+  }
+#else
+  const float8 summed0 = across * splat->summed[0];
+  const float8 summed1 = across * splat->summed[1];
+  const float8 summed2 = across * splat->summed[2];
+  for (int k = 0; k < window.rows; ++k, pixel += ROW) {
+    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
+    store_eight(load_eight(pixel) + shape * summed0, pixel);
+    store_eight(load_eight(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
+    store_eight(load_eight(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
+  }
+#endif
+}
+
+// Pixel means of seven pixels, the first one's centre at distance `first`; the eighth is 0.
+inline float8 seven_means(float first, float sigma) {
+  const float8 edges = error_function((first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) / sigma);
+  return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
+}
+
+inline void add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
+                      const CompositeParameters p) {
+  const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
+  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), TILE_WIDTH);
+  if (rows.x > rows.y || columns.x > columns.y) return;
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  float deepest = 0.0f;
+#ifdef LIGHT_ORDERED
+  deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+            (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+#endif
+  Window window;
+  const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+  const int bright = min(sigma, sigma_x) < 0.0f;
+#ifndef ELLIPSES
+  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma && !bright) {
+    // A grain: the edges of its pixels along both axes fit one call.
+    window.rows = 3;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    const float dx = (float)window.x - splat->x, dy = (float)window.y - splat->y;
+    const float8 edges =
+        error_function(((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) /
+                       sigma);
+    const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
+    float along[4];
+    vstore4(means.hi, 0, along);
+    update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest, p);
+    return;
+  }
+#endif
+  const float inverse = 1.44269504f / (sigma * sigma);
+#ifdef ELLIPSES
+  const float inverse_x = 1.44269504f / (sigma_x * sigma_x);
+#else
+  const float inverse_x = inverse;
+#endif
+  if (columns_count <= 7 && rows_count <= 7 && !bright) {
+    // Most splats of a large snapshot: one window, and row counts that are easy to predict.
+    // Rows beside the splat take its tails, which is no less exact.
+    window.rows = rows_count <= 4 ? 4 : 7;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    float along[8];
+    const float dx = (float)window.x + 0.5f - splat->x, dy = (float)window.y + 0.5f - splat->y;
+    float8 across;
+    if (sigma < mean_sigma) {
+      across = seven_means(dx, sigma);
+      vstore8(seven_means(dy, sigma), 0, along);
+    } else {
+      across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse);
+      vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse), 0, along);
+    }
+#ifdef ELLIPSES
+    across = sigma_x < mean_sigma ? seven_means(dx, sigma_x)
+                                    : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
+#endif
+    update_window(tile, window, across, along, splat, deepest, p);
+    return;
+  }
+  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
+  fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma_x, inverse_x,
+            mean_sigma);
+  fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, mean_sigma);
+  window.y = rows.x;
+  window.rows = rows_count;
+  const float* along = along_y;
+  for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
+#ifdef KERNEL_CUT
+    // The disc's part of these columns.
+    const float nearest = clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
+#ifdef ELLIPSES
+    const float part_of_radius = nearest / splat->along_x.radius;
+    const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+#else
+    const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+#endif
+    const int2 part = pixel_range(splat->y, half_height, TILE_HEIGHT);
+    window.y = part.x;
+    window.rows = part.y - part.x + 1;
+    along = along_y + (part.x - rows.x);
+#endif
+    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat,
+                  deepest, p);
+  }
+}
+
+#ifdef LIGHT_ORDERED
+// Nothing behind shows any more: every channel of every pixel is opaque enough.
+inline int is_opaque(const float* tile, float opaque) {
+  float8 least = (float8)(2.0f);
+  for (int c = 3; c < 6; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        least = min(least, opacity_of(vload8(0, tile + c * TILE_PIXELS + y * ROW + x)));
+      }
+    }
+  }
+  const float4 four = min(least.lo, least.hi);
+  const float2 two = min(four.lo, four.hi);
+  return min(two.x, two.y) >= opaque;
+}
+#endif
+
+__kernel void composite(const CompositeParameters p, __global const Grid* grids,
+                        __global const Segment* segments,
+                        __global const TileSplat* entries, __global float* planes,
+                        __global float* partials) {
+  const uint id = get_global_id(0);
+  if (id >= p.segment_count) return;
+  const Segment segment = segments[id];
+  const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
+  const uint in_grid = segment.tile - grid.first_tile;
+  const size_t corner = first_float(grid) +
+                        (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
+                        (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
+  float tile[PLANES * TILE_PIXELS];
+  if (segment.partial == NO_PARTIAL) {
+    load_tile(tile, planes, grid, corner);
+  } else {
+    for (int i = 0; i < PLANES * TILE_PIXELS; i += 8) vstore8((float8)(0.0f), 0, tile + i);
+  }
+  for (uint k = segment.begin; k < segment.end; ++k) {
+#ifdef LIGHT_ORDERED
+    if ((k - segment.begin) % 256u == 0u && is_opaque(tile, p.opaque)) break;
+#endif
+    add_splat(tile, entries + k, grid.mean_sigma, p);
+  }
+  if (segment.partial == NO_PARTIAL) {
+    store_tile(tile, planes, grid, corner);
+  } else {
+    store_partial(tile, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
+  }
+}

@@ -1,0 +1,44 @@
+// Joins the layers of a tile that was cut into segments, nearest first, into the planes:
+// a work-item per tile, walking the segment list to its own stretch.
+inline void join_pixel(__global float* planes, size_t plane, __global const float* partial,
+                       size_t pixel) {
+#ifdef LIGHT_ORDERED
+  for (int c = 0; c < 3; ++c) {
+    __global float* source = planes + (size_t)c * plane;
+    __global float* opacity = planes + (size_t)(c + 3) * plane;
+    const float transmittance = transmittance_of(*opacity);
+    const float behind = partial[(size_t)(c + 3) * TILE_WIDTH * TILE_HEIGHT + pixel];
+    *source += transmittance * partial[(size_t)c * TILE_WIDTH * TILE_HEIGHT + pixel];
+    *opacity = carry(*opacity, transmittance * opacity_of(behind),
+                     transmittance * transmittance_of(behind));
+  }
+#else
+  for (int c = 0; c < 3; ++c) {
+    planes[(size_t)c * plane] += partial[(size_t)c * TILE_WIDTH * TILE_HEIGHT + pixel];
+  }
+#endif
+}
+
+// Work-item (x of tile row, segment): the first segment of a cut tile joins them all.
+__kernel void join(const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
+                         __global float* planes,
+                   __global const float* partials) {
+  const uint id = get_global_id(1);
+  const uint row = get_global_id(0);
+  if (id >= p.segment_count) return;
+  const Segment first = segments[id];
+  if (first.partial == NO_PARTIAL || (id > 0 && segments[id - 1].tile == first.tile)) return;
+  const Grid grid = grids[grid_of_tile(grids, p.grid_count, first.tile)];
+  const uint in_grid = first.tile - grid.first_tile;
+  __global float* corner =
+      planes + first_float(grid) +
+      ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + row) * grid.stride +
+      (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
+  for (uint s = id; s < p.segment_count && segments[s].tile == first.tile; ++s) {
+    __global const float* partial =
+        partials + (size_t)segments[s].partial * PLANES * TILE_WIDTH * TILE_HEIGHT;
+    for (uint x = 0; x < TILE_WIDTH; ++x) {
+      join_pixel(corner + x, grid.plane_size, partial, (size_t)row * TILE_WIDTH + x);
+    }
+  }
+}

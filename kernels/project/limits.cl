@@ -1,0 +1,57 @@
+// What a particle weighs, how far its splat is drawn, whether its pixels take means, and on
+// which grid it lies (docs/accuracy.md), on VALUEs (lanes.cl).
+#pragma OPENCL FP_CONTRACT OFF
+
+// A field in [0, 1] (frame.h, ScalarMap).
+inline VALUE normalized(VALUE value, const FieldScaling map) {
+  VALUE scaled = value;
+  if (map.scaling == SCALING_LOG) {
+    scaled = choose((VALUE)(-INFINITY), log2_positive(max(value, (VALUE)(1e-45f))) * 0.301029996f,
+                    value > 0.0f);
+  }
+  if (map.scaling == SCALING_ASINH) scaled = asinh(value);
+  const VALUE normal = clamp(((scaled - map.minimum) - map.minimum_low) * map.inverse_range,
+                             (VALUE)(0.0f), (VALUE)(1.0f));
+  return choose((VALUE)(0.0f), normal, is_finite(scaled));
+}
+
+// w (scene.h, WeightModel); sigma_scaled is sigma in world units times length_scale.
+inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
+  const VALUE sigma_scaled = p.kernel_width * h * p.length_scale;
+  if (p.weight_model == WEIGHT_MASS) {
+    return raw * p.weight_scale / sigma_scaled * p.weight_scale / sigma_scaled;
+  }
+  if (p.weight_model == WEIGHT_DENSITY) return raw * p.weight_scale * sigma_scaled;
+  return raw * p.weight_scale / (h * p.length_scale);
+}
+
+// How many sigma a splat is drawn: at least so far that the light outside the square does
+// not show in a sum of many, and for a bright one so far that its own edge does not show.
+inline VALUE truncation_extent(VALUE peak, const ProjectParameters p) {
+  const VALUE excess = log2_positive(max(peak * p.inverse_edge, (VALUE)(1.0f)));
+  return max((VALUE)(p.least_extent), sqrt(0.693147181f * excess));
+}
+
+// The width below which a bright splat is taken as means. At the distance where it has faded
+// to 1 the widened center value errs by 5.6e-3 ln(peak)^2 / sigma^4 of what is there.
+inline VALUE bright_mean_limit(VALUE peak, const ProjectParameters p) {
+  const VALUE fading = 0.693147181f * log2_positive(max(peak, (VALUE)(1.0f)));
+  return p.mean_sigma * sqrt(max(0.853f * fading, (VALUE)(1.0f)));
+}
+
+// The largest n with 2^n <= value, for positive values.
+inline INTEGER power_of_two(VALUE value) { return (AS_INTEGER(value) >> 23) - 127; }
+
+inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameters p) {
+  const INTEGER grid = clamp(octave, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
+  return select(grid, (INTEGER)(0), peak > p.coarse_peak);
+}
+
+// Wide splats go to the coarsest grid that still shows their shape, bright ones finer. Two
+// blurred grids make an octave.
+inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
+  const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
+  const VALUE ratio = sigma / amplified;
+  if (p.blurred) return grid_of_octave(power_of_two(ratio * ratio) - 1, peak, p);
+  return grid_of_octave(power_of_two(ratio), peak, p);
+}

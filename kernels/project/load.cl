@@ -1,0 +1,113 @@
+// The fields of LANES particles, as memory holds them.
+
+// LANES values from index i on; those from `end` on repeat the last one, since a mapped
+// file may end with its last value. Stride 0: one value for all.
+inline VALUE load_values(__global const float* values, uint i, uint end, int stride) {
+  if (stride == 0) return (VALUE)(values[0]);
+#ifdef LANES_8
+  if (i + LANES > end) {
+    float lanes[LANES];
+    for (uint k = 0; k < LANES; ++k) lanes[k] = values[min(i + k, end - 1)];
+    return vload8(0, lanes);
+  }
+#endif
+  return LOAD(values + i);
+}
+
+typedef struct Vectors {
+  VALUE x, y, z;
+} Vectors;
+
+inline Vectors load_vectors(__global const float* vectors, uint i, uint end) {
+  Vectors v;
+#ifdef LANES_8
+  if (i + LANES <= end) {
+    __global const float* first = vectors + (size_t)i * 3;
+    const float8 a = vload8(0, first), b = vload8(1, first), c = vload8(2, first);
+    v.x = (float8)(a.s036, b.s147, c.s25);
+    v.y = (float8)(a.s147, b.s25, c.s036);
+    v.z = (float8)(a.s25, b.s036, c.s147);
+    return v;
+  }
+  float x[LANES], y[LANES], z[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    __global const float* vector = vectors + (size_t)min(i + k, end - 1) * 3;
+    x[k] = vector[0];
+    y[k] = vector[1];
+    z[k] = vector[2];
+  }
+  v.x = vload8(0, x);
+  v.y = vload8(0, y);
+  v.z = vload8(0, z);
+#else
+  v.x = vectors[(size_t)i * 3];
+  v.y = vectors[(size_t)i * 3 + 1];
+  v.z = vectors[(size_t)i * 3 + 2];
+#endif
+  return v;
+}
+
+#ifdef VECTOR_COLORS
+inline Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
+  if (stride != 0) return load_vectors(colors, i, end);
+  Vectors same;
+  same.x = same.y = same.z = (VALUE)(colors[0]);
+  return same;
+}
+#endif
+
+// The columns of one component. The particles' own colors are a parameter only where a
+// component has some.
+typedef struct Columns {
+  __global const float *positions, *smoothing_lengths, *weights, *colors, *intensities,
+      *sort_fields;
+#ifdef VECTOR_COLORS
+  __global const float* own_colors;
+#endif
+} Columns;
+
+typedef struct ParticleLanes {
+  INTEGER exists;
+  Vectors position;
+  VALUE h, weight, color, intensity, sort_field;
+#ifdef VECTOR_COLORS
+  Vectors own_color;
+#endif
+} ParticleLanes;
+
+// Particles from i on; those at or beyond `end` do not exist.
+inline ParticleLanes load_particles(const Columns columns, uint i, uint end,
+                                    const ProjectParameters p) {
+  ParticleLanes particles;
+#ifdef LANES_8
+  particles.exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
+#else
+  particles.exists = 1;
+#endif
+  particles.h = load_values(columns.smoothing_lengths, i, end, p.smoothing_length_stride);
+  particles.weight = load_values(columns.weights, i, end, p.weight_stride);
+  particles.color = load_values(columns.colors, i, end, p.color_stride);
+  particles.intensity = load_values(columns.intensities, i, end, p.intensity_stride);
+  particles.sort_field = load_values(columns.sort_fields, i, end, p.sort_stride);
+  particles.position = load_vectors(columns.positions, i, end);
+#ifdef VECTOR_COLORS
+  particles.own_color = load_colors(columns.own_colors, i, end, p.own_color_stride);
+#endif
+  return particles;
+}
+
+inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
+inline INTEGER is_color(VALUE v) { return v >= 0.0f & v <= FLT_MAX; }
+
+// What reference::count_bad counts is not good; `offset` is the position less the camera's.
+inline INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
+  INTEGER good = is_finite(offset.x) & is_finite(offset.y) & is_finite(offset.z) &
+                 is_finite(particles.h) & particles.h > 0.0f & is_finite(particles.weight) &
+                 particles.weight >= 0.0f & is_finite(particles.color) &
+                 is_finite(particles.intensity) & is_finite(particles.sort_field);
+#ifdef VECTOR_COLORS
+  good &= is_color(particles.own_color.x) & is_color(particles.own_color.y) &
+          is_color(particles.own_color.z);
+#endif
+  return good;
+}

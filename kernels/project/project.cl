@@ -1,0 +1,159 @@
+// Particles to splats. A work-item walks one block of particles and writes the visible
+// ones one after the other from its own offset, so their order is the file's.
+
+// SplatLanes as arrays, to be written one by one.
+typedef struct SplatArrays {
+  int visible[LANES], grid[LANES];
+  float x[LANES], y[LANES], sigma[LANES], radius[LANES], weight[LANES], color[LANES];
+#ifdef ELLIPSES
+  float sigma_x[LANES], radius_x[LANES];
+#endif
+#ifdef VECTOR_COLORS
+  float red[LANES], green[LANES], blue[LANES];
+#endif
+  float sort_value[LANES];
+} SplatArrays;
+
+inline void spread(const SplatLanes s, SplatArrays* a) {
+  STORE(s.visible, a->visible);
+#ifdef OUTPUT_KEYS
+  STORE(s.sort_value, a->sort_value);
+#endif
+#ifndef EXTENDED_NUMBERS
+#ifdef ELLIPSES
+  STORE(s.x, a->x);
+  STORE(s.radius_x, a->radius_x);
+#endif
+#ifdef OUTPUT_SPLATS
+  STORE(s.x, a->x);
+  STORE(s.y, a->y);
+  STORE(s.sigma, a->sigma);
+  STORE(s.radius, a->radius);
+  STORE(s.weight, a->weight);
+  STORE(s.color, a->color);
+  STORE(s.grid, a->grid);
+#ifdef ELLIPSES
+  STORE(s.sigma_x, a->sigma_x);
+#endif
+#ifdef VECTOR_COLORS
+  STORE(s.own_color.x, a->red);
+  STORE(s.own_color.y, a->green);
+  STORE(s.own_color.z, a->blue);
+#endif
+#endif
+#endif
+}
+
+#if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
+inline void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
+  splat->x = a->x[k];
+  splat->y = a->y[k];
+  splat->sigma = a->sigma[k];
+  splat->radius = a->radius[k];
+  splat->weight = a->weight[k];
+  splat->color = a->color[k];
+#ifdef ELLIPSES
+  splat->along_x.sigma = a->sigma_x[k];
+  splat->along_x.radius = a->radius_x[k];
+#endif
+#ifdef VECTOR_COLORS
+  splat->own_color.rgb[0] = a->red[k];
+  splat->own_color.rgb[1] = a->green[k];
+  splat->own_color.rgb[2] = a->blue[k];
+#endif
+  splat->component_and_grid = component | ((uint)a->grid[k] << 16);
+}
+#endif
+
+inline uint count_true(INTEGER mask) {
+  int lanes[LANES];
+  STORE(mask, lanes);
+  uint count = 0;
+  for (uint k = 0; k < LANES; ++k) count += lanes[k] != 0;
+  return count;
+}
+
+#ifdef VECTOR_COLORS
+#define OWN_COLORS_PARAMETER , __global const float *own_colors
+#else
+#define OWN_COLORS_PARAMETER
+#endif
+// What extended precision needs beyond that (project_extended.cl).
+#ifdef EXTENDED_NUMBERS
+#define EXTENDED_PARAMETERS                                                       \
+  , const ExtendedParameters e, __global const ComponentColors *component_colors, \
+      __global const float *knots, __global ExtendedSplat *extended_splats
+#else
+#define EXTENDED_PARAMETERS
+#endif
+
+// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
+// splats are written from offsets[b] on; with OUTPUT_KEYS their sort keys and identity
+// permutation, too.
+__kernel void project(const ProjectParameters p, __global const Grid* grids,
+                      __global const float* positions, __global const float* smoothing_lengths,
+                      __global const float* weights, __global const float* colors,
+                      __global const float* intensities, __global const float* sort_fields,
+                      __global const uint* offsets, __global BlockCounts* counts,
+                      __global Splat* splats, __global uint* keys,
+                      __global uint* order OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
+  Columns columns;
+  columns.positions = positions;
+  columns.smoothing_lengths = smoothing_lengths;
+  columns.weights = weights;
+  columns.colors = colors;
+  columns.intensities = intensities;
+  columns.sort_fields = sort_fields;
+#ifdef VECTOR_COLORS
+  columns.own_colors = own_colors;
+#endif
+  const uint block = get_global_id(0);
+  const uint begin = p.first_particle + block * p.block_particles;
+  const uint end = min(begin + p.block_particles, p.end_particle);
+  const uint numbered = p.first_block + block;
+  const uint first_slot = offsets[numbered];
+  uint slot = first_slot, bad_count = 0;
+  for (uint i = begin; i < end; i += LANES) {
+    const SplatLanes lanes = project_lanes(i, end, p, grids, columns);
+    if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
+    if (!ANY(lanes.visible)) continue;
+    SplatArrays found;
+    spread(lanes, &found);
+    for (uint k = 0; k < LANES; ++k) {
+      if (!found.visible[k]) continue;
+#ifdef ELLIPSES
+      const int2 copies =
+          copies_in_picture(found.x[k], found.radius_x[k], (float)grids[0].width, p.period);
+      for (int copy = copies.x; copy <= copies.y; ++copy) {
+#endif
+#ifdef EXTENDED_NUMBERS
+      Splat rounded;
+      ExtendedSplat extended;
+      if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
+                          &extended)) {
+        continue;
+      }
+#ifdef OUTPUT_SPLATS
+      rounded.component_and_grid = p.component;
+      splats[slot] = rounded;
+      extended_splats[slot] = extended;
+#endif
+#elif defined(OUTPUT_SPLATS)
+      write_splat(splats + slot, &found, k, p.component);
+#ifdef ELLIPSES
+      splats[slot].x = found.x[k] + (float)copy * p.period;
+#endif
+#endif
+#ifdef OUTPUT_KEYS
+      keys[slot] = sort_key(found.sort_value[k], p.sort_descending);
+      order[slot] = slot;
+#endif
+      ++slot;
+#ifdef ELLIPSES
+      }
+#endif
+    }
+  }
+  counts[numbered].visible = slot - first_slot;
+  counts[numbered].bad = bad_count;
+}

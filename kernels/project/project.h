@@ -1,0 +1,112 @@
+// What host and kernels share of the projection: 4-byte members only (splat.h).
+#ifndef SPLOTCHCL_PROJECT_H
+#define SPLOTCHCL_PROJECT_H
+
+#define SCALING_LINEAR 0
+#define SCALING_LOG 1
+#define SCALING_ASINH 2
+
+#define WEIGHT_MASS 0
+#define WEIGHT_DENSITY 1
+#define WEIGHT_CONSTANT 2
+
+// A field's way to [0, 1] (frame.h, ScalarMap).
+struct FieldScaling {
+  int scaling;
+  float minimum, minimum_low;  // a pair: ranges may be far narrower than their values
+  float inverse_range;         // 0 where the range is empty
+};
+
+// Constants of the projection of one component.
+struct ProjectParameters {
+  // The depth chain (frame.h).
+  float position_high[3];
+  float position_low[3];
+  float forward[3];
+  float look_at_high[3];
+  float look_at_low[3];
+  float far_away;  // z from which x and y are measured from the look-at point
+  float right[3];
+  float down[3];
+  float pixels_per_length;   // perspective: at z = 1
+  float center_x, center_y;  // of the whole picture, relative to the crop's corner
+  int perspective;
+  float period;        // pixels after which an equirectangular picture repeats itself
+  float eye_offset;    // of an eye beside the camera, in wide angles
+  float turn_axis[3];  // of its head: right, down, forward
+
+  float near_limit;   // z below is left out
+  float near_factor;  // z below near_factor * h is left out
+  float far_limit;
+
+  float size_factor;
+  float kernel_width;  // sigma = kernel_width * h
+  float kernel_cut;    // in sigma; 0: uncut
+  float min_radius;    // pixels
+  float widening;      // sigma'^2 = sigma^2 + widening, in pixels
+  float mean_sigma;    // below: the pixel mean by erf, not the widened center value
+  float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
+  float crowd_light;   // what splats that lie upon one another add up to; 0: there are none
+  float crowd_bright;  // the same where it makes them bright splats
+  float crowd_extent;  // sigmas drawn of them at least
+  float crowd_narrowest, crowd_widest;  // of sigmas in this range, in pixels
+
+  int weight_model;
+  float length_scale;  // keeps sigma^2 inside single precision in any unit
+  float weight_scale;  // for masses its square root: it may be too small for a float
+  float peak_color;    // the largest of E and A per unit weight, and of it what
+  float peak_own;      // does not follow the particles' own colors
+
+  float least_extent;    // sigmas drawn of a faint splat
+  float restored_light;  // part of its weight that such a splat gets back
+  float inverse_edge;    // 1 / (value at which a splat may end)
+  float coarse_sigma;    // smallest sigma in pixels of a coarse grid
+  float coarse_peak;     // brighter splats stay on the picture's own grid
+  int grid_count;
+  float guard;  // of the coarse grids, pixels
+  // With blurred grids, 2 l - 1 and 2 l are those of level l > 0, blurred afterwards by these
+  // sigma^2 in pixels of their own. Without, grid g is level g.
+  int blurred;
+  float blur[2];
+
+  struct FieldScaling color;
+  struct FieldScaling intensity;
+
+  unsigned int component;
+  unsigned int first_particle, end_particle;  // of the component, this launch
+  unsigned int block_particles;               // per work-item
+  unsigned int first_block;                   // of the component, in offsets and counts
+  // 0 where one value serves all particles.
+  int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
+  int own_color_stride;
+  int sort_by_field, sort_descending;
+};
+
+// What one block of particles became.
+struct BlockCounts {
+  unsigned int visible, bad;
+};
+
+// Constants of the extended projection of one component, beside ProjectParameters.
+struct ExtendedParameters {
+  float position[3][3];  // of the camera, relative to the component's origin: a sum of three
+  struct FloatPair right[3], down[3], forward[3];
+  struct FloatPair pixels_per_length, center_x, center_y;
+  struct FloatPair near_limit, far_limit, near_factor;
+  int has_near_limit, has_far_limit;
+  struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
+  struct FloatPair weight_scale;  // as in ProjectParameters
+  struct FloatPair color_minimum, color_inverse_range;
+  struct FloatPair intensity_minimum, intensity_inverse_range;
+  struct FloatPair brightness, absorption_factor;
+  float inverse_share;  // 1 / (light that one splat may leave out)
+};
+
+#ifdef __OPENCL_VERSION__
+typedef struct FieldScaling FieldScaling;
+typedef struct ProjectParameters ProjectParameters;
+typedef struct BlockCounts BlockCounts;
+typedef struct ExtendedParameters ExtendedParameters;
+#endif
+
+#endif

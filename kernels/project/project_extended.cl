@@ -1,0 +1,206 @@
+// The projection of one particle in extended numbers (extended.cl). Fields are
+// those of project.cl, which finds the bad particles and the sort keys.
+
+typedef struct ExtendedView {
+  Extended x, y, z;
+} ExtendedView;
+
+inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
+  return extended_sum(
+      extended_sum(extended_product(d[0], extended_pair(axis[0])), extended_product(d[1], extended_pair(axis[1]))),
+      extended_product(d[2], extended_pair(axis[2])));
+}
+
+inline ExtendedView extended_view(__global const float* position, const ExtendedParameters e) {
+  Extended d[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    d[axis] = extended_difference(extended_of(position[axis]), extended_of(e.position[axis][0]));
+    d[axis] = extended_difference(d[axis], extended_of(e.position[axis][1]));
+    d[axis] = extended_difference(d[axis], extended_of(e.position[axis][2]));
+  }
+  ExtendedView view;
+  view.x = extended_dot(d, e.right);
+  view.y = extended_dot(d, e.down);
+  view.z = extended_dot(d, e.forward);
+  return view;
+}
+
+inline int is_within_limits(Extended z, Extended h, const ProjectParameters p, const ExtendedParameters e) {
+  if (p.perspective && !(high_part(z) > 0.0f)) return 0;
+  if (e.has_near_limit) {
+    if (extended_less(z, extended_pair(e.near_limit))) return 0;
+  } else if (extended_less(z, p.perspective ? extended_product(extended_pair(e.near_factor), h)
+                                         : extended_of(0.0f))) {
+    return 0;
+  }
+  return !e.has_far_limit || !extended_less(extended_pair(e.far_limit), z);
+}
+
+// In [0, 1] (frame.h, ScalarMap).
+inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
+                              FloatPair inverse_range) {
+  Extended scaled = extended_of(value);
+  if (scaling == SCALING_LOG) {
+    if (!(value > 0.0f)) return extended_of(0.0f);
+    const Extended per_ln10 = extended_constant(4.342944920e-01f, -1.010304995e-08f);
+    scaled = extended_product(extended_log(scaled), per_ln10);
+  }
+  if (scaling == SCALING_ASINH) scaled = extended_asinh(value);
+  const Extended place =
+      extended_product(extended_difference(scaled, extended_pair(minimum)), extended_pair(inverse_range));
+  if (!(high_part(place) > 0.0f)) return extended_of(0.0f);
+  return high_part(place) >= 1.0f ? extended_of(1.0f) : place;
+}
+
+// w (scene.h, WeightModel), with sigma in world units; weight_scale as in project.cl.
+inline Extended extended_column(float raw, Extended h, const ProjectParameters p, const ExtendedParameters e) {
+  const Extended scale = extended_pair(e.weight_scale);
+  const Extended length_scale = extended_of(p.length_scale);
+  const Extended sigma_scaled =
+      extended_product(extended_product(extended_pair(e.kernel_width), h), length_scale);
+  if (p.weight_model == WEIGHT_MASS) {
+    const Extended once = extended_quotient(extended_product(extended_of(raw), scale), sigma_scaled);
+    return extended_quotient(extended_product(once, scale), sigma_scaled);
+  }
+  if (p.weight_model == WEIGHT_DENSITY) {
+    return extended_product(extended_product(extended_of(raw), scale), sigma_scaled);
+  }
+  return extended_quotient(scale, extended_product(h, length_scale));
+}
+
+inline void extended_knots(__global const float* knots, uint first, uint count, Extended position,
+                        Extended* color) {
+  const Extended place = extended_product(position, extended_of((float)(count - 1u)));
+  uint below = min((uint)high_part(place), count - 1u);
+  // The high part alone may have been rounded up to the next knot.
+  if (below > 0u && extended_less(place, extended_of((float)below))) --below;
+  const uint above = min(below + 1u, count - 1u);
+  const Extended fraction = extended_difference(place, extended_of((float)below));
+  __global const float* a = knots + (size_t)(first + below) * 3;
+  __global const float* b = knots + (size_t)(first + above) * 3;
+  for (int c = 0; c < 3; ++c) {
+    const Extended step = extended_difference(extended_of(b[c]), extended_of(a[c]));
+    color[c] = extended_sum(extended_of(a[c]), extended_product(fraction, step));
+  }
+}
+
+// E w and A w (scene.h, Absorption) at palette position `position`; emission comes with the
+// particle's own colour in it.
+inline void extended_amplitudes(Extended position, Extended weight, const Extended* own,
+                             const ComponentColors colors, __global const float* knots,
+                             const ExtendedParameters e, Extended* emission, Extended* absorption) {
+  const Extended bright = extended_product(weight, extended_pair(e.brightness));
+  const Extended factor = extended_pair(e.absorption_factor);
+  Extended emitted[3], absorbed[3];
+  extended_knots(knots, colors.first_knot, colors.knot_count, position, emitted);
+  for (int c = 0; c < 3; ++c) absorbed[c] = emitted[c] = extended_product(emitted[c], own[c]);
+  if (colors.absorption_knot_count > 0) {
+    extended_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count, position,
+                absorbed);
+  }
+  for (int c = 0; c < 3; ++c) {
+    emission[c] = extended_product(bright, emitted[c]);
+    absorption[c] = extended_product(bright, absorbed[c]);
+    if (colors.absorption_kind == ABSORPTION_NONE) absorption[c] = extended_of(0.0f);
+    if (colors.absorption_kind == ABSORPTION_FACTOR) {
+      absorption[c] = extended_product(extended_product(weight, factor), absorbed[c]);
+    }
+    if (colors.absorption_kind == ABSORPTION_GRAY) {
+      absorption[c] = emission[c];
+      if (high_part(emission[c]) > 0.0f) {
+        const Extended share = extended_quotient(emission[c], extended_sum(emission[c], factor));
+        emission[c] = extended_product(emission[c], share);
+      }
+    }
+  }
+}
+
+// How many sigma are drawn so that no sum of all of the frame's splats leaves out more than
+// the truncation's share.
+inline float extended_extent(float peak, const ExtendedParameters e) {
+  return sqrt(log(max(peak * e.inverse_share, 1.0f))) + 1e-3f;
+}
+
+// False if the particle is not in the picture.
+inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParameters e,
+                          __global const Grid* grids, const Columns columns,
+                          __global const ComponentColors* component_colors,
+                          __global const float* knots, Splat* splat, ExtendedSplat* extended) {
+  const ExtendedView view = extended_view(columns.positions + (size_t)i * 3, e);
+  const Extended raw_h =
+      extended_of(columns.smoothing_lengths[(size_t)i * p.smoothing_length_stride]);
+  const Extended h = extended_product(raw_h, extended_pair(e.size_factor));
+  if (!is_within_limits(view.z, h, p, e)) return 0;
+
+  Extended scale = extended_pair(e.pixels_per_length);
+  if (p.perspective) scale = extended_quotient(scale, view.z);
+  const Extended x = extended_sum(extended_pair(e.center_x), extended_product(view.x, scale));
+  const Extended y = extended_sum(extended_pair(e.center_y), extended_product(view.y, scale));
+  const Extended width = extended_pair(e.kernel_width);
+  const Extended h_pixels = extended_product(h, scale);
+  Extended h_drawn = h_pixels;
+  Extended weight =
+      extended_column(columns.weights[(size_t)i * p.weight_stride], h, p, e);
+  if (p.min_radius > 0.0f) {
+    const Extended least = extended_pair(e.min_radius);
+    h_drawn = extended_root(extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
+    weight = extended_product(weight, extended_quotient(h_pixels, h_drawn));
+  }
+  const Extended sigma = extended_product(width, h_drawn);
+  weight = extended_product(
+      weight, extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
+                               e.intensity_minimum, e.intensity_inverse_range));
+
+  Extended own[3];
+  for (int c = 0; c < 3; ++c) {
+#ifdef VECTOR_COLORS
+    own[c] = extended_of(columns.own_colors[p.own_color_stride == 0 ? 0 : (size_t)i * 3 + c]);
+#else
+    own[c] = extended_of(1.0f);
+#endif
+  }
+  Extended emission[3], absorption[3];
+  const Extended position = extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling,
+                                          e.color_minimum, e.color_inverse_range);
+  extended_amplitudes(position, weight, own, component_colors[p.component], knots, e, emission,
+                   absorption);
+
+  float peak = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    peak = max(peak, max(high_part(emission[c]), high_part(absorption[c])));
+#ifdef LIGHT_EMISSION
+    extended->summed[c] = pair_of(emission[c]);
+#else
+    extended->summed[c] = pair_of(absorption[c]);
+#endif
+    extended->emission[c] = pair_of(emission[c]);
+  }
+  const float sigma_high = high_part(sigma);
+  // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
+  const float extent = extended_extent(peak * min(1.0f, 3.2f * sigma_high * sigma_high), e);
+#ifdef KERNEL_CUT
+  const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
+  extended->cut = pair_of(cut);
+  extended->radius = min(extent * sigma_high, high_part(cut) * 1.000001f);
+#else
+  extended->cut = pair_of(extended_of(0.0f));
+  extended->radius = extent * sigma_high;
+#endif
+#ifdef SAMPLING_MEAN
+  extended->radius += 0.5f;
+#endif
+  extended->x = pair_of(x);
+  extended->y = pair_of(y);
+  extended->sigma = pair_of(sigma);
+
+  splat->weight = high_part(weight);
+  splat->color = high_part(position);
+  splat->x = high_part(x);
+  splat->y = high_part(y);
+  splat->sigma = sigma_high;
+  // Tiles are chosen by rounded numbers: with room for that.
+  splat->radius = extended->radius * 1.000001f + 2e-7f * (fabs(splat->x) + fabs(splat->y));
+  const float picture_width = (float)grids[0].width, picture_height = (float)grids[0].height;
+  return splat->x + splat->radius >= 0.0f && splat->x - splat->radius <= picture_width &&
+         splat->y + splat->radius >= 0.0f && splat->y - splat->radius <= picture_height;
+}

@@ -1,0 +1,235 @@
+// Particles to splats, LANES at a time, step by step.
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef struct SplatLanes {
+  INTEGER visible, bad;
+  INTEGER grid;
+  VALUE x, y, sigma, radius, weight, color;
+#ifdef ELLIPSES
+  VALUE sigma_x, radius_x;
+#endif
+#ifdef VECTOR_COLORS
+  Vectors own_color;
+#endif
+  VALUE sort_value;
+} SplatLanes;
+
+// Widths in the picture's pixels, before any pixel mean is taken.
+typedef struct WidthLanes {
+  VALUE h;     // in lengths
+  VALUE sigma_true, sigma;  // without and with kernel.min_radius
+#ifdef ELLIPSES
+  VALUE sigma_x;
+#endif
+} WidthLanes;
+
+inline WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
+  WidthLanes widths;
+  widths.h = raw_h * p.size_factor;
+  widths.sigma_true = p.kernel_width * widths.h * view.scale;
+  const float sigma_floor = p.kernel_width * p.min_radius;
+  widths.sigma = p.min_radius > 0.0f ? sqrt(widths.sigma_true * widths.sigma_true +
+                                            sigma_floor * sigma_floor)
+                                     : widths.sigma_true;
+#ifdef ELLIPSES
+  widths.sigma_x = sigma_along_x(widths.sigma, view.cos_latitude, p);
+#endif
+  return widths;
+}
+
+// Rejection before fields are scaled: seven sigma reach beyond the truncation of any
+// amplitude that single precision can hold against the smallest tolerance.
+inline INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
+                           float height, const ProjectParameters p) {
+  const VALUE reach = 7.0f * widths.sigma + 2.0f;
+  INTEGER seen = is_within_depth(view.depth, widths.h, p) & view.y + reach >= 0.0f &
+                 view.y - reach <= height;
+#ifdef WIDE_ANGLE
+  seen &= view.seen;
+#endif
+#ifndef ELLIPSES  // of these, copies beside the picture may reach it
+  seen &= view.x + reach >= 0.0f & view.x - reach <= width;
+#endif
+  return seen;
+}
+
+// How bright a splat is: what decides how exactly it is drawn.
+typedef struct BrightnessLanes {
+  VALUE own_peak;  // the largest of E and A in a pixel
+  VALUE peak;      // or that of the crowd that it lies in
+  INTEGER crowded, bright;
+} BrightnessLanes;
+
+inline BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
+                                       VALUE weight, const ProjectParameters p) {
+  BrightnessLanes b;
+  VALUE brightest = p.peak_color;
+#ifdef VECTOR_COLORS
+  const Vectors own = particles.own_color;
+  brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
+#endif
+  const VALUE sigma = widths.sigma;
+#ifdef ELLIPSES
+  const VALUE own_area = sigma * widths.sigma_x;
+#else
+  const VALUE own_area = sigma * sigma;
+#endif
+  // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
+  b.own_peak = weight * brightest * min((VALUE)(1.0f), 3.2f * own_area);
+  // What counts of a splat in a crowd is what all of them add up to.
+  b.crowded = sigma >= p.crowd_narrowest & sigma <= p.crowd_widest;
+  b.peak = max(b.own_peak, choose((VALUE)(0.0f), (VALUE)(p.crowd_light), b.crowded));
+  b.bright = b.own_peak > p.bright_peak |
+             (b.crowded & (INTEGER)(p.crowd_bright > 0.0f ? -1 : 0));
+  return b;
+}
+
+// Sampling: narrow splats take means over pixels, others the center values of a widened
+// Gaussian of the same light.
+typedef struct SampledLanes {
+  INTEGER by_mean;
+  VALUE sigma, weight;
+#ifdef ELLIPSES
+  INTEGER by_mean_x;
+  VALUE sigma_x;
+#endif
+} SampledLanes;
+
+inline SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
+                                    VALUE weight, const ProjectParameters p) {
+  SampledLanes s;
+  const VALUE sigma = widths.sigma;
+  const VALUE mean_limit = choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.peak, p),
+                                  brightness.bright);
+  s.by_mean = sigma < mean_limit;
+  s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
+  const VALUE narrowing = sigma / s.sigma;
+#ifdef ELLIPSES
+  const VALUE sigma_x = widths.sigma_x;
+  s.by_mean_x = sigma_x < mean_limit;
+  s.sigma_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, s.by_mean_x);
+  s.weight = weight * (narrowing * (sigma_x / s.sigma_x));
+#else
+  s.weight = weight * (narrowing * narrowing);
+#endif
+  return s;
+}
+
+// Puts the splat on its grid: its width, weight and radius there. `extent` is in sigma.
+inline void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
+                          const SampledLanes sampled, const BrightnessLanes brightness,
+                          VALUE extent, const ProjectParameters p) {
+  s->grid = choose_grid(sampled.sigma, brightness.peak, p);
+  const INTEGER level = p.blurred ? (s->grid + 1) >> 1 : s->grid;
+  const VALUE shrink = AS_VALUE((127 - level) << 23);
+  s->sigma = sampled.sigma * shrink;
+  s->weight = sampled.weight;
+  if (p.blurred) {
+    // The grid's blur widens what is drawn to the splat's width, and spreads its light.
+    const VALUE blur = choose((VALUE)(p.blur[1]), (VALUE)(p.blur[0]), (s->grid & 1) != 0);
+    const VALUE drawn = sqrt(s->sigma * s->sigma - blur);
+    const VALUE spread = s->sigma / drawn;
+    s->weight *= choose((VALUE)(1.0f), spread * spread, s->grid > 0);
+    s->sigma = choose(s->sigma, drawn, s->grid > 0);
+  }
+  // A pixel mean sees a splat that reaches the pixel's edge. A cut disc has the radius of
+  // the model's sigma, not of the widened one, and means always keep the pixel at its center.
+  const VALUE edge = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean);
+  const float cut_edge = p.widening > 0.0f ? 0.5f : 0.0f;
+  s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * widths.sigma * shrink + cut_edge
+                                  : extent * s->sigma + edge;
+#ifdef ELLIPSES
+  // Such pictures have no coarse grids.
+  const VALUE edge_x = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean_x);
+  s->sigma_x = sampled.sigma_x;
+  s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * widths.sigma_x + cut_edge
+                                    : extent * sampled.sigma_x + edge_x;
+#endif
+  const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s->grid > 0);
+  s->x = view.x * shrink + guard;
+  s->y = view.y * shrink + guard;
+}
+
+// Whether the square that is drawn reaches its grid.
+inline INTEGER reaches_grid(const SplatLanes s, float width, float height,
+                            const ProjectParameters p) {
+  const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
+  const VALUE shrink = AS_VALUE((127 - level) << 23);
+  const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
+  INTEGER reaches =
+      s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
+#ifndef ELLIPSES
+  reaches &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f;
+#endif
+  return reaches;
+}
+
+// Half of the light beyond the square goes back into it: the sum of many errs by as much
+// above as below. Means are drawn in all pixels that the square touches, half a pixel more
+// on average and for a splat below a pixel nearly everything: with t / sigma more, erfc(k)
+// falls as exp(-2 k t / sigma), whose mean over t from 0 to 1 is close to
+// sigma / (sigma + 2 k).
+inline VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
+                             const ProjectParameters p) {
+  const INTEGER faint = extent <= p.least_extent;
+  const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
+  return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
+}
+
+#ifdef EXTENDED_NUMBERS
+// Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
+// reach beyond the truncation of any amplitude that single precision holds.
+inline INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
+                                    float height) {
+  const Vectors d = view.offset;
+  const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
+  const VALUE reach =
+      10.0f * fabs(widths.sigma) + 4.0f + rounding + 1e-4f * (fabs(view.x) + fabs(view.y));
+  const INTEGER off = view.x + reach < 0.0f | view.x - reach > width | view.y + reach < 0.0f |
+                      view.y - reach > height;
+  return off == 0;
+}
+#endif
+
+// Particles from i on; those at or beyond `end` are neither visible nor bad.
+inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
+                                __global const Grid* grids, const Columns columns) {
+  SplatLanes s;
+  const ParticleLanes particles = load_particles(columns, i, end, p);
+  const ViewLanes view = view_particles(particles, p);
+  const INTEGER good = are_good(particles, view.offset);
+  s.sort_value = view.sort_value;
+  s.bad = particles.exists & (good == 0);
+  const WidthLanes widths = find_widths(particles.h, view, p);
+  const float width = (float)grids[0].width, height = (float)grids[0].height;
+#ifdef EXTENDED_NUMBERS
+  s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height);
+  return s;
+#else
+  s.visible = particles.exists & good & may_be_seen(view, widths, width, height, p);
+  if (!ANY(s.visible)) return s;
+
+  VALUE weight =
+      column_weight(particles.weight, widths.h, p) * normalized(particles.intensity, p.intensity);
+  if (p.min_radius > 0.0f) weight *= widths.sigma_true / widths.sigma;
+  const BrightnessLanes brightness = find_brightness(particles, widths, weight, p);
+  const SampledLanes sampled = choose_sampling(widths, brightness, weight, p);
+  const VALUE crowd_extent =
+      choose((VALUE)(0.0f), (VALUE)(p.crowd_extent), brightness.crowded);
+  const VALUE extent = p.kernel_cut > 0.0f
+                           ? (VALUE)(p.kernel_cut)
+                           : max(truncation_extent(brightness.own_peak, p), crowd_extent);
+  place_on_grid(&s, view, widths, sampled, brightness, extent, p);
+  s.visible &= reaches_grid(s, width, height, p);
+  s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);
+  s.color = normalized(particles.color, p.color);
+  s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);
+#ifdef ELLIPSES
+  s.sigma_x = choose(s.sigma_x, -s.sigma_x, brightness.bright & sampled.by_mean_x);
+#endif
+#ifdef VECTOR_COLORS
+  s.own_color = particles.own_color;
+#endif
+  return s;
+#endif
+}

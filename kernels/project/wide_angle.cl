@@ -1,0 +1,82 @@
+// Where the projections that look in all directions put a particle (docs/projections.md), on
+// VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
+
+typedef struct WideAnglePoint {
+  VALUE x, y;          // pixels from the middle of the picture
+  VALUE scale;         // pixels per length of a cloud's width
+  VALUE cos_latitude;  // equirectangular
+  INTEGER seen;
+} WideAnglePoint;
+
+#ifdef EYE_OFFSET
+// Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
+inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
+  const VALUE cosine = sqrt(max(1.0f - sine * sine, (VALUE)(0.0f)));
+  const VALUE along = (*x * axis[0] + *y * axis[1] + *z * axis[2]) * (1.0f - cosine);
+  const VALUE turned_x = *x * cosine + (axis[1] * *z - axis[2] * *y) * sine + axis[0] * along;
+  const VALUE turned_y = *y * cosine + (axis[2] * *x - axis[0] * *z) * sine + axis[1] * along;
+  const VALUE turned_z = *z * cosine + (axis[0] * *y - axis[1] * *x) * sine + axis[2] * along;
+  *x = turned_x;
+  *y = turned_y;
+  *z = turned_z;
+}
+#endif
+
+// x right, y down, z forward, in lengths.
+inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
+                                 const ProjectParameters p) {
+  WideAnglePoint point;
+  x /= distance;
+  y /= distance;
+  z /= distance;
+  point.seen = distance > 0.0f & distance <= FLT_MAX;
+#ifdef EYE_OFFSET
+  const VALUE sine = p.eye_offset / distance;
+  point.seen &= fabs(sine) < 1.0f;
+  turn(&x, &y, &z, sine, p.turn_axis);
+#endif
+  const float focal = p.pixels_per_length;
+  point.scale = focal / distance;
+  point.cos_latitude = (VALUE)(1.0f);
+#if defined(PROJECTION_FISHEYE)
+  const VALUE sine_off_axis = sqrt(x * x + y * y);
+  const VALUE angle = atan2(sine_off_axis, z);
+  const INTEGER off_axis = sine_off_axis > 0.0f;
+  const VALUE per_sine = focal * angle / max(sine_off_axis, (VALUE)(FLT_MIN));
+  point.x = choose(focal * angle, x * per_sine, off_axis);
+  point.y = choose((VALUE)(0.0f), y * per_sine, off_axis);
+  // A cloud keeps its solid angle; right behind the camera it grows no wider.
+  const VALUE least_sine = choose((VALUE)(0.1f), (VALUE)(0.0f), z > 0.0f);
+  const VALUE widening = angle / max(max(sine_off_axis, least_sine), (VALUE)(FLT_MIN));
+  point.scale *= sqrt(choose((VALUE)(1.0f), widening, sine_off_axis > 1e-6f | z <= 0.0f));
+#elif defined(PROJECTION_EQUIRECTANGULAR)
+  point.cos_latitude = sqrt(x * x + z * z);
+  point.x = focal * atan2(x, z);
+  point.y = focal * atan2(y, point.cos_latitude);
+#else
+  // A cloud keeps its solid angle; beyond the face it grows no wider.
+  const VALUE cosine = max(z, (VALUE)(0.5f));
+  point.x = focal * x / z;
+  point.y = focal * y / z;
+  point.scale /= cosine * sqrt(cosine);
+  point.seen &= z > 0.0f;
+#endif
+  return point;
+}
+
+#ifdef ELLIPSES
+// The width along x with which a cloud of this height keeps its light in an equirectangular
+// picture: focal / g(u), g(u) = exp(-u^2) / (2 sqrt(pi)) + u (1 + erf(u)) / 2.
+inline VALUE sigma_along_x(VALUE sigma, VALUE cos_latitude, const ProjectParameters p) {
+  const VALUE u = min(cos_latitude * p.pixels_per_length / sigma, (VALUE)(1e18f));
+  const VALUE g = exp(-u * u) * 0.282094792f + 0.5f * u * (1.0f + erf(u));
+  return p.pixels_per_length / g;
+}
+
+// Copies of a splat a period to the left and right that reach a picture of this width: first
+// and last. The fourth is beyond what any cloud has light for.
+inline int2 copies_in_picture(float x, float radius, float width, float period) {
+  const float first = ceil((-radius - x) / period), last = floor((width + radius - x) / period);
+  return (int2)((int)clamp(first, -3.0f, 4.0f), (int)clamp(last, -4.0f, 3.0f));
+}
+#endif

@@ -1,0 +1,72 @@
+// The sums of all grids, or the layers, to the light that they are.
+
+// The light behind everything: a colour, or a picture with one plane per channel, in rows
+// that are padded to whole eights.
+#ifdef BACKGROUND_IMAGE
+#define BACKGROUND_ARGUMENT __global const float* background,
+#define BACKGROUND(c, x, y) \
+  vload8(0, background + ((size_t)(c) * p.height + (y)) * p.background_stride + (x))
+#else
+#define BACKGROUND_ARGUMENT
+#define BACKGROUND(c, x, y) p.background[c]
+#endif
+
+// Work-item (eight pixels, y): linear red, green, blue and alpha.
+__kernel void resolve(const ResolveParameters p, __global const Grid* grids,
+                      __global const float* planes, BACKGROUND_ARGUMENT __global float* image) {
+  const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
+  if (x >= p.width) return;
+  const Grid grid = grids[0];
+  __global const float* pixels = planes + first_float(grid) + (size_t)y * grid.stride + x;
+  float light[4][8];
+  float8 transmitted = (float8)(0.0f);
+  for (int c = 0; c < 3; ++c) {
+#ifdef EXTENDED_NUMBERS
+    // The two parts of a sum (composite_extended.cl); in the ordered plan three more of depths.
+    __global const float* parts = pixels + (size_t)(2 * c) * grid.plane_size;
+    const float8 sum = vload8(0, parts), low = vload8(0, parts + grid.plane_size);
+#else
+    const float8 sum = vload8(0, pixels + (size_t)c * grid.plane_size);
+#endif
+#if defined(EXTENDED_NUMBERS) && defined(LIGHT_ORDERED)
+    const float8 depth = vload8(0, parts + (size_t)6 * grid.plane_size);
+    const float8 transmittance =
+        precise_exp_negative(depth, vload8(0, parts + (size_t)7 * grid.plane_size));
+    const float8 own = sum;
+#elif defined(EXTENDED_NUMBERS) && !defined(LIGHT_EMISSION)
+    const float8 opacity = sum * precise_phi(sum);
+    const float8 transmittance = precise_exp_negative(sum, low);
+    const float8 own = p.source[c] * opacity;
+#elif defined(LIGHT_ORDERED)
+    const float8 transmittance =
+        transmittance_of(vload8(0, pixels + (size_t)(c + 3) * grid.plane_size));
+    const float8 own = sum;
+#elif defined(LIGHT_EMISSION)
+    const float8 transmittance = (float8)(1.0f);
+    const float8 own = sum;
+#else
+    // Coarse grids ring by a part of the tolerance: a sum may be slightly negative.
+    const float8 depth = max(sum, (float8)(0.0f));
+    const float8 phi = phi_full(depth), opacity = depth * phi;
+    // What is behind may be so bright that it shows through an opacity close to 1.
+    const float8 transmittance = choose(1.0f - opacity, passed_in_full(depth, phi), depth > 0.5f);
+    const float8 own = p.source[c] * opacity;
+#endif
+    vstore8(own + transmittance * BACKGROUND(c, x, y), 0, light[c]);
+    transmitted += transmittance;
+  }
+  vstore8(1.0f - transmitted / 3.0f, 0, light[3]);
+  const int count = min(8, p.width - x);
+  __global float* out = image + ((size_t)y * p.width + x) * 4;
+  for (int i = 0; i < count; ++i) {
+#ifdef PROJECTION_FISHEYE
+    // Half pixels from the middle: outside the circle there is no direction to show.
+    const long across = 2 * (x + i) + 1 + p.circle_x, along = 2 * y + 1 + p.circle_y;
+    if (across * across + along * along > (long)p.circle_diameter * p.circle_diameter) {
+      vstore4((float4)(0.0f), i, out);
+      continue;
+    }
+#endif
+    vstore4((float4)(light[0][i], light[1][i], light[2][i], light[3][i]), i, out);
+  }
+}

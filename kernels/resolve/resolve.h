@@ -1,0 +1,38 @@
+// What host and kernels share of the way from planes to the picture: 4-byte members only
+// (splat.h).
+#ifndef SPLOTCHCL_RESOLVE_H
+#define SPLOTCHCL_RESOLVE_H
+
+// One axis of the blur of a grid: weights[half_width + k] for the pixel k beside.
+#define MOST_BLUR_WEIGHTS 64
+struct BlurParameters {
+  unsigned int source, target;  // grids of one level
+  int half_width;               // pixels
+  int add;                      // to what the target holds, else instead of it
+  float weights[MOST_BLUR_WEIGHTS];
+};
+
+// Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter).
+struct RefineParameters {
+  unsigned int coarse, fine;  // grids
+  int add;                    // to what the finer grid holds, else instead of it
+  float weights[10];
+};
+
+struct ResolveParameters {
+  int width, height;  // pixels
+  float source[3];    // q of the proportional plan
+  float background[3];
+  int background_stride;  // pixels in a row of the background's picture; 0: there is none
+  // Of a fisheye picture, in half pixels: twice the crop's corner less the picture's size, and
+  // the diameter of the circle outside which nothing is shown.
+  int circle_x, circle_y, circle_diameter;
+};
+
+#ifdef __OPENCL_VERSION__
+typedef struct BlurParameters BlurParameters;
+typedef struct RefineParameters RefineParameters;
+typedef struct ResolveParameters ResolveParameters;
+#endif
+
+#endif

@@ -1,0 +1,26 @@
+// What host and kernels share of the sort.
+#ifndef SPLOTCHCL_SORT_H
+#define SPLOTCHCL_SORT_H
+
+#define SORT_DIGIT_BITS 8
+#define SORT_DIGITS (1 << SORT_DIGIT_BITS)
+
+// One pass over one digit.
+struct SortParameters {
+  unsigned int count;         // pairs
+  unsigned int block_length;  // pairs per work-item
+  unsigned int block_count;
+  unsigned int shift;  // of the digit, in bits
+};
+
+// The bits that are set in some keys of a block, and in all of them.
+struct KeyBits {
+  unsigned int some, all;
+};
+
+#ifdef __OPENCL_VERSION__
+typedef struct SortParameters SortParameters;
+typedef struct KeyBits KeyBits;
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/opencl/device_traits.h"
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// A frame is drawn chunk by chunk. Where chunks begin follows from places in the file or in
+// the order alone, never from free memory, from time or from a list that overflowed: the same
+// chunks come out wherever the frame is drawn, and with them the same bits.
+
+// Particles [first, end) of one component, in file order: a step of a sum.
+struct ParticleChunk {
+  std::uint32_t component = 0, first = 0, end = 0;
+};
+std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
+
+// Splats [first, first + count) of the sorted order: a step of an ordered frame.
+struct SplatChunk {
+  std::uint32_t first = 0, count = 0;
+};
+std::vector<SplatChunk> splat_chunks(std::uint32_t count, const DeviceTraits& traits);
+
+}  // namespace splotchcl

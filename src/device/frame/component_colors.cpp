@@ -1,0 +1,50 @@
+#include "device/frame/component_colors.h"
+
+#include <vector>
+
+namespace splotchcl {
+namespace {
+
+int kind_number(Absorption::Kind kind) {
+  switch (kind) {
+    case Absorption::Kind::as_emission:
+      return ABSORPTION_AS_EMISSION;
+    case Absorption::Kind::none:
+      return ABSORPTION_NONE;
+    case Absorption::Kind::factor:
+      return ABSORPTION_FACTOR;
+    case Absorption::Kind::gray:
+      return ABSORPTION_GRAY;
+  }
+  return ABSORPTION_AS_EMISSION;
+}
+
+// Returns the number of the first of them in the table.
+std::uint32_t append_knots(const std::vector<Rgb>& added, std::vector<float>& table) {
+  const auto first = static_cast<std::uint32_t>(table.size() / 3);
+  for (const Rgb& knot : added)
+    table.insert(table.end(), knot.begin(), knot.end());
+  return first;
+}
+
+}  // namespace
+
+ComponentColorTable upload_component_colors(const Frame& frame, BufferPool& pool) {
+  std::vector<shared::ComponentColors> components;
+  std::vector<float> knots;
+  for (const DrawnComponent& component : frame.components) {
+    const Palette& palette = component.palette;
+    shared::ComponentColors entry{};
+    entry.first_knot = append_knots(palette.emission, knots);
+    entry.knot_count = static_cast<std::uint32_t>(palette.emission.size());
+    entry.first_absorption_knot = append_knots(palette.absorption, knots);
+    entry.absorption_knot_count = static_cast<std::uint32_t>(palette.absorption.size());
+    entry.brightness = static_cast<float>(component.brightness);
+    entry.absorption_kind = kind_number(component.absorption.kind);
+    entry.absorption_factor = static_cast<float>(component.absorption.factor);
+    components.push_back(entry);
+  }
+  return {pool.upload(components, "component colors"), pool.upload(knots, "palette knots")};
+}
+
+}  // namespace splotchcl

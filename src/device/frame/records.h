@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/shared.h"
+#include "device/opencl/buffer_pool.h"
+
+// What the stages hand on. Each owns its memory, which goes back to the pool with it.
+namespace splotchcl {
+
+// Splats in memory, Specialization::splat_bytes() each.
+struct SplatMemory {
+  Buffer<std::byte> splats;
+  Buffer<shared::ExtendedSplat> extended;  // the same splats in extended precision only
+};
+
+// One chunk of particles, projected: block b begins at slot b * stride and holds as many
+// splats as counts[b] says.
+struct SplatBlocks {
+  SplatMemory splats;
+  Buffer<shared::BlockCounts> counts;
+  std::uint32_t block_count = 0;
+  std::uint32_t stride = 0;
+};
+
+// What became of particles.
+struct ParticleCounts {
+  std::uint64_t visible = 0, bad = 0;
+};
+
+// All splats of a frame, without gaps, in component and file order, with their sort keys.
+struct KeyedSplats {
+  SplatMemory splats;
+  Buffer<std::uint32_t> keys;
+  Buffer<std::uint32_t> order;  // 0, 1, 2, ...
+  std::uint32_t count = 0;
+  ParticleCounts particles;
+};
+
+// The same, nearest first: splat order[0], order[1], ...
+struct SortedSplats {
+  SplatMemory splats;
+  Buffer<std::uint32_t> order;
+  std::uint32_t count = 0;
+};
+
+// A range of tiles, numbered through all grids, row by row.
+struct TileBand {
+  std::uint32_t first = 0, end = 0;
+};
+
+// The lists of one chunk of splats in a band of tiles. Entries have
+// Specialization::tile_splat_bytes() each.
+struct TileLists {
+  Buffer<std::byte> entries;
+  Buffer<shared::Segment> segments;
+  std::uint64_t entry_count = 0;
+  std::uint32_t segment_count = 0;
+  std::uint32_t partial_count = 0;  // segments of tiles that were cut
+  std::uint32_t used_grids = 0;     // bit g: grid g has entries
+};
+
+// The light of all grids, as PictureLayout places it.
+struct Planes {
+  Buffer<float> light;
+  std::uint32_t used_grids = 0;  // bit g: grid g has light; the planes of others are undefined
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+// The structures that host and kernels share, byte for byte, in a namespace of their own.
+// What a variant of the kernels adds to Splat and TileSplat is not seen here: Specialization
+// knows their sizes.
+namespace splotchcl::shared {
+#include "kernels/common/splat.h"
+// The others use what stands there.
+#include "kernels/bin/bin.h"
+#include "kernels/composite/composite.h"
+#include "kernels/project/project.h"
+#include "kernels/resolve/resolve.h"
+#include "kernels/sort/sort.h"
+
+// Every member has 4 bytes, so no compiler has a reason to pad.
+template <class Shared, std::size_t words>
+constexpr bool has_words = sizeof(Shared) == 4 * words && alignof(Shared) == 4 &&
+                           (std::is_trivially_copyable_v<Shared> &&
+                            std::is_standard_layout_v<Shared>);
+
+static_assert(has_words<FloatPair, 2>);
+static_assert(has_words<Grid, 11>);
+static_assert(has_words<WidthAlongX, 2>);
+static_assert(has_words<OwnColor, 3>);
+static_assert(has_words<Splat, 7>);
+static_assert(has_words<ExtendedSplat, 21>);
+static_assert(has_words<ComponentColors, 7>);
+static_assert(has_words<FieldScaling, 4>);
+static_assert(has_words<ProjectParameters, 82>);
+static_assert(has_words<BlockCounts, 2>);
+static_assert(has_words<ExtendedParameters, 64>);
+static_assert(has_words<SortParameters, 4>);
+static_assert(has_words<KeyBits, 2>);
+static_assert(has_words<BinParameters, 13>);
+static_assert(has_words<Segment, 4>);
+static_assert(has_words<CompositeParameters, 5>);
+static_assert(has_words<BlurParameters, 68>);
+static_assert(has_words<RefineParameters, 13>);
+static_assert(has_words<ResolveParameters, 12>);
+}  // namespace splotchcl::shared

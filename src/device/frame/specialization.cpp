@@ -1,0 +1,147 @@
+#include "device/frame/specialization.h"
+
+#include "device/frame/shared.h"
+
+namespace splotchcl {
+namespace {
+
+std::string define(const std::string& name_and_value) {
+  return "#define " + name_and_value + "\n";
+}
+
+std::string define_if(bool condition, const std::string& name) {
+  return condition ? define(name) : std::string();
+}
+
+}  // namespace
+
+Specialization::Specialization(const Frame& frame, const FramePlan& plan,
+                               const DeviceTraits& traits)
+    : light_(plan.light),
+      projection_(frame.projection),
+      rows_(traits.rows),
+      extended_(plan.is_extended()),
+      double_numbers_(traits.double_numbers),
+      full_precision_(plan.precision != Precision::fast),
+      device_erf_(plan.uses_device_erf),
+      kernel_cut_(frame.kernel.cut.has_value()),
+      pixel_means_(frame.kernel.sampling == Sampling::mean),
+      vector_colors_(plan.has_vector_colors),
+      ellipses_(plan.has_ellipses),
+      keeps_transmittance_(plan.layers.keeps_transmittance),
+      eye_offset_(frame.camera.eye_offset != 0),
+      background_image_(frame.background_image != nullptr) {
+  if (rows_ && !extended_) {
+    tile_width_ = is_ordered() ? 32 : 64;
+    tile_height_ = 32;
+  }
+}
+
+std::uint32_t Specialization::planes() const {
+  return (is_ordered() ? 6u : 3u) * (extended_ ? 2u : 1u);
+}
+
+std::size_t Specialization::splat_bytes() const {
+  return sizeof(shared::Splat) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
+         (vector_colors_ ? sizeof(shared::OwnColor) : 0);
+}
+
+// TileSplat, bin.h.
+std::size_t Specialization::tile_splat_bytes() const {
+  if (extended_) return sizeof(cl_uint);
+  const std::size_t shape = 4 * sizeof(float) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0);
+  return shape + (is_ordered() ? 6 : 3) * sizeof(float);
+}
+
+std::string Specialization::tile_defines() const {
+  return define("TILE_WIDTH " + std::to_string(tile_width_)) +
+         define("TILE_HEIGHT " + std::to_string(tile_height_)) +
+         define("PLANES " + std::to_string(planes())) + define_if(is_ordered(), "LIGHT_ORDERED") +
+         define_if(extended_, "EXTENDED_NUMBERS") + define_if(ellipses_, "ELLIPSES");
+}
+
+std::string Specialization::number_defines() const {
+  return define_if(full_precision_, "FULL_PRECISION") + define_if(device_erf_, "DEVICE_ERF") +
+         define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE");
+}
+
+ProgramSource Specialization::project(ProjectOutput output) const {
+  std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS");
+  if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
+  if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
+  if (extended_) return project_extended(defines);
+  if (!is_wide_angle(projection_)) {
+    return {defines,
+            {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "view.cl", "limits.cl",
+             "splat_lanes.cl", "project.cl"}};
+  }
+  defines += define("WIDE_ANGLE") + define_if(eye_offset_, "EYE_OFFSET");
+  defines += define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE");
+  defines += define_if(projection_ == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR");
+  defines += define_if(ellipses_, "ELLIPSES");
+  return {defines,
+          {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "wide_angle.cl", "view.cl",
+           "limits.cl", "splat_lanes.cl", "project.cl"}};
+}
+
+ProgramSource Specialization::project_extended(std::string defines) const {
+  defines += define("EXTENDED_NUMBERS") + define_if(double_numbers_, "DOUBLE_NUMBERS");
+  defines += define_if(light_ == LightPlan::emission, "LIGHT_EMISSION");
+  defines += define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
+  return {defines,
+          {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "load.cl", "view.cl",
+           "limits.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
+}
+
+ProgramSource Specialization::scan_blocks() {
+  return {"", {"splat.h", "project.h", "scan.cl"}};
+}
+
+ProgramSource Specialization::sort() {
+  return {"", {"sort.h", "sort.cl"}};
+}
+
+ProgramSource Specialization::bin() const {
+  const std::string defines =
+      tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
+      define_if(vector_colors_, "VECTOR_COLORS") + define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
+  return {defines, {"splat.h", "project.h", "bin.h", "common.cl", "bin.cl"}};
+}
+
+ProgramSource Specialization::composite() const {
+  std::string defines = tile_defines() + define_if(kernel_cut_, "KERNEL_CUT") +
+                        define_if(pixel_means_, "SAMPLING_MEAN");
+  if (extended_) {
+    defines += define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS");
+    return {defines,
+            {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "precise.cl",
+             "extended.cl", "extended_lanes.cl", "composite_extended.cl"}};
+  }
+  defines += number_defines() + define_if(rows_, "LANES_8");
+  return {defines,
+          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl",
+           rows_ ? "composite_rows.cl" : "composite_groups.cl"}};
+}
+
+ProgramSource Specialization::join() const {
+  return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
+          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "join.cl"}};
+}
+
+ProgramSource Specialization::coarse_grids() {
+  return {"", {"splat.h", "resolve.h", "common.cl", "blur.cl", "refine.cl"}};
+}
+
+ProgramSource Specialization::resolve() const {
+  const std::string defines = define("LANES_8") + number_defines() +
+                              define_if(extended_, "EXTENDED_NUMBERS") +
+                              define_if(is_ordered(), "LIGHT_ORDERED") +
+                              define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
+                              define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
+                              define_if(background_image_, "BACKGROUND_IMAGE");
+  return {defines,
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl", "precise.cl",
+           "resolve.cl"}};
+}
+
+}  // namespace splotchcl

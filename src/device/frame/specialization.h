@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "device/opencl/device_traits.h"
+#include "device/opencl/program_cache.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What a projection writes.
+enum class ProjectOutput {
+  counts,           // how many splats each block has
+  splats,           // and the splats
+  splats_and_keys,  // and their sort keys
+};
+
+// The variant of the kernels that a frame needs. It alone writes the #defines that reach a
+// kernel, and knows the sizes that follow from them. A kernel gets only those that it reads,
+// so that frames share as many programs as possible.
+class Specialization {
+ public:
+  Specialization(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits);
+
+  bool is_ordered() const { return light_ == LightPlan::ordered; }
+  bool is_extended() const { return extended_; }
+  bool has_rows() const { return rows_; }
+  bool has_vector_colors() const { return vector_colors_; }
+  bool has_background_image() const { return background_image_; }
+
+  // Pixels of a tile.
+  std::uint32_t tile_width() const { return tile_width_; }
+  std::uint32_t tile_height() const { return tile_height_; }
+  std::size_t tile_pixels() const { return std::size_t{tile_width_} * tile_height_; }
+  // Floats per pixel of a grid: 3 sums, or 3 sources and 3 opacities; in extended precision
+  // a high and a low part of each.
+  std::uint32_t planes() const;
+  // Bytes of the structures that kernels make larger or smaller (shared.h).
+  std::size_t splat_bytes() const;
+  std::size_t tile_splat_bytes() const;
+
+  ProgramSource project(ProjectOutput output) const;
+  ProgramSource bin() const;
+  ProgramSource composite() const;
+  ProgramSource join() const;
+  ProgramSource resolve() const;
+  // These are the same for all frames.
+  static ProgramSource scan_blocks();
+  static ProgramSource sort();
+  static ProgramSource coarse_grids();
+
+ private:
+  ProgramSource project_extended(std::string defines) const;
+  std::string tile_defines() const;
+  std::string number_defines() const;
+
+  LightPlan light_;
+  Projection projection_;
+  bool rows_;            // eight lanes, else one
+  bool extended_;        // numbers of 45 bits
+  bool double_numbers_;  // as doubles, else pairs of floats
+  bool full_precision_, device_erf_;
+  bool kernel_cut_, pixel_means_;
+  bool vector_colors_, ellipses_;
+  bool keeps_transmittance_;
+  bool eye_offset_;
+  bool background_image_;
+  std::uint32_t tile_width_ = 16, tile_height_ = 16;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "device/frame/component_colors.h"
+#include "device/frame/picture_layout.h"
+#include "device/frame/specialization.h"
+#include "device/opencl/device_context.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What all stages of one frame read, and none changes. The frame, the plan and the device
+// outlive it.
+struct StageContext {
+  StageContext(DeviceContext& on, const Frame& of, const FramePlan& with)
+      : device(on),
+        frame(of),
+        plan(with),
+        specialization(of, with, on.traits),
+        layout(make_picture_layout(with, specialization)),
+        grids(on.pool.upload(layout.grids, "grids")),
+        colors(upload_component_colors(of, on.pool)) {}
+
+  DeviceContext& device;
+  const Frame& frame;
+  const FramePlan& plan;
+  const Specialization specialization;
+  const PictureLayout layout;
+  const Buffer<shared::Grid> grids;
+  const ComponentColorTable colors;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,73 @@
+#include "device/opencl/buffer_pool.h"
+
+#include <algorithm>
+#include <string>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr std::uint64_t padding = 64;
+
+// A buffer serves for less, unless it is more than twice as large: that much would lie idle.
+bool serves(const compute::buffer& memory, std::uint64_t wanted) {
+  return memory.size() >= wanted && memory.size() <= 2 * wanted + 4096;
+}
+
+bool is_smaller(const compute::buffer& a, const compute::buffer& b) {
+  return a.size() < b.size();
+}
+
+}  // namespace
+
+PooledMemory::~PooledMemory() {
+  if (pool_ != nullptr) pool_->give_back(std::move(memory_));
+}
+
+compute::buffer BufferPool::take(std::uint64_t bytes, const char* what) {
+  const std::uint64_t wanted = std::max<std::uint64_t>(bytes, 1) + padding;
+  const std::uint64_t largest = context_.get_device().max_memory_alloc_size();
+  if (wanted > largest) {
+    throw DeviceError("device " + context_.get_device().name() + ": the " + what +
+                      " buffer needs " + std::to_string(wanted >> 20) + " MiB, expected at most " +
+                      std::to_string(largest >> 20) +
+                      " MiB: draw fewer pixels (--crop) or fewer particles");
+  }
+  auto best = free_.end();
+  for (auto free = free_.begin(); free != free_.end(); ++free) {
+    if (serves(*free, wanted) && (best == free_.end() || is_smaller(*free, *best))) best = free;
+  }
+  compute::buffer memory;
+  if (best != free_.end()) {
+    memory = std::move(*best);
+    free_.erase(best);
+  } else {
+    release_until_it_fits(wanted);
+    memory = compute::buffer(context_, static_cast<std::size_t>(wanted));
+    total_bytes_ += wanted;
+    peak_bytes_ = std::max(peak_bytes_, total_bytes_);
+  }
+  used_bytes_ += memory.size();
+  most_used_bytes_ = std::max(most_used_bytes_, used_bytes_);
+  return memory;
+}
+
+void BufferPool::give_back(compute::buffer memory) {
+  used_bytes_ -= memory.size();
+  free_.push_back(std::move(memory));
+}
+
+void BufferPool::release_until_it_fits(std::uint64_t wanted) {
+  const std::uint64_t most = std::max(most_used_bytes_, used_bytes_ + wanted);
+  if (total_bytes_ + wanted <= most || free_.empty()) return;
+  // Memory goes when the commands that use it have ended.
+  queue_.finish();
+  std::sort(free_.begin(), free_.end(), is_smaller);
+  while (total_bytes_ + wanted > most && !free_.empty()) {
+    total_bytes_ -= free_.back().size();
+    free_.pop_back();
+  }
+}
+
+}  // namespace splotchcl

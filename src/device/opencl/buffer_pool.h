@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "device/opencl/opencl.h"
+
+namespace splotchcl {
+
+class BufferPool;
+
+// A stretch of device memory from a pool, which gets it back when the buffer goes. Commands
+// run in order, so what was given back may serve the next command at once.
+class PooledMemory {
+ public:
+  PooledMemory() = default;
+  PooledMemory(BufferPool& pool, compute::buffer memory)
+      : pool_(&pool), memory_(std::move(memory)) {}
+  PooledMemory(PooledMemory&& other) noexcept
+      : pool_(std::exchange(other.pool_, nullptr)), memory_(std::move(other.memory_)) {}
+  PooledMemory& operator=(PooledMemory&& other) noexcept {
+    std::swap(pool_, other.pool_);
+    std::swap(memory_, other.memory_);
+    return *this;
+  }
+  ~PooledMemory();
+
+  const compute::buffer& memory() const { return memory_; }
+
+ private:
+  BufferPool* pool_ = nullptr;
+  compute::buffer memory_;
+};
+
+// Values of one type in device memory. Their contents are undefined at first.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;  // none
+  Buffer(PooledMemory memory, std::uint64_t size) : memory_(std::move(memory)), size_(size) {}
+
+  std::uint64_t size() const { return size_; }
+  const compute::buffer& memory() const { return memory_.memory(); }
+
+ private:
+  PooledMemory memory_;
+  std::uint64_t size_ = 0;
+};
+
+// The device's working memory. Buffers that came back are handed out again, and what is held
+// in all never exceeds what has been in use at one time.
+class BufferPool {
+ public:
+  BufferPool(const compute::context& context, const compute::command_queue& queue)
+      : context_(context), queue_(queue) {}
+  BufferPool(const BufferPool&) = delete;
+  BufferPool& operator=(const BufferPool&) = delete;
+
+  // Room for `count` values, and 64 bytes more, so that rows of eight may be read across the
+  // end. Throws DeviceError, which calls the buffer `what`, where the device has not as much.
+  template <class T>
+  Buffer<T> get(std::uint64_t count, const char* what) {
+    return {PooledMemory(*this, take(count * sizeof(T), what)), count};
+  }
+  template <class T>
+  Buffer<T> upload(const std::vector<T>& values, const char* what) {
+    Buffer<T> buffer = get<T>(values.size(), what);
+    if (!values.empty()) {
+      queue_.enqueue_write_buffer(buffer.memory(), 0, values.size() * sizeof(T), values.data());
+    }
+    return buffer;
+  }
+  // The first `count` values; waits for the commands before.
+  template <class T>
+  std::vector<T> download(const Buffer<T>& buffer, std::size_t count) {
+    std::vector<T> values(count);
+    if (count > 0) {
+      queue_.enqueue_read_buffer(buffer.memory(), 0, count * sizeof(T), values.data());
+    }
+    return values;
+  }
+
+  // The largest total since reset_peak().
+  std::uint64_t peak_bytes() const { return peak_bytes_; }
+  void reset_peak() { peak_bytes_ = total_bytes_; }
+
+ private:
+  friend class PooledMemory;
+  compute::buffer take(std::uint64_t bytes, const char* what);
+  void give_back(compute::buffer memory);
+  void release_until_it_fits(std::uint64_t wanted);
+
+  compute::context context_;
+  compute::command_queue queue_;
+  std::vector<compute::buffer> free_;
+  std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free
+  std::uint64_t most_used_bytes_ = 0, peak_bytes_ = 0;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "device/opencl/buffer_pool.h"
+#include "device/opencl/device_traits.h"
+#include "device/opencl/opencl.h"
+#include "device/opencl/program_cache.h"
+#include "device/opencl/stage_timer.h"
+
+namespace splotchcl {
+
+// Throws DeviceError when there is no device, UsageError when none has that name.
+compute::device choose_device(const std::string& part_of_name);
+
+// One device with its queue and what all stages share.
+struct DeviceContext {
+  explicit DeviceContext(const compute::device& chosen);
+
+  compute::device device;
+  compute::context context;
+  compute::command_queue queue;  // in order
+  DeviceTraits traits;
+  ProgramCache programs;
+  BufferPool pool;
+  StageTimer timer;
+};
+
+}  // namespace splotchcl

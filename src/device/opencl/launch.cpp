@@ -1,0 +1,45 @@
+#include "device/opencl/launch.h"
+
+namespace splotchcl {
+namespace {
+
+std::size_t round_up(std::size_t value, std::size_t step) {
+  return (value + step - 1) / step * step;
+}
+
+}  // namespace
+
+void Launch::enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local) {
+  device_.timer.add(
+      stage_, device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local));
+}
+
+void Launch::run_items(std::size_t items) {
+  // On a processor one item is one thread's work; a GPU wants whole warps, and the
+  // kernels' own bounds end the surplus.
+  if (items == 0) return;
+  const std::size_t local = 1;
+  enqueue(1, &items, &local);
+}
+
+void Launch::run_grid(std::size_t width, std::size_t height, std::size_t depth) {
+  if (width == 0 || height == 0 || depth == 0) return;
+  const std::size_t local[3] = {64, 1, 1};
+  const std::size_t global[3] = {round_up(width, local[0]), height, depth};
+  enqueue(3, global, local);
+}
+
+void Launch::run_rows(std::size_t rows, std::size_t items) {
+  if (rows == 0 || items == 0) return;
+  const std::size_t local[2] = {rows, 1};
+  const std::size_t global[2] = {rows, items};
+  enqueue(2, global, local);
+}
+
+void Launch::run_groups(std::size_t groups, std::size_t group_size) {
+  if (groups == 0) return;
+  const std::size_t global = groups * group_size;
+  enqueue(1, &global, &group_size);
+}
+
+}  // namespace splotchcl

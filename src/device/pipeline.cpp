@@ -1,0 +1,82 @@
+#include "device/pipeline.h"
+
+#include <utility>
+
+namespace splotchcl {
+
+Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
+                   const FramePlan& plan)
+    : particles_(particles),
+      context_(device, frame, plan),
+      projector_(context_),
+      sorter_(device),
+      binner_(context_),
+      compositor_(context_),
+      resolver_(context_) {}
+
+Image Pipeline::draw() {
+  counts_ = {};
+  counts_.particles = particle_count(context_.frame);
+  Planes planes = compositor_.start();
+  planes =
+      context_.plan.needs_sort() ? draw_ordered(std::move(planes)) : draw_sums(std::move(planes));
+  return resolver_.resolve(std::move(planes));
+}
+
+std::vector<ParticleChunk> Pipeline::particle_chunks() const {
+  return splotchcl::particle_chunks(context_.frame, context_.device.traits);
+}
+
+SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
+  const Particles& particles = context_.frame.components[chunk.component].particles;
+  return projector_.project(chunk, particles_.get(particles));
+}
+
+KeyedSplats Pipeline::project_all() {
+  std::vector<ParticleBuffers> buffers;
+  for (const DrawnComponent& component : context_.frame.components)
+    buffers.push_back(particles_.get(component.particles));
+  return projector_.project_all(buffers);
+}
+
+// Order does not matter: particles pass through in chunks, and the working memory is a
+// chunk's, however many there are.
+Planes Pipeline::draw_sums(Planes planes) {
+  for (const ParticleChunk& chunk : particle_chunks())
+    planes = add_chunk(chunk, std::move(planes));
+  return planes;
+}
+
+Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
+  const SplatBlocks blocks = project(chunk);
+  planes = draw_lists(binner_.count(blocks), std::move(planes));
+  // Read last: the device has long counted them.
+  const ParticleCounts particles = projector_.count(blocks);
+  counts_.visible += particles.visible;
+  counts_.bad += particles.bad;
+  return planes;
+}
+
+// Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
+Planes Pipeline::draw_ordered(Planes planes) {
+  KeyedSplats keyed = project_all();
+  counts_.visible = keyed.particles.visible;
+  counts_.bad = keyed.particles.bad;
+  const SortedSplats sorted = sorter_.sort(std::move(keyed));
+  for (const SplatChunk& chunk : splat_chunks(sorted.count, context_.device.traits))
+    planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
+  return planes;
+}
+
+// Tiles do not depend on each other, so lists that do not fit together are made and drawn
+// band by band of the picture, to the same bits.
+Planes Pipeline::draw_lists(const CountedSplats& counted, Planes planes) {
+  for (const TileBand& band : counted.bands) {
+    const TileLists lists = binner_.make_lists(counted, band);
+    counts_.tile_entries += lists.entry_count;
+    planes = compositor_.composite(lists, *counted.splats, std::move(planes));
+  }
+  return planes;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+#include "device/stages/binner.h"
+#include "device/stages/compositor.h"
+#include "device/stages/projector.h"
+#include "device/stages/resolver.h"
+#include "device/stages/sorter.h"
+#include "splotchcl/image.h"
+
+namespace splotchcl {
+
+struct DrawCounts {
+  std::uint64_t particles = 0;  // in the components
+  std::uint64_t visible = 0, bad = 0;
+  std::uint64_t tile_entries = 0;  // splats summed over tiles
+};
+
+// The stages of one frame, from particles to the picture. The renderer draws with it; tests
+// and benchmarks run its stages one by one.
+class Pipeline {
+ public:
+  // All of them outlive the pipeline. The device's shape is that of its traits.
+  Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
+           const FramePlan& plan);
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  Image draw();
+  const DrawCounts& counts() const { return counts_; }  // of what has been drawn
+
+  const StageContext& context() const { return context_; }
+  std::vector<ParticleChunk> particle_chunks() const;
+  SplatBlocks project(const ParticleChunk& chunk);
+  KeyedSplats project_all();
+  const Projector& projector() const { return projector_; }
+  const Sorter& sorter() const { return sorter_; }
+  const Binner& binner() const { return binner_; }
+  const Compositor& compositor() const { return compositor_; }
+  const Resolver& resolver() const { return resolver_; }
+
+ private:
+  Planes add_chunk(const ParticleChunk& chunk, Planes planes);
+  Planes draw_sums(Planes planes);
+  Planes draw_ordered(Planes planes);
+  Planes draw_lists(const CountedSplats& counted, Planes planes);
+
+  ParticleStore& particles_;
+  const StageContext context_;
+  const Projector projector_;
+  const Sorter sorter_;
+  const Binner binner_;
+  const Compositor compositor_;
+  const Resolver resolver_;
+  DrawCounts counts_;
+};
+
+}  // namespace splotchcl

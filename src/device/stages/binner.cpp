@@ -1,0 +1,162 @@
+#include "device/stages/binner.h"
+
+#include <algorithm>
+
+#include "device/opencl/launch.h"
+
+namespace splotchcl {
+std::vector<TileBand> cut_in_bands(const std::vector<std::uint32_t>& lengths,
+                                   std::uint64_t capacity) {
+  std::vector<TileBand> bands;
+  TileBand band;
+  std::uint64_t entries = 0;
+  for (const std::uint32_t length : lengths) {
+    if (entries > 0 && entries + length > capacity) {
+      bands.push_back(band);
+      band.first = band.end;
+      entries = 0;
+    }
+    entries += length;
+    ++band.end;
+  }
+  bands.push_back(band);
+  return bands;
+}
+
+Binner::Binner(const StageContext& context)
+    : context_(context),
+      program_(context.device.programs.get(context.specialization.bin())),
+      no_order_(context.device.pool.get<std::uint32_t>(0, "unused")),
+      no_blocks_(context.device.pool.get<shared::BlockCounts>(0, "unused")) {
+  const DeviceTraits& traits = context.device.traits;
+  // One tile may have all splats of a chunk.
+  const std::uint64_t splats_of_chunk =
+      std::uint64_t{traits.chunk_length()} *
+      static_cast<std::uint64_t>(context.plan.splats_per_particle);
+  entry_capacity_ = std::max(traits.list_capacity, splats_of_chunk);
+  const PictureLayout& layout = context.layout;
+  parameters_.tile_count = layout.tile_count;
+  parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
+  parameters_.segment_length = traits.segment_length;
+  parameters_.segment_capacity =
+      static_cast<std::uint32_t>(layout.tile_count + entry_capacity_ / traits.segment_length + 1);
+  parameters_.end_tile = layout.tile_count;
+  parameters_.mean_sigma = context.plan.splats.mean_sigma;
+  parameters_.widening = context.plan.splats.widening;
+}
+
+CountedSplats Binner::count(const SplatBlocks& blocks) const {
+  CountedSplats counted;
+  counted.parameters = parameters_;
+  counted.parameters.stride = blocks.stride;
+  counted.parameters.length = blocks.stride;
+  counted.parameters.end = blocks.block_count * blocks.stride;
+  counted.parameters.block_count = blocks.block_count;
+  counted.splats = &blocks.splats;
+  counted.order = &no_order_;
+  counted.blocks = &blocks.counts;
+  counted.in_order = context_.device.pool.get<std::byte>(0, "unused");
+  count_tiles(counted);
+  return counted;
+}
+
+CountedSplats Binner::count(const SortedSplats& sorted, const SplatChunk& chunk) const {
+  CountedSplats counted;
+  shared::BinParameters& parameters = counted.parameters;
+  const std::uint32_t wanted = context_.device.traits.bin_blocks;
+  parameters = parameters_;
+  parameters.first = chunk.first;
+  parameters.stride = std::max(1u, chunk.count / wanted + (chunk.count % wanted != 0));
+  parameters.length = parameters.stride;
+  parameters.end = chunk.first + chunk.count;
+  parameters.block_count = chunk.count / parameters.stride + (chunk.count % parameters.stride != 0);
+  counted.splats = &sorted.splats;
+  counted.order = &sorted.order;
+  counted.blocks = &no_blocks_;
+  const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
+  counted.in_order = context_.device.pool.get<std::byte>(
+      slots * context_.specialization.splat_bytes(), "splats in order");
+  count_tiles(counted);
+  return counted;
+}
+
+void Binner::count_tiles(CountedSplats& counted) const {
+  DeviceContext& device = context_.device;
+  const shared::BinParameters& parameters = counted.parameters;
+  counted.tile_counts = device.pool.get<std::uint32_t>(
+      std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
+  counted.tile_lengths = device.pool.get<std::uint32_t>(parameters.tile_count, "tile lengths");
+  Launch(device, "bin", program_.create_kernel("bin_count"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(counted.splats->splats)
+      .arg(*counted.order)
+      .arg(*counted.blocks)
+      .arg(counted.tile_counts)
+      .arg(counted.in_order)
+      .run_items(parameters.block_count);
+  Launch(device, "bin", program_.create_kernel("bin_scan_blocks"))
+      .value(parameters)
+      .arg(counted.tile_counts)
+      .arg(counted.tile_lengths)
+      .run_grid(parameters.tile_count, 1, 1);
+  counted.lengths = device.pool.download(counted.tile_lengths, parameters.tile_count);
+  counted.bands = cut_in_bands(counted.lengths, entry_capacity_);
+}
+
+// What the lists of a band will be, without their memory.
+TileLists Binner::measure_lists(const std::vector<std::uint32_t>& lengths,
+                                const TileBand& band) const {
+  const std::vector<shared::Grid>& grids = context_.layout.grids;
+  TileLists lists;
+  std::size_t grid = 0;
+  for (std::uint32_t tile = band.first; tile < band.end; ++tile) {
+    while (grid + 1 < grids.size() && tile >= grids[grid + 1].first_tile)
+      ++grid;
+    const std::uint32_t length = lengths[tile];
+    if (length == 0) continue;
+    const std::uint32_t by = parameters_.segment_length;
+    const std::uint32_t segments = length / by + (length % by != 0);
+    lists.entry_count += length;
+    lists.segment_count += segments;
+    if (segments > 1) lists.partial_count += segments;
+    lists.used_grids |= 1u << grid;
+  }
+  return lists;
+}
+
+TileLists Binner::make_lists(const CountedSplats& counted, const TileBand& band) const {
+  DeviceContext& device = context_.device;
+  TileLists lists = measure_lists(counted.lengths, band);
+  if (lists.entry_count == 0) return lists;
+  shared::BinParameters parameters = counted.parameters;
+  parameters.first_tile = band.first;
+  parameters.end_tile = band.end;
+  const auto starts = device.pool.get<std::uint32_t>(parameters.tile_count, "tile starts");
+  lists.segments = device.pool.get<shared::Segment>(parameters.segment_capacity, "segment");
+  // Always the same size, so that the pool's serves again; a processor touches what it fills.
+  lists.entries = device.pool.get<std::byte>(
+      entry_capacity_ * context_.specialization.tile_splat_bytes(), "tile entries");
+  Launch(device, "bin", program_.create_kernel("bin_scan_tiles"))
+      .value(parameters)
+      .arg(counted.tile_lengths)
+      .arg(starts)
+      .arg(lists.segments)
+      .run_items(1);
+  Launch(device, "bin", program_.create_kernel("bin_scatter"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(counted.splats->splats)
+      .arg(*counted.order)
+      .arg(*counted.blocks)
+      .arg(counted.tile_counts)
+      .arg(counted.in_order)
+      .arg(starts)
+      .arg(context_.colors.components)
+      .arg(context_.colors.knots)
+      .arg(lists.entries)
+      .run_items(parameters.block_count);
+  return lists;
+}
+
+}  // namespace splotchcl

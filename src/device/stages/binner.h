@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/chunks.h"
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+
+namespace splotchcl {
+
+// A chunk of splats whose entries in each tile have been counted. It looks into the splats,
+// which outlive it.
+struct CountedSplats {
+  shared::BinParameters parameters{};
+  const SplatMemory* splats = nullptr;
+  const Buffer<std::uint32_t>* order = nullptr;         // of sorted splats
+  const Buffer<shared::BlockCounts>* blocks = nullptr;  // of a projection's
+  Buffer<std::byte> in_order;                           // copies of sorted splats
+  Buffer<std::uint32_t> tile_counts;                    // per block and tile
+  Buffer<std::uint32_t> tile_lengths;
+  std::vector<std::uint32_t> lengths;  // the same on the host
+  // Each band's lists fit into memory. One, where the whole picture's do.
+  std::vector<TileBand> bands;
+};
+
+// The fewest bands of tiles whose lists of these lengths have no more than `capacity` entries
+// each, as long as no tile alone has.
+std::vector<TileBand> cut_in_bands(const std::vector<std::uint32_t>& lengths,
+                                   std::uint64_t capacity);
+
+// Splats to lists per tile, in order: the stage `bin`.
+class Binner {
+ public:
+  explicit Binner(const StageContext& context);
+
+  CountedSplats count(const SplatBlocks& blocks) const;
+  CountedSplats count(const SortedSplats& sorted, const SplatChunk& chunk) const;
+  // Call once for each band.
+  TileLists make_lists(const CountedSplats& counted, const TileBand& band) const;
+
+ private:
+  void count_tiles(CountedSplats& counted) const;
+  TileLists measure_lists(const std::vector<std::uint32_t>& lengths, const TileBand& band) const;
+
+  const StageContext& context_;
+  shared::BinParameters parameters_{};
+  compute::program program_;
+  std::uint64_t entry_capacity_ = 0;
+  Buffer<std::uint32_t> no_order_;         // stand for what a variant of the kernels
+  Buffer<shared::BlockCounts> no_blocks_;  // does not read
+};
+
+}  // namespace splotchcl

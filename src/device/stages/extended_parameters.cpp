@@ -1,0 +1,84 @@
+#include "device/stages/extended_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "scene/particle_rules.h"
+
+namespace splotchcl {
+namespace {
+
+// Volatile as in make_depth_chain: GCC 12 takes the way to float and back for nothing.
+float nearest_float(double value) {
+  const volatile float nearest = static_cast<float>(value);
+  return nearest;
+}
+
+shared::FloatPair pair_of(double value) {
+  const float high = nearest_float(value);
+  if (!std::isfinite(high)) return {high, 0};
+  return {high, nearest_float(value - static_cast<double>(high))};
+}
+
+void split_in_three(double value, float (&parts)[3]) {
+  for (float& part : parts) {
+    part = nearest_float(value);
+    value -= static_cast<double>(part);
+  }
+}
+
+void copy(const Vec3& from, shared::FloatPair (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis)
+    to[axis] = pair_of(from.a[axis]);
+}
+
+void set_camera(const Frame& frame, const DrawnComponent& component,
+                shared::ExtendedParameters& e) {
+  const CameraFrame& camera = frame.camera;
+  for (int axis = 0; axis < 3; ++axis)
+    split_in_three(camera.position.a[axis] - component.particles.origin.a[axis], e.position[axis]);
+  copy(camera.right, e.right);
+  copy(camera.down, e.down);
+  copy(camera.forward, e.forward);
+  e.pixels_per_length = pair_of(
+      frame.projection == Projection::perspective ? camera.focal_pixels : camera.pixels_per_length);
+  e.center_x = pair_of(camera.center_x - frame.crop.x);
+  e.center_y = pair_of(camera.center_y - frame.crop.y);
+  e.has_near_limit = frame.near_limit.has_value();
+  e.near_limit = pair_of(frame.near_limit.value_or(0));
+  e.near_factor = pair_of(near_smoothing_lengths);
+  e.has_far_limit = frame.far_limit.has_value();
+  e.far_limit = pair_of(frame.far_limit.value_or(0));
+}
+
+void set_map(const Column& column, const ScalarMap& map, double inverse_if_absent,
+             shared::FloatPair& minimum, shared::FloatPair& inverse_range) {
+  const double range = map.maximum - map.minimum;
+  minimum = pair_of(column.is_absent() ? 0 : map.minimum);
+  inverse_range = pair_of(column.is_absent() ? inverse_if_absent : range > 0 ? 1 / range : 0);
+}
+
+}  // namespace
+
+shared::ExtendedParameters make_extended_parameters(const Frame& frame, const FramePlan& plan,
+                                                    const DrawnComponent& component) {
+  shared::ExtendedParameters e{};
+  set_camera(frame, component, e);
+  e.size_factor = pair_of(component.size_factor);
+  e.kernel_width = pair_of(frame.kernel.width);
+  e.kernel_cut = pair_of(frame.kernel.cut.value_or(0));
+  e.min_radius = pair_of(frame.kernel.min_radius_pixels);
+  e.weight_scale = pair_of(weight_scale(component, length_scale(frame)));
+  // As in single precision: an absent colour is palette position 0, an absent intensity is 1.
+  set_map(component.particles.color, component.color, 0, e.color_minimum, e.color_inverse_range);
+  set_map(component.particles.intensity, component.intensity, 1, e.intensity_minimum,
+          e.intensity_inverse_range);
+  e.brightness = pair_of(component.brightness);
+  e.absorption_factor = pair_of(component.absorption.factor);
+  const auto count = static_cast<double>(std::max<std::uint64_t>(1, particle_count(frame)));
+  e.inverse_share = static_cast<float>(count / plan.shares.truncation);
+  return e;
+}
+
+}  // namespace splotchcl

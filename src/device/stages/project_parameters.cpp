@@ -1,0 +1,172 @@
+#include "device/stages/project_parameters.h"
+
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+#include <limits>
+
+#include "scene/particle_rules.h"
+#include "scene/peak_color.h"
+#include "scene/projection.h"
+
+namespace splotchcl {
+namespace {
+
+shared::FieldScaling scaling_of(const ScalarMap& map) {
+  shared::FieldScaling scaling{};
+  scaling.scaling = map.scaling == Scaling::log     ? SCALING_LOG
+                    : map.scaling == Scaling::asinh ? SCALING_ASINH
+                                                    : SCALING_LINEAR;
+  scaling.minimum = static_cast<float>(map.minimum);
+  scaling.minimum_low = static_cast<float>(map.minimum - static_cast<double>(scaling.minimum));
+  const double range = map.maximum - map.minimum;
+  scaling.inverse_range = range > 0 ? static_cast<float>(1 / range) : 0.0f;
+  return scaling;
+}
+
+// An intensity field that is absent counts as 1.
+shared::FieldScaling intensity_scaling(const DrawnComponent& component) {
+  if (!component.particles.intensity.is_absent()) return scaling_of(component.intensity);
+  shared::FieldScaling one{};
+  one.scaling = SCALING_LINEAR;
+  one.inverse_range = 1;
+  return one;
+}
+
+// A color field that is absent is palette position 0, whatever the map says.
+shared::FieldScaling color_scaling(const DrawnComponent& component) {
+  if (!component.particles.color.is_absent()) return scaling_of(component.color);
+  shared::FieldScaling zero{};
+  zero.scaling = SCALING_LINEAR;
+  return zero;
+}
+
+void copy(const Vec3& from, float (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis)
+    to[axis] = static_cast<float>(from.a[axis]);
+}
+
+// A float is at or above the limit exactly when it is at or above this one.
+float smallest_float_from(double limit) {
+  const auto nearest = static_cast<float>(limit);
+  return static_cast<double>(nearest) < limit
+             ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+             : nearest;
+}
+
+// The same axes with the look-at point for a position.
+CameraFrame at_look_at(CameraFrame camera) {
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.position.a[axis] += camera.look_at_distance * camera.forward.a[axis];
+  }
+  return camera;
+}
+
+Vec3 along_axes(const Vec3& v, const CameraFrame& camera) {
+  using boost::qvm::dot;
+  return {{dot(v, camera.right), dot(v, camera.down), dot(v, camera.forward)}};
+}
+
+void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameters& p) {
+  const CameraFrame& camera = frame.camera;
+  const DepthChain chain = make_depth_chain(camera, origin);
+  std::copy(std::begin(chain.position_high), std::end(chain.position_high), p.position_high);
+  std::copy(std::begin(chain.position_low), std::end(chain.position_low), p.position_low);
+  std::copy(std::begin(chain.forward), std::end(chain.forward), p.forward);
+  const DepthChain look_at = make_depth_chain(at_look_at(camera), origin);
+  std::copy(std::begin(look_at.position_high), std::end(look_at.position_high), p.look_at_high);
+  std::copy(std::begin(look_at.position_low), std::end(look_at.position_low), p.look_at_low);
+  p.far_away = static_cast<float>(0.5 * camera.look_at_distance);
+  copy(camera.right, p.right);
+  copy(camera.down, p.down);
+  p.perspective = frame.projection != Projection::orthographic;
+  p.pixels_per_length =
+      static_cast<float>(p.perspective ? camera.focal_pixels : camera.pixels_per_length);
+  p.period = static_cast<float>(period_along_x(camera, frame.projection));
+  p.eye_offset = static_cast<float>(camera.eye_offset);
+  copy(along_axes(camera.turn_axis, camera), p.turn_axis);
+  p.center_x = static_cast<float>(camera.center_x - frame.crop.x);
+  p.center_y = static_cast<float>(camera.center_y - frame.crop.y);
+}
+
+void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
+  // z <= 0 never projects in perspective; the smallest float stands for "above 0".
+  const float lowest = p.perspective ? std::numeric_limits<float>::min() : 0.0f;
+  p.near_limit = lowest;
+  p.near_factor = 0;
+  if (frame.near_limit) {
+    p.near_limit = smallest_float_from(*frame.near_limit);
+    if (p.perspective) p.near_limit = std::max(p.near_limit, lowest);
+  } else if (p.perspective) {
+    p.near_factor = static_cast<float>(near_smoothing_lengths);
+  }
+  p.far_limit = frame.far_limit ? -smallest_float_from(-*frame.far_limit)
+                                : std::numeric_limits<float>::infinity();
+}
+
+void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
+  const SplatLimits& limits = plan.splats;
+  p.widening = limits.widening;
+  p.mean_sigma = limits.mean_sigma;
+  p.bright_peak = limits.bright_peak;
+  p.crowd_light = limits.crowd_light;
+  p.crowd_bright = limits.crowd_bright;
+  p.crowd_extent = limits.crowd_extent;
+  p.crowd_narrowest = limits.crowd_narrowest;
+  p.crowd_widest = limits.crowd_widest;
+  p.least_extent = limits.least_extent;
+  p.restored_light = limits.restored_light;
+  p.inverse_edge = limits.inverse_edge;
+  const GridPyramid& pyramid = plan.pyramid;
+  p.coarse_sigma = pyramid.coarse_sigma;
+  p.coarse_peak = pyramid.coarse_peak;
+  p.grid_count = static_cast<int>(pyramid.grids.size());
+  p.guard = static_cast<float>(pyramid.grids.back().guard);
+  p.blurred = pyramid.is_blurred;
+  p.blur[0] = static_cast<float>(pyramid.blur[0]);
+  p.blur[1] = static_cast<float>(pyramid.blur[1]);
+}
+
+int weight_model_number(WeightModel model) {
+  switch (model) {
+    case WeightModel::mass:
+      return WEIGHT_MASS;
+    case WeightModel::density:
+      return WEIGHT_DENSITY;
+    case WeightModel::constant:
+      return WEIGHT_CONSTANT;
+  }
+  return WEIGHT_MASS;
+}
+
+void set_component(const DrawnComponent& component, double length_scale,
+                   shared::ProjectParameters& p) {
+  p.size_factor = static_cast<float>(component.size_factor);
+  p.length_scale = static_cast<float>(length_scale);
+  p.weight_model = weight_model_number(component.weight);
+  p.weight_scale = static_cast<float>(weight_scale(component, length_scale));
+  p.peak_color = static_cast<float>(peak_color(component));
+  p.peak_own = static_cast<float>(peak_own_absorption(component));
+  p.color = color_scaling(component);
+  p.intensity = intensity_scaling(component);
+}
+
+}  // namespace
+
+shared::ProjectParameters make_project_parameters(const Frame& frame, const FramePlan& plan,
+                                                  std::uint32_t component) {
+  shared::ProjectParameters p{};
+  set_camera(frame, frame.components[component].particles.origin, p);
+  set_depth_limits(frame, p);
+  p.kernel_width = static_cast<float>(frame.kernel.width);
+  p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
+  p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
+  set_plan(plan, p);
+  set_component(frame.components[component], length_scale(frame), p);
+  p.component = component;
+  p.sort_by_field = frame.sort.by == SortOrder::By::field;
+  p.sort_descending = frame.sort.descending;
+  return p;
+}
+
+}  // namespace splotchcl

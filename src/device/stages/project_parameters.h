@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+#include "device/frame/shared.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// Constants of the projection of one of the frame's components (kernels/project/project.h),
+// without the particles of a launch and the strides of their columns.
+shared::ProjectParameters make_project_parameters(const Frame& frame, const FramePlan& plan,
+                                                  std::uint32_t component);
+
+}  // namespace splotchcl

@@ -1,0 +1,150 @@
+#include "device/stages/projector.h"
+
+#include "device/opencl/launch.h"
+#include "device/stages/extended_parameters.h"
+#include "device/stages/project_parameters.h"
+
+namespace splotchcl {
+namespace {
+
+std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
+  return value / by + (value % by != 0 ? 1 : 0);
+}
+
+std::uint32_t block_count(const shared::ProjectParameters& parameters) {
+  return ceil_divide(parameters.end_particle - parameters.first_particle,
+                     parameters.block_particles);
+}
+
+ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
+  ParticleCounts sum;
+  for (const shared::BlockCounts& block : blocks) {
+    sum.visible += block.visible;
+    sum.bad += block.bad;
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Where a launch writes.
+struct Projector::Targets {
+  const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
+  const Buffer<shared::BlockCounts>& counts;
+  const SplatMemory& splats;
+  const Buffer<std::uint32_t>&keys, &order;
+};
+
+Projector::Projector(const StageContext& context)
+    : context_(context), unused_(context.device.pool.get<std::uint32_t>(0, "unused")) {}
+
+shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
+                                                    const ParticleBuffers& particles) const {
+  shared::ProjectParameters p =
+      make_project_parameters(context_.frame, context_.plan, chunk.component);
+  p.first_particle = chunk.first;
+  p.end_particle = chunk.end;
+  p.block_particles = context_.device.traits.project_block;
+  p.smoothing_length_stride = particles.smoothing_length_stride;
+  p.weight_stride = particles.weight_stride;
+  p.color_stride = particles.color_stride;
+  p.intensity_stride = particles.intensity_stride;
+  p.sort_stride = particles.sort_stride;
+  p.own_color_stride = particles.own_color_stride;
+  return p;
+}
+
+SplatMemory Projector::splat_memory(std::uint64_t splats) const {
+  BufferPool& pool = context_.device.pool;
+  SplatMemory memory;
+  memory.splats = pool.get<std::byte>(splats * context_.specialization.splat_bytes(), "splat");
+  const bool extended = context_.specialization.is_extended();
+  memory.extended = pool.get<shared::ExtendedSplat>(extended ? splats : 0, "extended splat");
+  return memory;
+}
+
+void Projector::launch(ProjectOutput output, const shared::ProjectParameters& parameters,
+                       const ParticleBuffers& particles, const Targets& targets) const {
+  DeviceContext& device = context_.device;
+  const compute::program program = device.programs.get(context_.specialization.project(output));
+  Launch launch(device, "project", program.create_kernel("project"));
+  launch.value(parameters)
+      .arg(context_.grids)
+      .arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field)
+      .arg(targets.offsets)
+      .arg(targets.counts)
+      .arg(targets.splats.splats)
+      .arg(targets.keys)
+      .arg(targets.order);
+  if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
+  if (context_.specialization.is_extended()) {
+    const DrawnComponent& component = context_.frame.components[parameters.component];
+    launch.value(make_extended_parameters(context_.frame, context_.plan, component))
+        .arg(context_.colors.components)
+        .arg(context_.colors.knots)
+        .arg(targets.splats.extended);
+  }
+  launch.run_items(block_count(parameters));
+}
+
+SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers& particles) const {
+  BufferPool& pool = context_.device.pool;
+  const shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  SplatBlocks blocks;
+  blocks.stride =
+      parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  blocks.block_count = block_count(parameters);
+  blocks.counts = pool.get<shared::BlockCounts>(blocks.block_count, "block counts");
+  blocks.splats = splat_memory(std::uint64_t{blocks.block_count} * blocks.stride);
+  std::vector<std::uint32_t> offsets(blocks.block_count);
+  for (std::uint32_t b = 0; b < blocks.block_count; ++b)
+    offsets[b] = b * blocks.stride;
+  launch(ProjectOutput::splats, parameters, particles,
+         {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_, unused_});
+  return blocks;
+}
+
+ParticleCounts Projector::count(const SplatBlocks& blocks) const {
+  return sum_of(context_.device.pool.download(blocks.counts, blocks.block_count));
+}
+
+KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
+  DeviceContext& device = context_.device;
+  std::vector<shared::ProjectParameters> components;
+  std::uint32_t blocks = 0;
+  for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
+    const std::size_t count = context_.frame.components[c].particles.count;
+    components.push_back(parameters_for({c, 0, static_cast<std::uint32_t>(count)}, particles[c]));
+    components.back().first_block = blocks;
+    blocks += block_count(components.back());
+  }
+  KeyedSplats keyed;
+  if (blocks == 0) return keyed;
+  const auto counts = device.pool.get<shared::BlockCounts>(blocks, "block counts");
+  const auto offsets = device.pool.get<std::uint32_t>(blocks + 1, "block offsets");
+  const auto pass = [&](ProjectOutput output, const Targets& targets) {
+    for (std::size_t c = 0; c < components.size(); ++c)
+      launch(output, components[c], particles[c], targets);
+  };
+  pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_});
+  Launch(device, "project",
+         device.programs.get(Specialization::scan_blocks()).create_kernel("scan_blocks"))
+      .value(blocks)
+      .arg(counts)
+      .arg(offsets)
+      .run_items(1);
+  keyed.count = device.pool.download(offsets, blocks + 1).back();
+  keyed.splats = splat_memory(keyed.count);
+  keyed.keys = device.pool.get<std::uint32_t>(keyed.count, "sort keys");
+  keyed.order = device.pool.get<std::uint32_t>(keyed.count, "order");
+  pass(ProjectOutput::splats_and_keys, {offsets, counts, keyed.splats, keyed.keys, keyed.order});
+  keyed.particles = sum_of(device.pool.download(counts, blocks));
+  return keyed;
+}
+
+}  // namespace splotchcl

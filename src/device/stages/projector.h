@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+
+namespace splotchcl {
+
+// Particles to splats: the stage `project`.
+class Projector {
+ public:
+  explicit Projector(const StageContext& context);
+
+  // One chunk of a sum, block by block. `particles` are those of its component.
+  SplatBlocks project(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
+  // What became of the chunk's particles; waits for the device.
+  ParticleCounts count(const SplatBlocks& blocks) const;
+
+  // All particles of all components, with sort keys: what an ordered frame needs.
+  KeyedSplats project_all(const std::vector<ParticleBuffers>& particles) const;
+
+ private:
+  struct Targets;
+  shared::ProjectParameters parameters_for(const ParticleChunk& chunk,
+                                           const ParticleBuffers& particles) const;
+  SplatMemory splat_memory(std::uint64_t splats) const;
+  void launch(ProjectOutput output, const shared::ProjectParameters& parameters,
+              const ParticleBuffers& particles, const Targets& targets) const;
+
+  const StageContext& context_;
+  Buffer<std::uint32_t> unused_;  // stands for what a variant of the kernel does not write
+};
+
+}  // namespace splotchcl

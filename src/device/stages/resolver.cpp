@@ -1,0 +1,163 @@
+#include "device/stages/resolver.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "device/opencl/launch.h"
+#include "scene/plan/blur_filter.h"
+
+namespace splotchcl {
+namespace {
+
+std::size_t strips(std::size_t pixels, std::size_t per_item) {
+  return (pixels + per_item - 1) / per_item;
+}
+
+}  // namespace
+
+Resolver::Resolver(const StageContext& context)
+    : context_(context), program_(context.device.programs.get(context.specialization.resolve())) {
+  const Frame& frame = context.frame;
+  parameters_.width = frame.crop.width;
+  parameters_.height = frame.crop.height;
+  for (std::size_t c = 0; c < 3; ++c) {
+    parameters_.source[c] = static_cast<float>(context.plan.source[c]);
+    parameters_.background[c] = static_cast<float>(frame.background[c]);
+  }
+  parameters_.circle_x = 2 * frame.crop.x - frame.width;
+  parameters_.circle_y = 2 * frame.crop.y - frame.height;
+  parameters_.circle_diameter = std::min(frame.width, frame.height);
+  if (context.layout.grids.size() > 1) {
+    grids_program_ = context.device.programs.get(Specialization::coarse_grids());
+  }
+}
+
+// What every grid holds, brought to the picture's own: blurred level by level, then refined
+// from the coarsest on. Grids without light are left out.
+Planes Resolver::collect(Planes planes) const {
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const auto grid_of = [&pyramid](std::size_t level) {
+    return static_cast<std::uint32_t>(pyramid.level_grids[level]);
+  };
+  const auto is_used = [&planes](std::uint32_t grid) {
+    return (planes.used_grids >> grid & 1) != 0;
+  };
+  const std::size_t levels = pyramid.level_grids.size();
+  for (std::size_t level = 1; pyramid.is_blurred && level < levels; ++level) {
+    const std::uint32_t narrow = grid_of(level), wide = narrow + 1;
+    if (is_used(wide)) {
+      blur(planes, wide, narrow, pyramid.blur[1] - pyramid.blur[0], is_used(narrow));
+      planes.used_grids |= 1u << narrow;
+    }
+    if (is_used(narrow)) blur(planes, narrow, narrow, pyramid.blur[0], false);
+  }
+  for (std::size_t level = levels - 1; level > 0; --level) {
+    const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);
+    if (!is_used(coarse)) continue;
+    refine(planes, coarse, fine, is_used(fine));
+    planes.used_grids |= 1u << fine;
+  }
+  return planes;
+}
+
+void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t target, double sigma2,
+                    bool add) const {
+  const std::vector<float> weights = blur_weights(sigma2, context_.plan.pyramid.blur_error);
+  shared::BlurParameters parameters{};
+  parameters.source = source;
+  parameters.target = target;
+  parameters.half_width = static_cast<int>(weights.size() / 2);
+  parameters.add = add;
+  std::copy(weights.begin(), weights.end(), parameters.weights);
+
+  const shared::Grid& from = context_.layout.grids[source];
+  const shared::Grid& to = context_.layout.grids[target];
+  const std::size_t plane_count = context_.specialization.planes();
+  const auto columns = context_.device.pool.get<float>(
+      plane_count * static_cast<std::uint64_t>(from.height) * (from.stride + 8), "blurred columns");
+  Launch(context_.device, "resolve", grids_program_.create_kernel("blur_columns"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(columns)
+      .run_grid(strips(static_cast<std::size_t>(from.width), 8),
+                static_cast<std::size_t>(from.height), plane_count);
+  Launch(context_.device, "resolve", grids_program_.create_kernel("blur_rows"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(columns)
+      .run_grid(strips(static_cast<std::size_t>(to.width), 8), static_cast<std::size_t>(to.height),
+                plane_count);
+}
+
+void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
+                      bool add) const {
+  shared::RefineParameters parameters{};
+  parameters.coarse = coarse;
+  parameters.fine = fine;
+  parameters.add = add;
+  const std::array<double, 10>& weights = context_.plan.pyramid.refinement.weights;
+  std::transform(weights.begin(), weights.end(), parameters.weights,
+                 [](double weight) { return static_cast<float>(weight); });
+
+  const shared::Grid& to = context_.layout.grids[fine];
+  const auto coarse_height = static_cast<std::size_t>(context_.layout.grids[coarse].height);
+  const std::size_t plane_count = context_.specialization.planes();
+  const auto columns =
+      context_.device.pool.get<float>(plane_count * coarse_height * to.stride, "refined columns");
+  Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(columns)
+      .run_grid(strips(static_cast<std::size_t>(to.width), 16), coarse_height, plane_count);
+  Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(columns)
+      .run_grid(strips(static_cast<std::size_t>(to.width), 8), static_cast<std::size_t>(to.height),
+                plane_count);
+}
+
+// The crop's part of the background's picture, a plane per channel, in rows of `stride`.
+Buffer<float> Resolver::upload_background(std::size_t stride) const {
+  const Rectangle& crop = context_.frame.crop;
+  const std::size_t plane = stride * static_cast<std::size_t>(crop.height);
+  std::vector<float> planes(3 * plane);
+  for (int y = 0; y < crop.height; ++y) {
+    for (int x = 0; x < crop.width; ++x) {
+      const float* pixel = context_.frame.background_image->at(crop.x + x, crop.y + y);
+      const std::size_t place = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+      for (std::size_t c = 0; c < 3; ++c)
+        planes[c * plane + place] = pixel[c];
+    }
+  }
+  return context_.device.pool.upload(planes, "background");
+}
+
+Image Resolver::resolve(Planes light) const {
+  const Planes planes = collect(std::move(light));
+  DeviceContext& device = context_.device;
+  Image image(parameters_.width, parameters_.height);
+  const std::size_t width_strips = strips(static_cast<std::size_t>(image.width), 8);
+  const auto pixels = device.pool.get<float>(image.pixels.size(), "image");
+  shared::ResolveParameters parameters = parameters_;
+  Buffer<float> background;
+  if (context_.specialization.has_background_image()) {
+    parameters.background_stride = static_cast<int>(8 * width_strips);
+    background = upload_background(8 * width_strips);
+  }
+  Launch launch(device, "resolve", program_.create_kernel("resolve"));
+  launch.value(parameters).arg(context_.grids).arg(planes.light);
+  if (context_.specialization.has_background_image()) launch.arg(background);
+  launch.arg(pixels).run_grid(width_strips, static_cast<std::size_t>(image.height), 1);
+  device.queue.enqueue_read_buffer(pixels.memory(), 0, image.pixels.size() * sizeof(float),
+                                   image.pixels.data());
+  return image;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+#include "splotchcl/image.h"
+
+namespace splotchcl {
+
+// Planes of all grids to the picture: the stage `resolve`.
+class Resolver {
+ public:
+  explicit Resolver(const StageContext& context);
+
+  Image resolve(Planes planes) const;
+
+ private:
+  Planes collect(Planes planes) const;
+  void blur(const Planes& planes, std::uint32_t source, std::uint32_t target, double sigma2,
+            bool add) const;
+  void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine, bool add) const;
+  Buffer<float> upload_background(std::size_t stride) const;
+
+  const StageContext& context_;
+  shared::ResolveParameters parameters_{};
+  compute::program program_, grids_program_;
+};
+
+}  // namespace splotchcl

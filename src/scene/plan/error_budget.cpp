@@ -1,0 +1,81 @@
+#include "scene/plan/error_budget.h"
+
+#include <algorithm>
+
+#include "scene/plan/sharpness.h"
+
+namespace splotchcl {
+namespace {
+
+// Smaller tolerances need polynomials of full single precision ...
+constexpr double fast_tolerance = 3e-4;
+// ... and an erf better than the polynomial's 6e-7, which grows with sigma / pixel, to 1e-5 of
+// the peak at sigma 6.
+constexpr double polynomial_erf_tolerance = 3e-5;
+
+// Projections that the extended projection knows; others take single precision.
+bool has_extended_projection(Projection projection) {
+  return !is_wide_angle(projection);
+}
+
+// Roundings have either sign and few clouds are as sharp as the sharpest: errors were an eighth
+// of what the sharpest could do (docs/accuracy.md).
+bool places_exceed_tolerance(const Frame& frame) {
+  constexpr double part_of_sharpest = 0.15;
+  if (frame.tolerance >= fast_tolerance || !has_extended_projection(frame.projection)) return false;
+  const double place_error = 0x1p-23 * std::max(frame.crop.width, frame.crop.height);
+  return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;
+}
+
+ToleranceShares extended_shares() {
+  ToleranceShares shares;
+  shares.promise = extended_tolerance;
+  // Farther discs cost little; single precision's last digits cannot be had back.
+  shares.truncation = 0.01 * extended_tolerance;
+  const double arithmetic = extended_tolerance - shares.truncation;
+  shares.pixel_mean = 0.5 * arithmetic;
+  shares.phi = arithmetic - shares.pixel_mean;
+  return shares;
+}
+
+ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& options) {
+  const bool ordered = light == LightPlan::ordered;
+  ToleranceShares shares;
+  shares.promise = tolerance;
+  shares.truncation = 0.5 * tolerance;
+  const double coarse_grids = ordered ? 0 : 0.25 * tolerance;
+  shares.coarse_grids = options.coarse_grids ? coarse_grids : 0;
+  const double arithmetic = tolerance - shares.truncation - coarse_grids;
+  shares.early_stop = ordered ? 0.2 * arithmetic : 0;
+  shares.phi = (ordered ? 0.2 : 0.25) * arithmetic;
+  shares.pixel_mean = arithmetic - shares.phi - shares.early_stop;
+  return shares;
+}
+
+}  // namespace
+
+ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options) {
+  ErrorBudget budget;
+  const bool may_extend = has_extended_projection(frame.projection);
+  budget.has_sharp_clouds = frame.tolerance > 0 && places_exceed_tolerance(frame);
+  if ((frame.tolerance == 0 && may_extend) || budget.has_sharp_clouds) {
+    budget.precision = Precision::extended;
+    budget.uses_device_erf = true;
+    budget.shares = extended_shares();
+    return budget;
+  }
+  // Wide angles have single precision only, and at tolerance 0 do what that can.
+  budget.precision = frame.tolerance < fast_tolerance ? Precision::full : Precision::fast;
+  budget.uses_device_erf = frame.tolerance < polynomial_erf_tolerance;
+  budget.shares =
+      share_out(frame.tolerance > 0 ? frame.tolerance : extended_tolerance, light, options);
+  return budget;
+}
+
+double response_to_splats(double brightest_source, double brightest_background) {
+  constexpr double depth_to_light = 0.36787944117144233;  // the maximum of x exp(-x)
+  const double brightest = std::max({1.0, brightest_background, brightest_source});
+  return std::min(1.0, depth_to_light * brightest);
+}
+
+}  // namespace splotchcl

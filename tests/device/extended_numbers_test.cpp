@@ -1,0 +1,152 @@
+// The functions of kernels/extended/extended.cl and precise.cl keep the errors that their comments
+// name, in double precision and in pairs of floats.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "device/opencl/launch.h"
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+// Work-item i: the function of x[i], as a pair.
+constexpr const char* extended_kernel = R"(
+__kernel void evaluate(__global const float* x, __global float* results) {
+  const uint i = get_global_id(0);
+  const Extended value = FUNCTION;
+  results[2 * i] = high_part(value);
+  results[2 * i + 1] = low_part(value);
+}
+)";
+constexpr const char* precise_kernel = R"(
+__kernel void evaluate(__global const float* x, __global float* results) {
+  const uint i = get_global_id(0);
+  results[2 * i] = FUNCTION;
+  results[2 * i + 1] = 0.0f;
+}
+)";
+
+// Numbers of either kind: true for double precision.
+class ExtendedNumbers : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  std::vector<double> evaluate(const std::string& function, const char* kernel,
+                               const std::vector<float>& x) {
+    std::string defines = "#define FUNCTION " + function + "\n";
+    if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
+    const compute::program program = device().programs.get(
+        {defines, {"splat.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl"}, kernel});
+    const auto results = device().pool.get<float>(2 * x.size(), "result");
+    Launch(device(), "test", program.create_kernel("evaluate"))
+        .arg(device().pool.upload(x, "argument"))
+        .arg(results)
+        .run_items(x.size());
+    const std::vector<float> pairs = device().pool.download(results, 2 * x.size());
+    std::vector<double> values;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      values.push_back(static_cast<double>(pairs[2 * i]) + static_cast<double>(pairs[2 * i + 1]));
+    return values;
+  }
+
+  // The largest error, relative to max(|f|, floor).
+  double largest_error(const std::string& function, const std::vector<float>& x,
+                       const std::function<double(double)>& f, double floor,
+                       const char* kernel = extended_kernel) {
+    const std::vector<double> values = evaluate(function, kernel, x);
+    double largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double expected = f(static_cast<double>(x[i]));
+      const double error = std::abs(values[i] - expected) / std::max(std::abs(expected), floor);
+      largest = std::isfinite(error) ? std::max(largest, error) : 1e300;
+    }
+    return largest;
+  }
+};
+
+std::vector<float> evenly(double low, double high, int count) {
+  std::vector<float> x;
+  for (int i = 0; i <= count; ++i)
+    x.push_back(static_cast<float>(low + (high - low) * i / count));
+  return x;
+}
+
+std::vector<float> logarithmically(double low, double high, int count) {
+  std::vector<float> x;
+  for (int i = 0; i <= count; ++i)
+    x.push_back(static_cast<float>(low * std::pow(high / low, 1.0 * i / count)));
+  return x;
+}
+
+TEST_P(ExtendedNumbers, Exp) {
+  const auto f = [](double x) { return std::exp(x); };
+  EXPECT_LE(largest_error("extended_exp(extended_of(x[i]))", evenly(-70, 80, 5000), f, 1e-300),
+            3e-9);
+  EXPECT_LE(largest_error("extended_exp(extended_of(x[i]))", evenly(-200, -70, 500), f, 1e-36), 1);
+}
+
+TEST_P(ExtendedNumbers, Erfc) {
+  const auto f = [](double x) { return std::erfc(x); };
+  EXPECT_LE(largest_error("extended_erfc(extended_of(x[i]))", evenly(0, 8.5, 5000), f, 1e-300),
+            5e-9);
+  EXPECT_LE(largest_error("extended_erfc(extended_of(x[i]))", evenly(8.5, 1000, 500), f, 1e-36), 1);
+}
+
+TEST_P(ExtendedNumbers, Log) {
+  const auto f = [](double x) { return std::log(x); };
+  const std::string log = "extended_log(extended_of(x[i]))";
+  EXPECT_LE(largest_error(log, logarithmically(1e-37, 3e38, 5000), f, 1), 3e-9);
+  EXPECT_LE(largest_error(log, evenly(0.5, 2, 1000), f, 1), 3e-9);
+}
+
+TEST_P(ExtendedNumbers, Asinh) {
+  const auto f = [](double x) { return std::asinh(x); };
+  for (const double sign : {-1.0, 1.0}) {
+    std::vector<float> x = logarithmically(1e-30, 3e38, 5000);
+    for (float& value : x)
+      value *= static_cast<float>(sign);
+    EXPECT_LE(largest_error("extended_asinh(x[i])", x, f, 1), 4e-9);
+    EXPECT_LE(largest_error("extended_asinh(x[i])", x, f, 1e-300), 1.3e-7);
+  }
+}
+
+// Sums, products, quotients and roots of numbers that single precision cannot hold.
+TEST_P(ExtendedNumbers, Arithmetic) {
+  const std::vector<float> x = logarithmically(1e-3, 1e3, 2000);
+  const std::string third = "extended_quotient(extended_of(x[i]), extended_of(3.0f))";
+  const auto near = [&](const std::string& function, double (*f)(double)) {
+    return largest_error(function, x, f, 1e-300);
+  };
+  EXPECT_LE(near(third, [](double v) { return v / 3; }), 0x1p-45);
+  EXPECT_LE(
+      near("extended_sum(" + third + ", extended_of(7.0f))", [](double v) { return v / 3 + 7; }),
+      0x1p-45);
+  EXPECT_LE(near("extended_product(" + third + ", " + third + ")",
+                 [](double v) { return v / 3 * (v / 3); }),
+            0x1p-44);
+  EXPECT_LE(near("extended_root(" + third + ")", [](double v) { return std::sqrt(v / 3); }),
+            0x1p-44);
+}
+
+TEST_P(ExtendedNumbers, PreciseExpAndPhi) {
+  const auto exp = [](double y) { return std::exp(-y); };
+  const auto phi = [](double y) { return y > 0 ? -std::expm1(-y) / y : 1; };
+  EXPECT_LE(largest_error("precise_exp_negative(x[i], 0.0f)", evenly(0, 80, 5000), exp, 1e-300,
+                          precise_kernel),
+            1.3e-7);
+  EXPECT_LE(largest_error("precise_phi(x[i])", logarithmically(1e-30, 1e30, 5000), phi, 1e-300,
+                          precise_kernel),
+            1.3e-7);
+  EXPECT_LE(largest_error("precise_phi(x[i])", evenly(0, 5, 5000), phi, 1e-300, precise_kernel),
+            1.3e-7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ExtendedNumbers, testing::Bool(),
+                         [](const testing::TestParamInfo<bool>& info) {
+                           return info.param ? "doubles" : "pairs";
+                         });
+
+}  // namespace
+}  // namespace splotchcl::test
