@@ -11,7 +11,7 @@
 
 namespace splotchcl {
 
-// Draws one frame: a Renderer's render, or the oracle's.
+// Draws one frame: a Renderer's render, or the reference's.
 using DrawFrame = std::function<Image(const Frame&)>;
 
 // One picture that a scene asks for, ready to be written, in linear light.
