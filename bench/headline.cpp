@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "exact.h"
+#include "frame_error.h"
 #include "machine.h"
 #include "measure.h"
 #include "process.h"
@@ -160,10 +160,10 @@ WholeProcess time_processes(const fs::path& scene_file, const std::vector<std::s
 
 FrameError judge(const Image& image, const Frame& frame, int side) {
   const std::vector<Rectangle> parts = sample_parts(frame.crop, side);
-  const std::vector<ReferenceImage> exact = draw_exact_parts(frame, parts);
+  const std::vector<ReferenceImage> references = draw_reference_parts(frame, parts);
   FrameError error;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    error.join(measure_error(image, frame.crop, exact[i], parts[i]));
+    error.join(measure_error(image, frame.crop, references[i], parts[i]));
   return error;
 }
 
@@ -216,7 +216,7 @@ class Report {
            targets_.text() +
            "\nStages, milliseconds of the device, medians; and what there was\n\n" +
            stages_.text() +
-           "\nLargest error of |frame - oracle| / max(1, |oracle|) on parts of the frame "
+           "\nLargest error of |frame - reference| / max(1, |reference|) on parts of the frame "
            "timed\n\n" +
            errors_.text();
   }
@@ -323,7 +323,7 @@ int main(int count, char** words) {
        "filter=TEXT: only scenes with this in their name",
        "tolerance=X: instead of the scenes' own", "runs=COUNT: how often each frame is timed (5)",
        "part=PIXELS: side of the squares on which the error is measured (64)",
-       "no-error: leaves the oracle out", "device=NAME: part of a device's name",
+       "no-error: leaves the reference out", "device=NAME: part of a device's name",
        "csv=FOLDER: where the tables go"},
       splotchcl::bench::run);
 }

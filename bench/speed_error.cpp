@@ -1,4 +1,4 @@
-// What a frame costs against how far it lies from the oracle, at every tolerance. The error
+// What a frame costs against how far it lies from the reference, at every tolerance. The error
 // is that of the very picture that was timed, over all of its pixels.
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "exact.h"
+#include "frame_error.h"
 #include "machine.h"
 #include "measure.h"
 #include "splotchcl/plan.h"
@@ -118,20 +118,20 @@ class SpeedAndError {
     Frame frame = scene.frame;
     set_light(frame, light);
     const Stopwatch stopwatch;
-    const ReferenceImage exact = reference::render(frame);
-    const Cost oracle = stopwatch.elapsed();
+    const ReferenceImage reference_image = reference::render(frame);
+    const Cost reference_cost = stopwatch.elapsed();
     std::vector<std::string> cells = {scene.name, scene.splats, name(light),
                                       std::to_string(count_particles(frame))};
     for (const double tolerance : tolerances) {
       frame.tolerance = tolerance;
       Image image;
       const Runs runs = measure(runs_, [&] { image = renderer_.render(frame); });
-      const FrameError error = measure_error(image, frame.crop, exact, frame.crop);
+      const FrameError error = measure_error(image, frame.crop, reference_image, frame.crop);
       cells.push_back(milliseconds(runs.median().wall_seconds) + "  " + scientific(error.maximum) +
                       "  " + scientific(error.rms()));
-      add_point(scene, light, frame, runs, error, oracle);
+      add_point(scene, light, frame, runs, error, reference_cost);
     }
-    cells.push_back(milliseconds(oracle.wall_seconds));
+    cells.push_back(milliseconds(reference_cost.wall_seconds));
     summary_.add(cells);
   }
 
@@ -145,25 +145,25 @@ class SpeedAndError {
     std::vector<std::string> columns = {"scene", "splats", "plan", "particles"};
     for (const double tolerance : tolerances)
       columns.push_back("ms, max, rms at " + text_of_tolerance(tolerance));
-    columns.push_back("oracle ms");
+    columns.push_back("reference ms");
     return columns;
   }
 
   void add_point(const SceneToTime& scene, LightPlan light, const Frame& frame, const Runs& runs,
-                 const FrameError& error, const Cost& oracle) {
+                 const FrameError& error, const Cost& reference_cost) {
     const bool kept = error.maximum <= promise(frame.tolerance);
     ++point_count_;
     points_beyond_ += kept ? 0 : 1;
     const std::size_t count = count_particles(frame);
     const double rate = static_cast<double>(count) / runs.median().wall_seconds;
-    points_.add({scene.name, scene.splats, name(light), text_of_tolerance(frame.tolerance),
-                 scientific(promise(frame.tolerance)), std::to_string(count),
-                 std::to_string(frame.width), std::to_string(frame.height),
-                 milliseconds(runs.median().wall_seconds),
-                 milliseconds(runs.minimum().wall_seconds), milliseconds(runs.median().cpu_seconds),
-                 fixed(rate, 0), scientific(error.maximum), scientific(error.rms()),
-                 scientific(error.brightest), kept ? "yes" : "no",
-                 milliseconds(oracle.wall_seconds), milliseconds(oracle.cpu_seconds)});
+    points_.add(
+        {scene.name, scene.splats, name(light), text_of_tolerance(frame.tolerance),
+         scientific(promise(frame.tolerance)), std::to_string(count), std::to_string(frame.width),
+         std::to_string(frame.height), milliseconds(runs.median().wall_seconds),
+         milliseconds(runs.minimum().wall_seconds), milliseconds(runs.median().cpu_seconds),
+         fixed(rate, 0), scientific(error.maximum), scientific(error.rms()),
+         scientific(error.brightest), kept ? "yes" : "no",
+         milliseconds(reference_cost.wall_seconds), milliseconds(reference_cost.cpu_seconds)});
   }
 
   Renderer renderer_;
@@ -172,7 +172,7 @@ class SpeedAndError {
   Table summary_;
   Table points_{{"scene", "splats", "plan", "tolerance", "promise", "particles", "width", "height",
                  "median_ms", "minimum_ms", "cpu_ms", "particles_per_s", "max_error", "rms_error",
-                 "brightest", "kept", "oracle_ms", "oracle_cpu_ms"}};
+                 "brightest", "kept", "reference_ms", "reference_cpu_ms"}};
 };
 
 void run(const Arguments& arguments) {

@@ -8,7 +8,7 @@ scenes = "'sparse stars|small' 'sparse stars|large' 'thin gas|small' 'thin gas|l
 'thick gas|small' 'thick gas|large' 'gas and stars|small' 'gas and stars|large' 'universe|all'"
 colours = "#c9a400 #8a7000 #56b4e9 #0072b2 #e69f00 #d55e00 #66cc99 #009e73 #000000"
 plans = "emission proportional ordered"
-# A frame that meets the oracle's every bit would have no place on a logarithmic scale.
+# A frame that meets every bit of the reference would have no place on a logarithmic scale.
 smallest = 1e-10
 is_point(plan, scene) = strcol("plan") eq plan && strcol("scene")."|".strcol("splats") eq scene
 error_of(plan, scene) = is_point(plan, scene) ? (column("max_error") > smallest ? column("max_error") : smallest) : NaN
@@ -28,12 +28,12 @@ do for [p = 1:3] {
   plan = word(plans, p)
   set title plan
   set xlabel "measured largest error"
-  set ylabel p == 1 ? "ms per frame; rings: the oracle" : ""
+  set ylabel p == 1 ? "ms per frame; rings: the reference" : ""
   set yrange [0.5:3e5]
   set format y "%g"
   plot for [s = 1:9] csv using (error_of(plan, word(scenes, s))):"median_ms" \
          with linespoints pt 7 ps 0.9 lw 1.5 lc rgb word(colours, s), \
-       for [s = 1:9] csv using (is_point(plan, word(scenes, s)) ? 7e-9 : NaN):"oracle_ms" \
+       for [s = 1:9] csv using (is_point(plan, word(scenes, s)) ? 7e-9 : NaN):"reference_ms" \
          with points pt 6 ps 1.3 lc rgb word(colours, s)
 }
 set format y "10^{%L}"

@@ -1,4 +1,4 @@
-// Whole frames of a clustered universe as a user draws them, and the oracle's for the
+// Whole frames of a clustered universe as a user draws them, and the reference's for the
 // smallest of them.
 #include "splotchcl/reference.h"
 #include "splotchcl/renderer.h"
@@ -28,7 +28,7 @@ void draw(benchmark::State& state, const std::string& device, const Frame& frame
       static_cast<double>(stats.device_bytes) / static_cast<double>(stats.particles);
 }
 
-void draw_with_oracle(benchmark::State& state, const Frame& frame) {
+void draw_reference(benchmark::State& state, const Frame& frame) {
   PieceTimer timer(state);
   for (auto _ : state)
     timer.time([&] { reference::render(frame); });
@@ -63,8 +63,8 @@ void add_frame_benchmarks(const Setting& setting) {
         draw(state, device, frame());
       });
       if (size.particles > smallest.particles) continue;
-      add_benchmark("frame_oracle" + name,
-                    [frame](benchmark::State& state) { draw_with_oracle(state, frame()); });
+      add_benchmark("frame_reference" + name,
+                    [frame](benchmark::State& state) { draw_reference(state, frame()); });
     }
   }
 }

@@ -48,7 +48,7 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Everything a renderer needs for one picture, the same for the device and the oracle. Renderers
+// Everything a renderer needs for one picture, the same for the device and the reference. Renderers
 // throw UsageError for a crop or a background image that does not fit the picture.
 struct Frame {
   int width = 0, height = 0;  // of the whole picture, in pixels: they fix the camera
@@ -62,8 +62,8 @@ struct Frame {
   std::shared_ptr<const Image> background_image;
   KernelSettings kernel;
   SortOrder sort;
-  // What the device promises of every pixel and channel: |picture - oracle| <=
-  // tolerance * max(1, |oracle|), >= 0; 0: the most exact that it can do (docs/accuracy.md).
+  // What the device promises of every pixel and channel: |picture - reference| <=
+  // tolerance * max(1, |reference|), >= 0; 0: the most exact that it can do (docs/accuracy.md).
   double tolerance = 1e-3;
   std::vector<DrawnComponent> components;
 };
@@ -76,7 +76,7 @@ inline std::uint64_t particle_count(const Frame& frame) {
   return count;
 }
 
-// The depth key's constants in binary32, the same for kernel and oracle:
+// The depth key's constants in binary32, the same for kernel and reference:
 //   d = (p - position_high) - position_low   per axis, p the stored offset
 //   z = (d.x * forward.x + d.y * forward.y) + d.z * forward.z
 // or, for wide angles, the squared distance, in units of a power of two that is near the

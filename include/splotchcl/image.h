@@ -28,7 +28,7 @@ struct Image {
   }
 };
 
-// The same in double precision, as the oracle draws it.
+// The same in double precision, as the reference renderer draws it.
 struct ReferenceImage {
   int width = 0, height = 0;
   std::vector<double> pixels;  // 4 * width * height

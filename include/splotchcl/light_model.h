@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-// How particles become light: the model that the device and the oracle draw, by the choices
-// that a scene has in it. What an absorbing and emitting cloud does to the light behind it is
-// equation (3) of Dolag, Reinecke, Gheller & Imboden, New J. Phys. 10, 125006 (2008), the paper
+// How particles become light: the model that the device and the reference renderer draw, by the
+// choices that a scene has in it. What an absorbing and emitting cloud does to the light behind it
+// is equation (3) of Dolag, Reinecke, Gheller & Imboden, New J. Phys. 10, 125006 (2008), the paper
 // below: I' = (I - E/A) exp(-A X) + E/A, with X the column of matter crossed, in units of the
 // component's reference column, and E and A its emission and absorption in each channel.
 namespace splotchcl {

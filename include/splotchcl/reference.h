@@ -8,8 +8,9 @@
 #include "splotchcl/image.h"
 #include "splotchcl/plan.h"
 
-// The oracle: a scalar renderer in double precision, written for reading. It shares no
-// code with the kernels. Its stages have the kernels' names, so each can be compared.
+// The reference renderer, also called the oracle: scalar, in double precision, written for
+// reading. It shares no code with the kernels. Its stages have the kernels' names, so each can be
+// compared.
 namespace splotchcl::reference {
 
 // A projected particle. Positions and widths are in pixels of the whole picture.

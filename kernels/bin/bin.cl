@@ -197,14 +197,18 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     sum_amplitude(splat, colors, knots, entry.summed);
 #endif
 #endif
+    // Of the band that lists are made of, the tiles of this row.
+    const int first = (int)p.first_tile - (int)grid.first_tile;
+    const int last = (int)p.end_tile - (int)grid.first_tile - 1;
     for (int ty = range.z; ty <= range.w; ++ty) {
-      for (int tx = range.x; tx <= range.y; ++tx) {
+      const int row = ty * grid.tiles_x;
+      const int end_x = min(range.y, last - row);
+      for (int tx = max(range.x, first - row); tx <= end_x; ++tx) {
 #ifndef EXTENDED_NUMBERS
         entry.x = splat.x - (float)(tx * TILE_WIDTH);
         entry.y = splat.y - (float)(ty * TILE_HEIGHT);
 #endif
-        const uint tile = grid.first_tile + (uint)(ty * grid.tiles_x + tx);
-        if (tile < p.first_tile || tile >= p.end_tile) continue;
+        const uint tile = grid.first_tile + (uint)(row + tx);
         entries[(size_t)starts[tile] + count[tile]++] = entry;
       }
     }

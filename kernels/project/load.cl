@@ -18,7 +18,7 @@ typedef struct Vectors {
   VALUE x, y, z;
 } Vectors;
 
-inline Vectors load_vectors(__global const float* vectors, uint i, uint end) {
+__attribute__((always_inline)) inline Vectors load_vectors(__global const float* vectors, uint i, uint end) {
   Vectors v;
 #ifdef LANES_8
   if (i + LANES <= end) {
@@ -48,7 +48,7 @@ inline Vectors load_vectors(__global const float* vectors, uint i, uint end) {
 }
 
 #ifdef VECTOR_COLORS
-inline Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
+__attribute__((always_inline)) inline Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
   if (stride != 0) return load_vectors(colors, i, end);
   Vectors same;
   same.x = same.y = same.z = (VALUE)(colors[0]);
@@ -76,7 +76,7 @@ typedef struct ParticleLanes {
 } ParticleLanes;
 
 // Particles from i on; those at or beyond `end` do not exist.
-inline ParticleLanes load_particles(const Columns columns, uint i, uint end,
+__attribute__((always_inline)) inline ParticleLanes load_particles(const Columns columns, uint i, uint end,
                                     const ProjectParameters p) {
   ParticleLanes particles;
 #ifdef LANES_8
@@ -100,7 +100,7 @@ inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
 inline INTEGER is_color(VALUE v) { return v >= 0.0f & v <= FLT_MAX; }
 
 // What reference::count_bad counts is not good; `offset` is the position less the camera's.
-inline INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
+__attribute__((always_inline)) inline INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
   INTEGER good = is_finite(offset.x) & is_finite(offset.y) & is_finite(offset.z) &
                  is_finite(particles.h) & particles.h > 0.0f & is_finite(particles.weight) &
                  particles.weight >= 0.0f & is_finite(particles.color) &

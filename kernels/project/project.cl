@@ -14,7 +14,7 @@ typedef struct SplatArrays {
   float sort_value[LANES];
 } SplatArrays;
 
-inline void spread(const SplatLanes s, SplatArrays* a) {
+__attribute__((always_inline)) inline void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.visible, a->visible);
 #ifdef OUTPUT_KEYS
   STORE(s.sort_value, a->sort_value);
@@ -45,7 +45,7 @@ inline void spread(const SplatLanes s, SplatArrays* a) {
 }
 
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
-inline void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
+__attribute__((always_inline)) inline void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
   splat->x = a->x[k];
   splat->y = a->y[k];
   splat->sigma = a->sigma[k];

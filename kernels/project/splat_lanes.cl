@@ -23,7 +23,7 @@ typedef struct WidthLanes {
 #endif
 } WidthLanes;
 
-inline WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
+__attribute__((always_inline)) inline WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
   WidthLanes widths;
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.kernel_width * widths.h * view.scale;
@@ -39,7 +39,7 @@ inline WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectPa
 
 // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
 // amplitude that single precision can hold against the smallest tolerance.
-inline INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
+__attribute__((always_inline)) inline INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
                            float height, const ProjectParameters p) {
   const VALUE reach = 7.0f * widths.sigma + 2.0f;
   INTEGER seen = is_within_depth(view.depth, widths.h, p) & view.y + reach >= 0.0f &
@@ -60,7 +60,7 @@ typedef struct BrightnessLanes {
   INTEGER crowded, bright;
 } BrightnessLanes;
 
-inline BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
+__attribute__((always_inline)) inline BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
                                        VALUE weight, const ProjectParameters p) {
   BrightnessLanes b;
   VALUE brightest = p.peak_color;
@@ -95,7 +95,7 @@ typedef struct SampledLanes {
 #endif
 } SampledLanes;
 
-inline SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
+__attribute__((always_inline)) inline SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
                                     VALUE weight, const ProjectParameters p) {
   SampledLanes s;
   const VALUE sigma = widths.sigma;
@@ -116,7 +116,7 @@ inline SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLan
 }
 
 // Puts the splat on its grid: its width, weight and radius there. `extent` is in sigma.
-inline void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
+__attribute__((always_inline)) inline void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
                           const SampledLanes sampled, const BrightnessLanes brightness,
                           VALUE extent, const ProjectParameters p) {
   s->grid = choose_grid(sampled.sigma, brightness.peak, p);
@@ -151,7 +151,7 @@ inline void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes 
 }
 
 // Whether the square that is drawn reaches its grid.
-inline INTEGER reaches_grid(const SplatLanes s, float width, float height,
+__attribute__((always_inline)) inline INTEGER reaches_grid(const SplatLanes s, float width, float height,
                             const ProjectParameters p) {
   const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
@@ -169,7 +169,7 @@ inline INTEGER reaches_grid(const SplatLanes s, float width, float height,
 // on average and for a splat below a pixel nearly everything: with t / sigma more, erfc(k)
 // falls as exp(-2 k t / sigma), whose mean over t from 0 to 1 is close to
 // sigma / (sigma + 2 k).
-inline VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
+__attribute__((always_inline)) inline VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
                              const ProjectParameters p) {
   const INTEGER faint = extent <= p.least_extent;
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
@@ -179,7 +179,7 @@ inline VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by
 #ifdef EXTENDED_NUMBERS
 // Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
 // reach beyond the truncation of any amplitude that single precision holds.
-inline INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
+__attribute__((always_inline)) inline INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
                                     float height) {
   const Vectors d = view.offset;
   const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
@@ -192,7 +192,7 @@ inline INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes width
 #endif
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
-inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
+__attribute__((always_inline)) inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                                 __global const Grid* grids, const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);

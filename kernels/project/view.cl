@@ -10,7 +10,7 @@ inline uint sort_key(float value, int descending) {
   return descending ? ~key : key;
 }
 
-inline Vectors offset_from(Vectors position, const float* high, const float* low) {
+__attribute__((always_inline)) inline Vectors offset_from(Vectors position, const float* high, const float* low) {
   Vectors d;
   d.x = (position.x - high[0]) - low[0];
   d.y = (position.y - high[1]) - low[1];
@@ -41,7 +41,7 @@ typedef struct ViewLanes {
 
 #ifdef WIDE_ANGLE
 // Depth is the distance; its square orders as well, and has a chain of its own.
-inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+__attribute__((always_inline)) inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   const VALUE squared = squared_distance(d, p.length_scale);
@@ -59,7 +59,7 @@ inline ViewLanes view_particles(const ParticleLanes particles, const ProjectPara
   return view;
 }
 #else
-inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+__attribute__((always_inline)) inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   view.offset = d;

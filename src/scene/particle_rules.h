@@ -9,8 +9,8 @@
 
 // What holds for every particle, said once for the host: which ones are bad, which ones are too
 // near, what their weights mean, how many there are. Kernels have the same rules in OpenCL C.
-// The oracle (src/reference) has a copy of its own on purpose: it is what all this is tested
-// against.
+// The reference renderer (src/reference) has a copy of its own on purpose: it is what all this is
+// tested against.
 namespace splotchcl {
 
 // Where no other near limit is set, a particle nearer to the camera than this many of its own

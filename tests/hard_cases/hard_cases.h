@@ -17,7 +17,7 @@ struct HardCase {
   std::string why;   // it is hard
   std::function<Frame(LightPlan)> frame;
   std::vector<LightPlan> plans = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
-  // The picture as it should be: the oracle's, or a closed form where that would take minutes.
+  // The picture as it should be: the reference's, or a closed form where that would take minutes.
   std::function<ReferenceImage(const Frame&)> exact = [](const Frame& frame) {
     return reference::render(frame);
   };

@@ -117,7 +117,7 @@ std::string palette_text(const OriginalPicture& p) {
 
 // The picture as it is written, against what the original draws.
 //
-// 2 of 255 is what is promised. With the oracle, whose arithmetic is double precision too,
+// 2 of 255 is what is promised. With the reference, whose arithmetic is double precision too,
 // bytes differ by 1 where rounding carries a value across a step, and by more only where a
 // sample lies on the edge of a cloud; none does here.
 void expect_as_original(const Scene& scene, const OriginalPicture& picture,

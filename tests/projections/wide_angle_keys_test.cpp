@@ -1,4 +1,4 @@
-// Where the device puts particles in wide angles, and in which order, is the oracle's.
+// Where the device puts particles in wide angles, and in which order, is the reference's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
     kernel::Splat splat;
     std::memcpy(&splat, values.data() + i * words, sizeof(splat));
     const auto [first, last] = expected.equal_range(identity_of(splat));
-    ASSERT_NE(first, last) << "a particle that the oracle leaves out";
+    ASSERT_NE(first, last) << "a particle that the reference leaves out";
     ASSERT_EQ(keys[i], ordered_bits(first->second.key)) << "particle " << identity_of(splat);
     const bool is_on_a_coarse_grid = splat.component_and_grid >> 16 != 0;
     if (is_on_a_coarse_grid) continue;

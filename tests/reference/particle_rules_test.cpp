@@ -1,4 +1,4 @@
-// The host's rules for particles beside the oracle's own copy of them.
+// The host's rules for particles beside the reference renderer's own copy of them.
 #include "scene/particle_rules.h"
 
 #include <gtest/gtest.h>

@@ -63,7 +63,9 @@ void BufferPool::release_until_it_fits(std::uint64_t wanted) {
   if (total_bytes_ + wanted <= most || free_.empty()) return;
   // Memory goes when the commands that use it have ended.
   queue_.finish();
-  std::sort(free_.begin(), free_.end(), is_smaller);
+  // The smallest first: large ones are dear to make again, since a processor touches them anew.
+  std::sort(free_.begin(), free_.end(),
+            [](const auto& a, const auto& b) { return is_smaller(b, a); });
   while (total_bytes_ + wanted > most && !free_.empty()) {
     total_bytes_ -= free_.back().size();
     free_.pop_back();

@@ -36,7 +36,16 @@ struct Projector::Targets {
 };
 
 Projector::Projector(const StageContext& context)
-    : context_(context), unused_(context.device.pool.get<std::uint32_t>(0, "unused")) {}
+    : context_(context), unused_(context.device.pool.get<std::uint32_t>(0, "unused")) {
+  // Compiled, or found compiled, before the device has work to do.
+  ProgramCache& programs = context.device.programs;
+  if (context.plan.needs_sort()) {
+    programs.get(context.specialization.project(ProjectOutput::counts));
+    programs.get(context.specialization.project(ProjectOutput::splats_and_keys));
+  } else {
+    programs.get(context.specialization.project(ProjectOutput::splats));
+  }
+}
 
 shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles) const {

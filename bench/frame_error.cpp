@@ -1,4 +1,4 @@
-#include "exact.h"
+#include "frame_error.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 namespace splotchcl::bench {
 namespace {
 
-// At a time, so that the oracle's splats of a large snapshot fit in memory.
+// At a time, so that the reference's splats of a large snapshot fit in memory.
 constexpr std::size_t most_particles = 1000000;
 
 Column slice(const Column& column, std::size_t first, std::size_t count, std::size_t width) {
@@ -55,7 +55,7 @@ Particles gather(const Particles& all, const std::vector<std::size_t>& chosen) {
   return part;
 }
 
-// Beyond this distance a splat is below 1e-17 of white: less than the oracle itself keeps.
+// Beyond this distance a splat is below 1e-17 of white: less than the reference itself keeps.
 double farthest_reach(const reference::Splat& splat) {
   double strongest = 1;
   for (int c = 0; c < 3; ++c) {
@@ -105,12 +105,12 @@ void FrameError::join(const FrameError& other) {
 }
 
 FrameError measure_error(const Image& image, const Rectangle& image_crop,
-                         const ReferenceImage& exact, const Rectangle& part) {
+                         const ReferenceImage& reference, const Rectangle& part) {
   FrameError error;
   error.values = 3.0 * part.width * part.height;
   for (int y = 0; y < part.height; ++y) {
     const float* found = image.at(part.x - image_crop.x, part.y - image_crop.y + y);
-    const double* expected = exact.pixels.data() +
+    const double* expected = reference.pixels.data() +
                              4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width);
     for (int i = 0; i < 4 * part.width; ++i) {
       if (i % 4 == 3) continue;
@@ -125,8 +125,8 @@ FrameError measure_error(const Image& image, const Rectangle& image_crop,
   return error;
 }
 
-std::vector<ReferenceImage> draw_exact_parts(const Frame& frame,
-                                             const std::vector<Rectangle>& parts) {
+std::vector<ReferenceImage> draw_reference_parts(const Frame& frame,
+                                                 const std::vector<Rectangle>& parts) {
   std::vector<Frame> part_frames;
   for (const Rectangle& part : parts) {
     part_frames.push_back(frame);
