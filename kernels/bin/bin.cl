@@ -12,8 +12,7 @@ inline int4 tile_range(const Splat splat, const Grid grid) {
                 rows.y / TILE_HEIGHT);
 }
 
-inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
-                      uint block) {
+inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks, uint block) {
   const uint begin = p.first + block * p.stride;
 #ifdef BLOCKS_OF_PROJECTION
   // Blocks are the projection's: each fills only a part of its stride.
@@ -31,7 +30,8 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
                         __global Splat* in_order) {
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
-  for (uint t = 0; t < p.tile_count; ++t) count[t] = 0;
+  for (uint t = 0; t < p.tile_count; ++t)
+    count[t] = 0;
   const uint end = slots_end(p, blocks, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef LIGHT_ORDERED
@@ -94,7 +94,8 @@ inline void sample_knots(__global const float* knots, uint first, uint count, fl
   const float fraction = place - (float)below;
   __global const float* a = knots + (size_t)(first + below) * 3;
   __global const float* b = knots + (size_t)(first + above) * 3;
-  for (int c = 0; c < 3; ++c) color[c] = a[c] + fraction * (b[c] - a[c]);
+  for (int c = 0; c < 3; ++c)
+    color[c] = a[c] + fraction * (b[c] - a[c]);
 }
 
 #ifndef LIGHT_ORDERED
@@ -107,30 +108,34 @@ inline void sum_amplitude(const Splat splat, const ComponentColors colors,
   const float scale = splat.weight * colors.brightness;
 #else
   const int own = colors.absorption_knot_count > 0;
-  const float scale = splat.weight * (colors.absorption_kind == ABSORPTION_FACTOR
-                                          ? colors.absorption_factor
-                                          : colors.brightness);
+  const float scale =
+      splat.weight *
+      (colors.absorption_kind == ABSORPTION_FACTOR ? colors.absorption_factor : colors.brightness);
 #endif
   sample_knots(knots, own ? colors.first_absorption_knot : colors.first_knot,
                own ? colors.absorption_knot_count : colors.knot_count, splat.color, summed);
-  for (int c = 0; c < 3; ++c) summed[c] *= scale;
+  for (int c = 0; c < 3; ++c)
+    summed[c] *= scale;
 #ifdef VECTOR_COLORS
   // An absorption palette of its own is not the particles' colour.
-  for (int c = 0; c < 3 && !own; ++c) summed[c] *= splat.own_color.rgb[c];
+  for (int c = 0; c < 3 && !own; ++c)
+    summed[c] *= splat.own_color.rgb[c];
 #endif
 }
 #else
 // E w and A w at the cloud's centre (scene.h, Absorption). As a call it would leave its results
 // in memory in pieces, which a processor cannot forward to the copy of the whole entry.
-__attribute__((always_inline)) inline void amplitudes(const Splat splat, const ComponentColors colors,
-                       __global const float* knots, const BinParameters p, float* emission,
-                       float* absorption) {
+INLINED void amplitudes(const Splat splat, const ComponentColors colors,
+                        __global const float* knots, const BinParameters p, float* emission,
+                        float* absorption) {
   float e[3], a[3];
   sample_knots(knots, colors.first_knot, colors.knot_count, splat.color, e);
 #ifdef VECTOR_COLORS
-  for (int c = 0; c < 3; ++c) e[c] *= splat.own_color.rgb[c];
+  for (int c = 0; c < 3; ++c)
+    e[c] *= splat.own_color.rgb[c];
 #endif
-  for (int c = 0; c < 3; ++c) a[c] = e[c];
+  for (int c = 0; c < 3; ++c)
+    a[c] = e[c];
   if (colors.absorption_knot_count > 0) {
     sample_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count, splat.color, a);
   }

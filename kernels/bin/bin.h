@@ -30,8 +30,8 @@ struct BinParameters {
   unsigned int block_count;
   unsigned int tile_count;
   unsigned int grid_count;
-  unsigned int segment_length;    // entries of a tile's list per work-item or group
-  unsigned int segment_capacity;  // segments that the buffer holds
+  unsigned int segment_length;        // entries of a tile's list per work-item or group
+  unsigned int segment_capacity;      // segments that the buffer holds
   unsigned int first_tile, end_tile;  // lists are made of these only
   float mean_sigma;
   float widening;

@@ -3,6 +3,10 @@
 
 #pragma OPENCL FP_CONTRACT ON
 
+// Where a call would cost: PoCL leaves functions of some length as calls, and their structures
+// in memory.
+#define INLINED __attribute__((always_inline)) inline
+
 #ifdef ELLIPSES
 #define SIGMA_X(splat) ((splat).along_x.sigma)
 #define RADIUS_X(splat) ((splat).along_x.radius)
@@ -18,7 +22,8 @@ inline size_t first_float(const Grid grid) {
 // The grid that a tile belongs to. Grids are few, coarse ones small.
 inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile) {
   uint g = 0;
-  while (g + 1 < grid_count && tile >= grids[g + 1].first_tile) ++g;
+  while (g + 1 < grid_count && tile >= grids[g + 1].first_tile)
+    ++g;
   return g;
 }
 
@@ -32,7 +37,8 @@ inline int2 pixel_range(float center, float radius, int size) {
   const float last = high < end - 1.0f ? (high > -1.0f ? high : -1.0f) : end - 1.0f;
   // Up and down by comparison: ceil and floor are calls on PoCL.
   const int2 truncated = (int2)((int)first, (int)last);
-  return (int2)(truncated.x + ((float)truncated.x < first), truncated.y - ((float)truncated.y > last));
+  return (int2)(truncated.x + ((float)truncated.x < first),
+                truncated.y - ((float)truncated.y > last));
 }
 
 // The radius of a cut disc: the drawn one, less the half pixel of pixel means.

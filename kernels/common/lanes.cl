@@ -40,6 +40,7 @@ inline VALUE log2_positive(VALUE x) {
   const VALUE m = AS_VALUE((bits & 0x007fffff) + 0x3f3504f3);
   const VALUE t = (m - 1.0f) / (m + 1.0f);
   const VALUE t2 = t * t;
-  const VALUE series = t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
+  const VALUE series =
+      t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
   return TO_VALUE(exponent) + series - choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
 }

@@ -1,8 +1,8 @@
 // Compositing of extended precision, the same on every device: a work-group
 // takes a segment of one tile's list, a work-item eight pixels of a row. For a batch of
-// splats at a time the group works out the shapes' columns and rows in extended numbers, and then every
-// pixel takes their products. Sums are extended numbers; in the ordered plan the optical depth
-// is summed instead of the opacity, so that no transmittance loses its digits, however thick
+// splats at a time the group works out the shapes' columns and rows in extended numbers, and then
+// every pixel takes their products. Sums are extended numbers; in the ordered plan the optical
+// depth is summed instead of the opacity, so that no transmittance loses its digits, however thick
 // what lies before.
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 #define GROUP (TILE_PIXELS / 8)
@@ -11,7 +11,8 @@
 // The mean of exp(-t^2 / sigma^2) over a pixel whose centre is at distance d, by the
 // differences of erfc that do not cancel.
 inline Extended narrow_mean(Extended d, Extended sigma) {
-  const Extended far = extended_sum(d, extended_of(0.5f)), near = extended_difference(d, extended_of(0.5f));
+  const Extended far = extended_sum(d, extended_of(0.5f)),
+                 near = extended_difference(d, extended_of(0.5f));
   const Extended far_erfc = extended_erfc(extended_quotient(far, sigma));
   const Extended near_erfc = extended_erfc(extended_quotient(extended_magnitude(near), sigma));
   const Extended difference =
@@ -29,8 +30,8 @@ inline float mean_excess(float slope, float bend) {
     const float s = slope * slope;
     const float second = s + 2.0f * bend;
     const float fourth = (s + 12.0f * bend) * s + 12.0f * bend * bend;
-    const float sixth = ((s + 30.0f * bend) * s + 180.0f * bend * bend) * s +
-                        120.0f * bend * bend * bend;
+    const float sixth =
+        ((s + 30.0f * bend) * s + 180.0f * bend * bend) * s + 120.0f * bend * bend * bend;
     return second * (1.0f / 24.0f) + fourth * (1.0f / 1920.0f) + sixth * (1.0f / 322560.0f);
   }
   const float points[3] = {0.466234757f, 0.330604693f, 0.119309593f};
@@ -172,7 +173,7 @@ inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
 #ifdef KERNEL_CUT
 // The columns of eight pixels, without those outside the cut disc.
 inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch, uint k, uint x,
-                             uint y) {
+                                uint y) {
   const Extended cut = extended_pair(batch->splats[k].cut);
   const Extended cut_square = extended_product(cut, cut);
   FloatPair row;
@@ -183,7 +184,8 @@ inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch
     FloatPair square;
     square.high = batch->square_high[k * AXES + x + lane];
     square.low = batch->square_low[k * AXES + x + lane];
-    inside[lane] = !extended_less(cut_square, extended_sum(extended_pair(square), extended_pair(row)));
+    inside[lane] =
+        !extended_less(cut_square, extended_sum(extended_pair(square), extended_pair(row)));
 #ifdef SAMPLING_MEAN
     inside[lane] |= batch->holds[k * AXES + x + lane] && batch->holds[k * AXES + y];
 #endif
@@ -196,8 +198,8 @@ inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-                         __global const TileSplat* entries, __global float* planes,
-    __global float* partials, __global const ExtendedSplat* splats) {
+    __global const TileSplat* entries, __global float* planes, __global float* partials,
+    __global const ExtendedSplat* splats) {
   __local Batch batch;
   const uint item = get_local_id(0);
   const Segment segment = segments[get_group_id(0)];
@@ -206,8 +208,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const float corner_x = (float)(in_grid % (uint)grid.tiles_x * TILE_WIDTH);
   const float corner_y = (float)(in_grid / (uint)grid.tiles_x * TILE_HEIGHT);
   __global float* own = own_planes(planes, grid, segment.tile, item);
-  Pixels pixels =
-      segment.partial == NO_PARTIAL ? load_pixels(own, grid.plane_size) : no_pixels();
+  Pixels pixels = segment.partial == NO_PARTIAL ? load_pixels(own, grid.plane_size) : no_pixels();
   for (uint first = segment.begin; first < segment.end; first += BATCH) {
     const uint count = min((uint)BATCH, segment.end - first);
     if (item < count) batch.splats[item] = splats[entries[first + item].slot];
@@ -226,8 +227,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       along.low = batch.low[k * AXES + y];
       const float8 across = vload8(0, batch.high + k * AXES + x);
       if (along.high == 0.0f || !any(across != 0.0f)) continue;
-      ExtendedLanes column =
-          lanes_product(lanes_pair(across, vload8(0, batch.low + k * AXES + x)), extended_pair(along));
+      ExtendedLanes column = lanes_product(lanes_pair(across, vload8(0, batch.low + k * AXES + x)),
+                                           extended_pair(along));
 #ifdef KERNEL_CUT
       column = cut_column(column, &batch, k, x, y);
 #endif
@@ -247,7 +248,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
 // work-group per segment, of which the first of a tile joins them all.
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join_extended(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-                         __global float* planes, __global const float* partials) {
+    __global float* planes, __global const float* partials) {
   const uint id = get_group_id(0), item = get_local_id(0);
   const Segment first = segments[id];
   if (first.partial == NO_PARTIAL || (id > 0 && segments[id - 1].tile == first.tile)) return;
@@ -260,9 +261,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join_extended(
     for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
       const float8 seen = transmittance(pixels.depth[c]);
-      pixels.light[c] =
-          lanes_sum(pixels.light[c], lanes_pair(high_lanes(behind.light[c]) * seen,
-                                                low_lanes(behind.light[c]) * seen));
+      pixels.light[c] = lanes_sum(pixels.light[c], lanes_pair(high_lanes(behind.light[c]) * seen,
+                                                              low_lanes(behind.light[c]) * seen));
       pixels.depth[c] = lanes_sum(pixels.depth[c], behind.depth[c]);
 #else
       pixels.light[c] = lanes_sum(pixels.light[c], behind.light[c]);

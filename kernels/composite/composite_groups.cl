@@ -57,8 +57,7 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-                         __global const TileSplat* entries, __global float* planes,
-    __global float* partials) {
+    __global const TileSplat* entries, __global float* planes, __global float* partials) {
   __local TileSplat batch[GROUP];
   const uint item = get_local_id(0);
   // The launch has as many groups as there are segments.

@@ -29,8 +29,7 @@ inline void load_tile(float* tile, __global const float* planes, const Grid grid
 inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
-      __global float* row =
-          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      __global float* row = planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         vstore8(vload8(0, tile + c * TILE_PIXELS + y * ROW + x), 0, row + x);
       }
@@ -71,16 +70,16 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 // The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
 // by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
 // since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
-#define LAYER_CHANNEL(c, PHI, PASSED)                                         \
-  {                                                                           \
-    float* const source = pixel + c * TILE_PIXELS;                            \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                     \
-    const float8 o = load_eight(opacity), t = transmittance_of(o);            \
-    const float8 depth = shape * absorption##c, phi = PHI(depth);             \
-    const float8 covered = shape * phi;                                       \
-    const float8 u = t * covered;                                             \
-    store_eight(load_eight(source) + u * emission##c, source);                \
-    store_eight(carry(o, u * absorption##c, t * PASSED(depth, phi)), opacity); \
+#define LAYER_CHANNEL(c, PHI, PASSED)                                        \
+  {                                                                          \
+    float* const source = pixel + c * TILE_PIXELS;                           \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
+    const float8 o = load_eight(opacity), t = transmittance_of(o);           \
+    const float8 depth = shape * absorption##c, phi = PHI(depth);            \
+    const float8 covered = shape * phi;                                      \
+    const float8 u = t * covered;                                            \
+    store_eight(load_eight(source) + u * emission##c, source);               \
+    store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
   }
 
 #define LAYER_ROWS(PHI, PASSED)                                                          \
@@ -190,13 +189,13 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     const float dx = (float)window.x - splat->x, dy = (float)window.y - splat->y;
-    const float8 edges =
-        error_function(((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) /
-                       sigma);
+    const float8 edges = error_function(
+        ((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) / sigma);
     const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
     float along[4];
     vstore4(means.hi, 0, along);
-    update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest, p);
+    update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
+                  p);
     return;
   }
 #endif
@@ -224,7 +223,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     }
 #ifdef ELLIPSES
     across = sigma_x < mean_sigma ? seven_means(dx, sigma_x)
-                                    : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
+                                  : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
 #endif
     update_window(tile, window, across, along, splat, deepest, p);
     return;
@@ -239,10 +238,12 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
   for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
 #ifdef KERNEL_CUT
     // The disc's part of these columns.
-    const float nearest = clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
+    const float nearest =
+        clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
 #ifdef ELLIPSES
     const float part_of_radius = nearest / splat->along_x.radius;
-    const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+    const float half_height =
+        splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
 #else
     const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
 #endif
@@ -251,8 +252,8 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     window.rows = part.y - part.x + 1;
     along = along_y + (part.x - rows.x);
 #endif
-    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat,
-                  deepest, p);
+    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat, deepest,
+                  p);
   }
 }
 
@@ -274,9 +275,8 @@ inline int is_opaque(const float* tile, float opaque) {
 #endif
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
-                        __global const Segment* segments,
-                        __global const TileSplat* entries, __global float* planes,
-                        __global float* partials) {
+                        __global const Segment* segments, __global const TileSplat* entries,
+                        __global float* planes, __global float* partials) {
   const uint id = get_global_id(0);
   if (id >= p.segment_count) return;
   const Segment segment = segments[id];
@@ -289,7 +289,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   if (segment.partial == NO_PARTIAL) {
     load_tile(tile, planes, grid, corner);
   } else {
-    for (int i = 0; i < PLANES * TILE_PIXELS; i += 8) vstore8((float8)(0.0f), 0, tile + i);
+    for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
+      vstore8((float8)(0.0f), 0, tile + i);
   }
   for (uint k = segment.begin; k < segment.end; ++k) {
 #ifdef LIGHT_ORDERED

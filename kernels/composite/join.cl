@@ -20,8 +20,8 @@ inline void join_pixel(__global float* planes, size_t plane, __global const floa
 }
 
 // Work-item (x of tile row, segment): the first segment of a cut tile joins them all.
-__kernel void join(const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-                         __global float* planes,
+__kernel void join(const CompositeParameters p, __global const Grid* grids,
+                   __global const Segment* segments, __global float* planes,
                    __global const float* partials) {
   const uint id = get_global_id(1);
   const uint row = get_global_id(0);

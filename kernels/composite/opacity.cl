@@ -17,11 +17,16 @@ inline VALUE transmittance_of(VALUE carried) {
 inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
   // Differences of the error function may be negative by their error: the sign is taken.
   const VALUE opacity = max(carried + taken, (VALUE)(0.0f));
-  return choose(-max(left, (VALUE)(1.17549435e-38f)), opacity,
-                carried >= 0.0f & opacity < 0.5f);
+  return choose(-max(left, (VALUE)(1.17549435e-38f)), opacity, carried >= 0.0f & opacity < 0.5f);
 }
 #else
-inline VALUE opacity_of(VALUE carried) { return carried; }
-inline VALUE transmittance_of(VALUE carried) { return 1.0f - carried; }
-inline VALUE carry(VALUE carried, VALUE taken, VALUE left) { return carried + taken; }
+inline VALUE opacity_of(VALUE carried) {
+  return carried;
+}
+inline VALUE transmittance_of(VALUE carried) {
+  return 1.0f - carried;
+}
+inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
+  return carried + taken;
+}
 #endif

@@ -24,7 +24,9 @@ inline VALUE exp2_negative(VALUE t) {
 }
 
 // exp(-d^2 / sigma^2) with inverse = log2(e) / sigma^2.
-inline VALUE gaussian(VALUE d, float inverse) { return exp2_negative(d * d * -inverse); }
+inline VALUE gaussian(VALUE d, float inverse) {
+  return exp2_negative(d * d * -inverse);
+}
 
 #ifdef DEVICE_ERF
 #define error_function erf
@@ -76,12 +78,13 @@ inline VALUE error_function(VALUE x) {
 inline VALUE bright_mean(VALUE d, float sigma) {
   const VALUE far = (fabs(d) + 0.5f) / sigma, near = (fabs(d) - 0.5f) / sigma;
   const VALUE beyond = erfc(far), short_of = erfc(fabs(near));
-  return PIXEL_MEAN_SCALE * sigma *
-         (choose(short_of, 2.0f - short_of, near < 0.0f) - beyond);
+  return PIXEL_MEAN_SCALE * sigma * (choose(short_of, 2.0f - short_of, near < 0.0f) - beyond);
 }
 
 // phi(y) = (1 - exp(-y)) / y by two terms of its series (error y^2 / 6) ...
-inline VALUE phi_short(VALUE y) { return 1.0f - 0.5f * y; }
+inline VALUE phi_short(VALUE y) {
+  return 1.0f - 0.5f * y;
+}
 
 // ... by four (error y^4 / 120) ...
 inline VALUE phi_series(VALUE y) {
@@ -89,8 +92,12 @@ inline VALUE phi_series(VALUE y) {
 }
 
 // exp(-y) = 1 - y phi(y), where phi is taken by its series.
-inline VALUE passed_by_series(VALUE y, VALUE phi) { return 1.0f - y * phi; }
-inline VALUE passed_in_full(VALUE y, VALUE phi) { return exp2_negative(y * -1.44269504f); }
+inline VALUE passed_by_series(VALUE y, VALUE phi) {
+  return 1.0f - y * phi;
+}
+inline VALUE passed_in_full(VALUE y, VALUE phi) {
+  return exp2_negative(y * -1.44269504f);
+}
 
 // ... and for any y >= 0: the series below 0.1, where 1 - exp(-y) would cancel.
 inline VALUE phi_full(VALUE y) {

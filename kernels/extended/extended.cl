@@ -10,25 +10,57 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double Extended;
 
-inline Extended extended_of(float a) { return (double)a; }
-inline Extended extended_pair(FloatPair a) { return (double)a.high + (double)a.low; }
-inline float high_part(Extended a) { return (float)a; }
-inline float low_part(Extended a) { return (float)(a - (double)(float)a); }
-inline Extended extended_negative(Extended a) { return -a; }
-inline Extended extended_sum(Extended a, Extended b) { return a + b; }
-inline Extended extended_product(Extended a, Extended b) { return a * b; }
-inline Extended extended_scaled(Extended a, float power_of_two) { return a * (double)power_of_two; }
-inline Extended extended_quotient(Extended a, Extended b) { return a / b; }
-inline Extended extended_root(Extended a) { return sqrt(a); }
-inline int extended_less(Extended a, Extended b) { return a < b; }
+inline Extended extended_of(float a) {
+  return (double)a;
+}
+inline Extended extended_pair(FloatPair a) {
+  return (double)a.high + (double)a.low;
+}
+inline float high_part(Extended a) {
+  return (float)a;
+}
+inline float low_part(Extended a) {
+  return (float)(a - (double)(float)a);
+}
+inline Extended extended_negative(Extended a) {
+  return -a;
+}
+inline Extended extended_sum(Extended a, Extended b) {
+  return a + b;
+}
+inline Extended extended_product(Extended a, Extended b) {
+  return a * b;
+}
+inline Extended extended_scaled(Extended a, float power_of_two) {
+  return a * (double)power_of_two;
+}
+inline Extended extended_quotient(Extended a, Extended b) {
+  return a / b;
+}
+inline Extended extended_root(Extended a) {
+  return sqrt(a);
+}
+inline int extended_less(Extended a, Extended b) {
+  return a < b;
+}
 #else
 typedef float2 Extended;
 
-inline Extended extended_of(float a) { return (float2)(a, 0.0f); }
-inline Extended extended_pair(FloatPair a) { return (float2)(a.high, a.low); }
-inline float high_part(Extended a) { return a.x; }
-inline float low_part(Extended a) { return a.y; }
-inline Extended extended_negative(Extended a) { return -a; }
+inline Extended extended_of(float a) {
+  return (float2)(a, 0.0f);
+}
+inline Extended extended_pair(FloatPair a) {
+  return (float2)(a.high, a.low);
+}
+inline float high_part(Extended a) {
+  return a.x;
+}
+inline float low_part(Extended a) {
+  return a.y;
+}
+inline Extended extended_negative(Extended a) {
+  return -a;
+}
 
 // a + b where |a| >= |b| or a = 0. An infinite sum has no low part.
 inline Extended renormalized(float a, float b) {
@@ -52,7 +84,9 @@ inline Extended extended_product(Extended a, Extended b) {
   const float low = fma(a.x, b.x, -high) + (a.x * b.y + a.y * b.x);
   return renormalized(high, low);
 }
-inline Extended extended_scaled(Extended a, float power_of_two) { return a * power_of_two; }
+inline Extended extended_scaled(Extended a, float power_of_two) {
+  return a * power_of_two;
+}
 inline Extended extended_quotient(Extended a, Extended b) {
   const float first = a.x / b.x;
   const Extended rest = extended_sum(a, extended_negative(extended_product(b, extended_of(first))));
@@ -62,10 +96,13 @@ inline Extended extended_quotient(Extended a, Extended b) {
 inline Extended extended_root(Extended a) {
   if (!(a.x > 0.0f)) return extended_of(0.0f);
   const float root = sqrt(a.x);
-  const Extended rest = extended_sum(a, extended_negative(extended_product(extended_of(root), extended_of(root))));
+  const Extended rest =
+      extended_sum(a, extended_negative(extended_product(extended_of(root), extended_of(root))));
   return renormalized(root, rest.x / (2.0f * root));
 }
-inline int extended_less(Extended a, Extended b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+inline int extended_less(Extended a, Extended b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
 #endif
 
 inline FloatPair pair_of(Extended a) {
@@ -80,12 +117,20 @@ inline Extended extended_constant(float high, float low) {
   pair.low = low;
   return extended_pair(pair);
 }
-inline Extended extended_difference(Extended a, Extended b) { return extended_sum(a, extended_negative(b)); }
-inline int is_negative(Extended a) { return high_part(a) < 0.0f; }
-inline Extended extended_magnitude(Extended a) { return is_negative(a) ? extended_negative(a) : a; }
+inline Extended extended_difference(Extended a, Extended b) {
+  return extended_sum(a, extended_negative(b));
+}
+inline int is_negative(Extended a) {
+  return high_part(a) < 0.0f;
+}
+inline Extended extended_magnitude(Extended a) {
+  return is_negative(a) ? extended_negative(a) : a;
+}
 
 // 2^n for -126 <= n <= 127.
-inline float extended_power_of_two(int n) { return as_float((n + 127) << 23); }
+inline float extended_power_of_two(int n) {
+  return as_float((n + 127) << 23);
+}
 
 // exp(t) for t <= 80, relative error 3e-9; 0 below -86, where single precision ends.
 inline Extended extended_exp(Extended t) {
@@ -103,7 +148,8 @@ inline Extended extended_exp(Extended t) {
   tail = tail * f + 1.66666667e-1f;
   tail = tail * f * f * f;
   const Extended square = extended_scaled(extended_product(r, r), 0.5f);
-  const Extended sum = extended_sum(extended_of(1.0f), extended_sum(r, extended_sum(square, extended_of(tail))));
+  const Extended sum =
+      extended_sum(extended_of(1.0f), extended_sum(r, extended_sum(square, extended_of(tail))));
   return extended_scaled(sum, extended_power_of_two((int)n));
 }
 
@@ -113,7 +159,8 @@ inline Extended extended_exp(Extended t) {
 inline Extended extended_erfc(Extended x) {
   if (!(high_part(x) < 9.2f)) return extended_of(0.0f);
   const Extended place = extended_quotient(x, extended_sum(x, extended_of(3.0f)));
-  const Extended z = extended_difference(extended_product(place, extended_of(2.5f)), extended_of(1.0f));
+  const Extended z =
+      extended_difference(extended_product(place, extended_of(2.5f)), extended_of(1.0f));
   const float f = high_part(z);
   float tail = f * -2.041410454e-07f - 3.219571738e-07f;
   tail = tail * f + 2.862102292e-06f;
@@ -131,7 +178,8 @@ inline Extended extended_erfc(Extended x) {
   p = extended_sum(extended_product(p, z), extended_constant(-7.730318606e-02f, -2.746548988e-09f));
   p = extended_sum(extended_product(p, z), extended_constant(1.276978374e+00f, 8.024336751e-09f));
   const Extended scale = extended_sum(extended_of(1.0f), extended_scaled(x, 2.0f));
-  return extended_quotient(extended_product(p, extended_exp(extended_negative(extended_product(x, x)))), scale);
+  return extended_quotient(
+      extended_product(p, extended_exp(extended_negative(extended_product(x, x)))), scale);
 }
 
 // ln(x) of a positive, finite number, absolute error 3e-9: one step of Newton's from single
@@ -139,7 +187,7 @@ inline Extended extended_erfc(Extended x) {
 inline Extended extended_log(Extended x) {
   // Denormals and numbers near the largest stay inside exp's range.
   const float size = high_part(x);
-  const int tiny = size < 1e-20f, huge = size > 1e20f;
+  const int tiny = size<1e-20f, huge = size> 1e20f;
   const Extended middle = extended_scaled(x, tiny ? 0x1p84f : huge ? 0x1p-64f : 1.0f);
   const Extended guess = extended_of(log(high_part(middle)));
   const Extended ratio = extended_product(middle, extended_exp(extended_negative(guess)));

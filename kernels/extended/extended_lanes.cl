@@ -5,12 +5,18 @@ typedef double8 ExtendedLanes;
 inline ExtendedLanes lanes_pair(float8 high, float8 low) {
   return convert_double8(high) + convert_double8(low);
 }
-inline float8 high_lanes(ExtendedLanes a) { return convert_float8(a); }
+inline float8 high_lanes(ExtendedLanes a) {
+  return convert_float8(a);
+}
 inline float8 low_lanes(ExtendedLanes a) {
   return convert_float8(a - convert_double8(convert_float8(a)));
 }
-inline ExtendedLanes lanes_sum(ExtendedLanes a, ExtendedLanes b) { return a + b; }
-inline ExtendedLanes lanes_product(ExtendedLanes a, Extended b) { return a * b; }
+inline ExtendedLanes lanes_sum(ExtendedLanes a, ExtendedLanes b) {
+  return a + b;
+}
+inline ExtendedLanes lanes_product(ExtendedLanes a, Extended b) {
+  return a * b;
+}
 #else
 typedef struct ExtendedLanes {
   float8 high, low;
@@ -22,8 +28,12 @@ inline ExtendedLanes lanes_pair(float8 high, float8 low) {
   pair.low = low;
   return pair;
 }
-inline float8 high_lanes(ExtendedLanes a) { return a.high; }
-inline float8 low_lanes(ExtendedLanes a) { return a.low; }
+inline float8 high_lanes(ExtendedLanes a) {
+  return a.high;
+}
+inline float8 low_lanes(ExtendedLanes a) {
+  return a.low;
+}
 inline ExtendedLanes renormalized_lanes(float8 a, float8 b) {
   const float8 sum = a + b;
   return lanes_pair(sum, select((float8)(0.0f), b - (sum - a), isfinite(sum)));

@@ -40,7 +40,9 @@ inline VALUE bright_mean_limit(VALUE peak, const ProjectParameters p) {
 }
 
 // The largest n with 2^n <= value, for positive values.
-inline INTEGER power_of_two(VALUE value) { return (AS_INTEGER(value) >> 23) - 127; }
+inline INTEGER power_of_two(VALUE value) {
+  return (AS_INTEGER(value) >> 23) - 127;
+}
 
 inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameters p) {
   const INTEGER grid = clamp(octave, (INTEGER)(0), (INTEGER)(p.grid_count - 1));

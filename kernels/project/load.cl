@@ -7,7 +7,8 @@ inline VALUE load_values(__global const float* values, uint i, uint end, int str
 #ifdef LANES_8
   if (i + LANES > end) {
     float lanes[LANES];
-    for (uint k = 0; k < LANES; ++k) lanes[k] = values[min(i + k, end - 1)];
+    for (uint k = 0; k < LANES; ++k)
+      lanes[k] = values[min(i + k, end - 1)];
     return vload8(0, lanes);
   }
 #endif
@@ -18,7 +19,7 @@ typedef struct Vectors {
   VALUE x, y, z;
 } Vectors;
 
-__attribute__((always_inline)) inline Vectors load_vectors(__global const float* vectors, uint i, uint end) {
+INLINED Vectors load_vectors(__global const float* vectors, uint i, uint end) {
   Vectors v;
 #ifdef LANES_8
   if (i + LANES <= end) {
@@ -48,7 +49,7 @@ __attribute__((always_inline)) inline Vectors load_vectors(__global const float*
 }
 
 #ifdef VECTOR_COLORS
-__attribute__((always_inline)) inline Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
+INLINED Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
   if (stride != 0) return load_vectors(colors, i, end);
   Vectors same;
   same.x = same.y = same.z = (VALUE)(colors[0]);
@@ -76,8 +77,8 @@ typedef struct ParticleLanes {
 } ParticleLanes;
 
 // Particles from i on; those at or beyond `end` do not exist.
-__attribute__((always_inline)) inline ParticleLanes load_particles(const Columns columns, uint i, uint end,
-                                    const ProjectParameters p) {
+INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
+                                     const ProjectParameters p) {
   ParticleLanes particles;
 #ifdef LANES_8
   particles.exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
@@ -96,11 +97,15 @@ __attribute__((always_inline)) inline ParticleLanes load_particles(const Columns
   return particles;
 }
 
-inline INTEGER is_finite(VALUE v) { return fabs(v) <= FLT_MAX; }
-inline INTEGER is_color(VALUE v) { return v >= 0.0f & v <= FLT_MAX; }
+inline INTEGER is_finite(VALUE v) {
+  return fabs(v) <= FLT_MAX;
+}
+inline INTEGER is_color(VALUE v) {
+  return v >= 0.0f & v <= FLT_MAX;
+}
 
 // What reference::count_bad counts is not good; `offset` is the position less the camera's.
-__attribute__((always_inline)) inline INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
+INLINED INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
   INTEGER good = is_finite(offset.x) & is_finite(offset.y) & is_finite(offset.z) &
                  is_finite(particles.h) & particles.h > 0.0f & is_finite(particles.weight) &
                  particles.weight >= 0.0f & is_finite(particles.color) &

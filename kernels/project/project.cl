@@ -14,7 +14,7 @@ typedef struct SplatArrays {
   float sort_value[LANES];
 } SplatArrays;
 
-__attribute__((always_inline)) inline void spread(const SplatLanes s, SplatArrays* a) {
+INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.visible, a->visible);
 #ifdef OUTPUT_KEYS
   STORE(s.sort_value, a->sort_value);
@@ -45,7 +45,7 @@ __attribute__((always_inline)) inline void spread(const SplatLanes s, SplatArray
 }
 
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
-__attribute__((always_inline)) inline void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
+INLINED void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
   splat->x = a->x[k];
   splat->y = a->y[k];
   splat->sigma = a->sigma[k];
@@ -69,12 +69,13 @@ inline uint count_true(INTEGER mask) {
   int lanes[LANES];
   STORE(mask, lanes);
   uint count = 0;
-  for (uint k = 0; k < LANES; ++k) count += lanes[k] != 0;
+  for (uint k = 0; k < LANES; ++k)
+    count += lanes[k] != 0;
   return count;
 }
 
 #ifdef VECTOR_COLORS
-#define OWN_COLORS_PARAMETER , __global const float *own_colors
+#define OWN_COLORS_PARAMETER , __global const float* own_colors
 #else
 #define OWN_COLORS_PARAMETER
 #endif
@@ -127,16 +128,16 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
       for (int copy = copies.x; copy <= copies.y; ++copy) {
 #endif
 #ifdef EXTENDED_NUMBERS
-      Splat rounded;
-      ExtendedSplat extended;
-      if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
-                          &extended)) {
-        continue;
-      }
+        Splat rounded;
+        ExtendedSplat extended;
+        if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
+                            &extended)) {
+          continue;
+        }
 #ifdef OUTPUT_SPLATS
-      rounded.component_and_grid = p.component;
-      splats[slot] = rounded;
-      extended_splats[slot] = extended;
+        rounded.component_and_grid = p.component;
+        splats[slot] = rounded;
+        extended_splats[slot] = extended;
 #endif
 #elif defined(OUTPUT_SPLATS)
       write_splat(splats + slot, &found, k, p.component);
@@ -145,10 +146,10 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-      keys[slot] = sort_key(found.sort_value[k], p.sort_descending);
-      order[slot] = slot;
+        keys[slot] = sort_key(found.sort_value[k], p.sort_descending);
+        order[slot] = slot;
 #endif
-      ++slot;
+        ++slot;
 #ifdef ELLIPSES
       }
 #endif

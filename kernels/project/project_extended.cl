@@ -6,9 +6,9 @@ typedef struct ExtendedView {
 } ExtendedView;
 
 inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
-  return extended_sum(
-      extended_sum(extended_product(d[0], extended_pair(axis[0])), extended_product(d[1], extended_pair(axis[1]))),
-      extended_product(d[2], extended_pair(axis[2])));
+  return extended_sum(extended_sum(extended_product(d[0], extended_pair(axis[0])),
+                                   extended_product(d[1], extended_pair(axis[1]))),
+                      extended_product(d[2], extended_pair(axis[2])));
 }
 
 inline ExtendedView extended_view(__global const float* position, const ExtendedParameters e) {
@@ -25,12 +25,13 @@ inline ExtendedView extended_view(__global const float* position, const Extended
   return view;
 }
 
-inline int is_within_limits(Extended z, Extended h, const ProjectParameters p, const ExtendedParameters e) {
+inline int is_within_limits(Extended z, Extended h, const ProjectParameters p,
+                            const ExtendedParameters e) {
   if (p.perspective && !(high_part(z) > 0.0f)) return 0;
   if (e.has_near_limit) {
     if (extended_less(z, extended_pair(e.near_limit))) return 0;
   } else if (extended_less(z, p.perspective ? extended_product(extended_pair(e.near_factor), h)
-                                         : extended_of(0.0f))) {
+                                            : extended_of(0.0f))) {
     return 0;
   }
   return !e.has_far_limit || !extended_less(extended_pair(e.far_limit), z);
@@ -38,7 +39,7 @@ inline int is_within_limits(Extended z, Extended h, const ProjectParameters p, c
 
 // In [0, 1] (frame.h, ScalarMap).
 inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
-                              FloatPair inverse_range) {
+                                    FloatPair inverse_range) {
   Extended scaled = extended_of(value);
   if (scaling == SCALING_LOG) {
     if (!(value > 0.0f)) return extended_of(0.0f);
@@ -46,20 +47,22 @@ inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
     scaled = extended_product(extended_log(scaled), per_ln10);
   }
   if (scaling == SCALING_ASINH) scaled = extended_asinh(value);
-  const Extended place =
-      extended_product(extended_difference(scaled, extended_pair(minimum)), extended_pair(inverse_range));
+  const Extended place = extended_product(extended_difference(scaled, extended_pair(minimum)),
+                                          extended_pair(inverse_range));
   if (!(high_part(place) > 0.0f)) return extended_of(0.0f);
   return high_part(place) >= 1.0f ? extended_of(1.0f) : place;
 }
 
 // w (scene.h, WeightModel), with sigma in world units; weight_scale as in project.cl.
-inline Extended extended_column(float raw, Extended h, const ProjectParameters p, const ExtendedParameters e) {
+inline Extended extended_column(float raw, Extended h, const ProjectParameters p,
+                                const ExtendedParameters e) {
   const Extended scale = extended_pair(e.weight_scale);
   const Extended length_scale = extended_of(p.length_scale);
   const Extended sigma_scaled =
       extended_product(extended_product(extended_pair(e.kernel_width), h), length_scale);
   if (p.weight_model == WEIGHT_MASS) {
-    const Extended once = extended_quotient(extended_product(extended_of(raw), scale), sigma_scaled);
+    const Extended once =
+        extended_quotient(extended_product(extended_of(raw), scale), sigma_scaled);
     return extended_quotient(extended_product(once, scale), sigma_scaled);
   }
   if (p.weight_model == WEIGHT_DENSITY) {
@@ -69,7 +72,7 @@ inline Extended extended_column(float raw, Extended h, const ProjectParameters p
 }
 
 inline void extended_knots(__global const float* knots, uint first, uint count, Extended position,
-                        Extended* color) {
+                           Extended* color) {
   const Extended place = extended_product(position, extended_of((float)(count - 1u)));
   uint below = min((uint)high_part(place), count - 1u);
   // The high part alone may have been rounded up to the next knot.
@@ -87,16 +90,18 @@ inline void extended_knots(__global const float* knots, uint first, uint count, 
 // E w and A w (scene.h, Absorption) at palette position `position`; emission comes with the
 // particle's own colour in it.
 inline void extended_amplitudes(Extended position, Extended weight, const Extended* own,
-                             const ComponentColors colors, __global const float* knots,
-                             const ExtendedParameters e, Extended* emission, Extended* absorption) {
+                                const ComponentColors colors, __global const float* knots,
+                                const ExtendedParameters e, Extended* emission,
+                                Extended* absorption) {
   const Extended bright = extended_product(weight, extended_pair(e.brightness));
   const Extended factor = extended_pair(e.absorption_factor);
   Extended emitted[3], absorbed[3];
   extended_knots(knots, colors.first_knot, colors.knot_count, position, emitted);
-  for (int c = 0; c < 3; ++c) absorbed[c] = emitted[c] = extended_product(emitted[c], own[c]);
+  for (int c = 0; c < 3; ++c)
+    absorbed[c] = emitted[c] = extended_product(emitted[c], own[c]);
   if (colors.absorption_knot_count > 0) {
     extended_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count, position,
-                absorbed);
+                   absorbed);
   }
   for (int c = 0; c < 3; ++c) {
     emission[c] = extended_product(bright, emitted[c]);
@@ -139,17 +144,18 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
   const Extended width = extended_pair(e.kernel_width);
   const Extended h_pixels = extended_product(h, scale);
   Extended h_drawn = h_pixels;
-  Extended weight =
-      extended_column(columns.weights[(size_t)i * p.weight_stride], h, p, e);
+  Extended weight = extended_column(columns.weights[(size_t)i * p.weight_stride], h, p, e);
   if (p.min_radius > 0.0f) {
     const Extended least = extended_pair(e.min_radius);
-    h_drawn = extended_root(extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
+    h_drawn = extended_root(
+        extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
     weight = extended_product(weight, extended_quotient(h_pixels, h_drawn));
   }
   const Extended sigma = extended_product(width, h_drawn);
   weight = extended_product(
-      weight, extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
-                               e.intensity_minimum, e.intensity_inverse_range));
+      weight,
+      extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
+                          e.intensity_minimum, e.intensity_inverse_range));
 
   Extended own[3];
   for (int c = 0; c < 3; ++c) {
@@ -160,10 +166,11 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
 #endif
   }
   Extended emission[3], absorption[3];
-  const Extended position = extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling,
-                                          e.color_minimum, e.color_inverse_range);
+  const Extended position =
+      extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling,
+                          e.color_minimum, e.color_inverse_range);
   extended_amplitudes(position, weight, own, component_colors[p.component], knots, e, emission,
-                   absorption);
+                      absorption);
 
   float peak = 0.0f;
   for (int c = 0; c < 3; ++c) {

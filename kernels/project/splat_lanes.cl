@@ -16,21 +16,21 @@ typedef struct SplatLanes {
 
 // Widths in the picture's pixels, before any pixel mean is taken.
 typedef struct WidthLanes {
-  VALUE h;     // in lengths
+  VALUE h;                  // in lengths
   VALUE sigma_true, sigma;  // without and with kernel.min_radius
 #ifdef ELLIPSES
   VALUE sigma_x;
 #endif
 } WidthLanes;
 
-__attribute__((always_inline)) inline WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
+INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
   WidthLanes widths;
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.kernel_width * widths.h * view.scale;
   const float sigma_floor = p.kernel_width * p.min_radius;
-  widths.sigma = p.min_radius > 0.0f ? sqrt(widths.sigma_true * widths.sigma_true +
-                                            sigma_floor * sigma_floor)
-                                     : widths.sigma_true;
+  widths.sigma = p.min_radius > 0.0f
+                     ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
+                     : widths.sigma_true;
 #ifdef ELLIPSES
   widths.sigma_x = sigma_along_x(widths.sigma, view.cos_latitude, p);
 #endif
@@ -39,11 +39,11 @@ __attribute__((always_inline)) inline WidthLanes find_widths(VALUE raw_h, const 
 
 // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
 // amplitude that single precision can hold against the smallest tolerance.
-__attribute__((always_inline)) inline INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
-                           float height, const ProjectParameters p) {
+INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
+                            float height, const ProjectParameters p) {
   const VALUE reach = 7.0f * widths.sigma + 2.0f;
-  INTEGER seen = is_within_depth(view.depth, widths.h, p) & view.y + reach >= 0.0f &
-                 view.y - reach <= height;
+  INTEGER seen = is_within_depth(view.depth, widths.h, p) & (view.y + reach >= 0.0f) &
+                 (view.y - reach <= height);
 #ifdef WIDE_ANGLE
   seen &= view.seen;
 #endif
@@ -60,8 +60,8 @@ typedef struct BrightnessLanes {
   INTEGER crowded, bright;
 } BrightnessLanes;
 
-__attribute__((always_inline)) inline BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
-                                       VALUE weight, const ProjectParameters p) {
+INLINED BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
+                                        VALUE weight, const ProjectParameters p) {
   BrightnessLanes b;
   VALUE brightest = p.peak_color;
 #ifdef VECTOR_COLORS
@@ -79,8 +79,7 @@ __attribute__((always_inline)) inline BrightnessLanes find_brightness(const Part
   // What counts of a splat in a crowd is what all of them add up to.
   b.crowded = sigma >= p.crowd_narrowest & sigma <= p.crowd_widest;
   b.peak = max(b.own_peak, choose((VALUE)(0.0f), (VALUE)(p.crowd_light), b.crowded));
-  b.bright = b.own_peak > p.bright_peak |
-             (b.crowded & (INTEGER)(p.crowd_bright > 0.0f ? -1 : 0));
+  b.bright = (b.own_peak > p.bright_peak) | (b.crowded & (INTEGER)(p.crowd_bright > 0.0f ? -1 : 0));
   return b;
 }
 
@@ -95,12 +94,12 @@ typedef struct SampledLanes {
 #endif
 } SampledLanes;
 
-__attribute__((always_inline)) inline SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
-                                    VALUE weight, const ProjectParameters p) {
+INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
+                                     VALUE weight, const ProjectParameters p) {
   SampledLanes s;
   const VALUE sigma = widths.sigma;
-  const VALUE mean_limit = choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.peak, p),
-                                  brightness.bright);
+  const VALUE mean_limit =
+      choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.peak, p), brightness.bright);
   s.by_mean = sigma < mean_limit;
   s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
   const VALUE narrowing = sigma / s.sigma;
@@ -116,9 +115,9 @@ __attribute__((always_inline)) inline SampledLanes choose_sampling(const WidthLa
 }
 
 // Puts the splat on its grid: its width, weight and radius there. `extent` is in sigma.
-__attribute__((always_inline)) inline void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
-                          const SampledLanes sampled, const BrightnessLanes brightness,
-                          VALUE extent, const ProjectParameters p) {
+INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
+                           const SampledLanes sampled, const BrightnessLanes brightness,
+                           VALUE extent, const ProjectParameters p) {
   s->grid = choose_grid(sampled.sigma, brightness.peak, p);
   const INTEGER level = p.blurred ? (s->grid + 1) >> 1 : s->grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
@@ -151,8 +150,8 @@ __attribute__((always_inline)) inline void place_on_grid(SplatLanes* s, const Vi
 }
 
 // Whether the square that is drawn reaches its grid.
-__attribute__((always_inline)) inline INTEGER reaches_grid(const SplatLanes s, float width, float height,
-                            const ProjectParameters p) {
+INLINED INTEGER reaches_grid(const SplatLanes s, float width, float height,
+                             const ProjectParameters p) {
   const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
@@ -169,8 +168,8 @@ __attribute__((always_inline)) inline INTEGER reaches_grid(const SplatLanes s, f
 // on average and for a splat below a pixel nearly everything: with t / sigma more, erfc(k)
 // falls as exp(-2 k t / sigma), whose mean over t from 0 to 1 is close to
 // sigma / (sigma + 2 k).
-__attribute__((always_inline)) inline VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
-                             const ProjectParameters p) {
+INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
+                              const ProjectParameters p) {
   const INTEGER faint = extent <= p.least_extent;
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
   return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
@@ -179,21 +178,21 @@ __attribute__((always_inline)) inline VALUE restored_weight(VALUE weight, VALUE 
 #ifdef EXTENDED_NUMBERS
 // Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
 // reach beyond the truncation of any amplitude that single precision holds.
-__attribute__((always_inline)) inline INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
-                                    float height) {
+INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
+                                     float height) {
   const Vectors d = view.offset;
   const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
   const VALUE reach =
       10.0f * fabs(widths.sigma) + 4.0f + rounding + 1e-4f * (fabs(view.x) + fabs(view.y));
-  const INTEGER off = view.x + reach < 0.0f | view.x - reach > width | view.y + reach < 0.0f |
-                      view.y - reach > height;
+  const INTEGER off =
+      view.x + reach<0.0f | view.x - reach> width | view.y + reach<0.0f | view.y - reach> height;
   return off == 0;
 }
 #endif
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
-__attribute__((always_inline)) inline SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
-                                __global const Grid* grids, const Columns columns) {
+INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
+                                 __global const Grid* grids, const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
   const ViewLanes view = view_particles(particles, p);
@@ -214,8 +213,7 @@ __attribute__((always_inline)) inline SplatLanes project_lanes(uint i, uint end,
   if (p.min_radius > 0.0f) weight *= widths.sigma_true / widths.sigma;
   const BrightnessLanes brightness = find_brightness(particles, widths, weight, p);
   const SampledLanes sampled = choose_sampling(widths, brightness, weight, p);
-  const VALUE crowd_extent =
-      choose((VALUE)(0.0f), (VALUE)(p.crowd_extent), brightness.crowded);
+  const VALUE crowd_extent = choose((VALUE)(0.0f), (VALUE)(p.crowd_extent), brightness.crowded);
   const VALUE extent = p.kernel_cut > 0.0f
                            ? (VALUE)(p.kernel_cut)
                            : max(truncation_extent(brightness.own_peak, p), crowd_extent);

@@ -10,7 +10,7 @@ inline uint sort_key(float value, int descending) {
   return descending ? ~key : key;
 }
 
-__attribute__((always_inline)) inline Vectors offset_from(Vectors position, const float* high, const float* low) {
+INLINED Vectors offset_from(Vectors position, const float* high, const float* low) {
   Vectors d;
   d.x = (position.x - high[0]) - low[0];
   d.y = (position.y - high[1]) - low[1];
@@ -41,16 +41,15 @@ typedef struct ViewLanes {
 
 #ifdef WIDE_ANGLE
 // Depth is the distance; its square orders as well, and has a chain of its own.
-__attribute__((always_inline)) inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   const VALUE squared = squared_distance(d, p.length_scale);
   view.offset = d;
   view.depth = sqrt(squared) / p.length_scale;
   view.sort_value = p.sort_by_field ? particles.sort_field : squared;
-  const WideAnglePoint point =
-      project_wide_angle(chain_dot(d, p.right), chain_dot(d, p.down), chain_dot(d, p.forward),
-                         view.depth, p);
+  const WideAnglePoint point = project_wide_angle(chain_dot(d, p.right), chain_dot(d, p.down),
+                                                  chain_dot(d, p.forward), view.depth, p);
   view.x = p.center_x + point.x;
   view.y = p.center_y + point.y;
   view.scale = point.scale;
@@ -59,7 +58,7 @@ __attribute__((always_inline)) inline ViewLanes view_particles(const ParticleLan
   return view;
 }
 #else
-__attribute__((always_inline)) inline ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   view.offset = d;

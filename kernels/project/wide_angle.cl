@@ -24,7 +24,7 @@ inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
 
 // x right, y down, z forward, in lengths.
 inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
-                                 const ProjectParameters p) {
+                                         const ProjectParameters p) {
   WideAnglePoint point;
   x /= distance;
   y /= distance;

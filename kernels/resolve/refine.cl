@@ -31,8 +31,7 @@ __kernel void refine_columns(const RefineParameters p, __global const Grid* grid
 // Work-item (eight pixels, y of the finer grid, plane): interpolated along y and added to
 // what the finer grid holds, if it does hold something.
 __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
-                          __global float* planes,
-                          __global const float* temporary) {
+                          __global float* planes, __global const float* temporary) {
   const Grid coarse = grids[p.coarse], fine = grids[p.fine];
   const int x = (int)get_global_id(0) * 8;
   const int y = (int)get_global_id(1), c = (int)get_global_id(2);

@@ -3,9 +3,9 @@
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
 // that are padded to whole eights.
 #ifdef BACKGROUND_IMAGE
-#define BACKGROUND_ARGUMENT __global const float* background,
+#define BACKGROUND_ARGUMENT __global const float *background,
 #define BACKGROUND(c, x, y) \
-  vload8(0, background + ((size_t)(c) * p.height + (y)) * p.background_stride + (x))
+  vload8(0, background + ((size_t)(c)*p.height + (y)) * p.background_stride + (x))
 #else
 #define BACKGROUND_ARGUMENT
 #define BACKGROUND(c, x, y) p.background[c]

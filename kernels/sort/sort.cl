@@ -9,7 +9,8 @@ __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint histogram[SORT_DIGITS];
-  for (uint d = 0; d < SORT_DIGITS; ++d) histogram[d] = 0;
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    histogram[d] = 0;
   uint some = 0, all = ~0u;
   for (uint i = begin; i < end; ++i) {
     const uint key = keys[i];
@@ -17,7 +18,8 @@ __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
     all &= key;
     ++histogram[(key >> p.shift) & (SORT_DIGITS - 1)];
   }
-  for (uint d = 0; d < SORT_DIGITS; ++d) histograms[d * p.block_count + block] = histogram[d];
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    histograms[d * p.block_count + block] = histogram[d];
   bits[block].some = some;
   bits[block].all = all;
 }
@@ -41,7 +43,8 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint next[SORT_DIGITS];
-  for (uint d = 0; d < SORT_DIGITS; ++d) next[d] = histograms[d * p.block_count + block];
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    next[d] = histograms[d * p.block_count + block];
   for (uint i = begin; i < end; ++i) {
     const uint key = keys[i];
     const uint place = next[(key >> p.shift) & (SORT_DIGITS - 1)]++;
