@@ -10,7 +10,7 @@
 
 namespace splotchcl {
 
-// Draws one frame: a Renderer's render, or the reference renderer's.
+// Draws one frame: a Renderer's render, or the reference's.
 using DrawFrame = std::function<Image(const Frame&)>;
 
 // One drawing of a frame on the way to a picture. The frame shares its particles.
