@@ -18,7 +18,6 @@
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/palette_file.h"
-#include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
 

@@ -13,7 +13,6 @@
 #include "palette/palette_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
-#include "splotchcl/scene_file.h"
 #include "splotchcl_embedded/palettes.h"
 
 namespace splotchcl {

@@ -1,11 +1,10 @@
 #include "splotchcl/snapshot_source.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <future>
 #include <unordered_set>
 
+#include "formats/concurrent_reading.h"
 #include "sequence/interpolated_snapshot.h"
 #include "sequence/snapshot_pair.h"
 #include "snapshot/snapshot_list.h"
@@ -28,12 +27,6 @@ bool is_same_list(const SequenceSettings& a, const SequenceSettings& b) {
 bool is_same_motion(const SequenceSettings& a, const SequenceSettings& b) {
   return a.interpolation == b.interpolation && a.omega_matter == b.omega_matter &&
          a.omega_lambda == b.omega_lambda && a.hubble_rate == b.hubble_rate;
-}
-
-// Two threads may read at a time only where HDF5 was built for it.
-bool can_read_ahead() {
-  hbool_t is_safe = 0;
-  return H5is_library_threadsafe(&is_safe) >= 0 && is_safe > 0;
 }
 
 Member open_member(const ListedSnapshot& listed) {
@@ -188,7 +181,7 @@ void SnapshotSource::State::take_ahead(std::size_t needed_first, std::size_t nee
 // Not on the first frame: it may be the only one.
 void SnapshotSource::State::read_ahead(const SequencePlace& place) {
   const bool is_film = last_index_ && *last_index_ != settings_.index;
-  if (!is_film || !can_read_ahead()) return;
+  if (!is_film || !can_read_concurrently()) return;
   const bool is_forward = settings_.index > *last_index_;
   const std::size_t edge = is_forward && place.fraction > 0 ? place.snapshot + 1 : place.snapshot;
   if (is_forward ? edge + 1 >= list_.size() : edge == 0) return;
