@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "splotchcl/array_snapshot.h"
-#include "splotchcl/image_file.h"
+#include "splotchcl/frame_drawer.h"
 #include "splotchcl/load.h"
-#include "splotchcl/picture.h"
-#include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 
 namespace {
@@ -98,7 +96,7 @@ int run(const std::filesystem::path& folder) {
   snapshot.set_field(4, "position", stars.position.data(), stars.count(), 3);
   snapshot.set_field(4, "speed", stars.speed.data(), stars.count());
   splotchcl::Scene scene = splotchcl::parse_scene(scene_text, "in_situ");
-  splotchcl::Renderer renderer;
+  splotchcl::FrameDrawer drawer;
   std::vector<std::string> notes;
 
   for (int picture = 0; picture < pictures; ++picture) {
@@ -108,15 +106,10 @@ int run(const std::filesystem::path& folder) {
     const splotchcl::Frame frame = splotchcl::load_frame(scene, snapshot, notes);
     // What the first picture chose from the data, such as its exposure, holds for all.
     if (picture == 0) scene = splotchcl::decide_scene(scene, frame);
-    for (const auto& drawn : splotchcl::draw_pictures(
-             scene, frame, snapshot.info(),
-             [&](const splotchcl::Frame& view) { return renderer.render(view); }, notes)) {
-      splotchcl::ImageFileOptions options;
-      options.gamma = scene.image.gamma;
-      const auto path = folder / ("in_situ_" + std::to_string(picture) + drawn.suffix + ".png");
-      splotchcl::write_image(path, drawn.image, options);
-      std::printf("%s\n", path.c_str());
-    }
+    const splotchcl::DrawnFrame drawn = drawer.draw(scene, frame, snapshot.info());
+    const auto path = folder / ("in_situ_" + std::to_string(picture) + ".png");
+    splotchcl::write_pictures(path, drawn.pictures, splotchcl::image_file_options(scene));
+    std::printf("%s\n", path.c_str());
   }
   return 0;
 }

@@ -14,13 +14,13 @@ namespace splotchcl {
 // Red, green, blue from 0 to 1 as the display shows them, whatever image.gamma is.
 using DisplayColor = std::array<double, 3>;
 
-// Where something lies. Things at the same place stand below each other.
-enum class Place { top_left, top, top_right, left, right, bottom_left, bottom, bottom_right };
+// Where in the picture something lies. Things at the same anchor stand below each other.
+enum class Anchor { top_left, top, top_right, left, right, bottom_left, bottom, bottom_right };
 
 // A line of text, or several with line breaks, with placeholders: "z = {redshift:.2f}".
 struct TextSettings {
   std::string text;  // empty: none
-  Place at = Place::top_left;
+  Anchor at = Anchor::top_left;
   std::optional<double> size;  // of the picture's shorter side; unset: FinishSettings::text_size,
                                // of titles 1.5 times that
 };
@@ -28,7 +28,7 @@ struct TextSettings {
 // The palettes with their fields' values.
 struct ColorBarSettings {
   bool show = false;
-  Place at = Place::right;
+  Anchor at = Anchor::right;
   double length = 0.6;                  // of the picture's side along which the bars lie, 0.05 to 1
   std::vector<std::string> components;  // by name; empty: all that are coloured by a field
   std::vector<std::string> labels;      // one for each bar; empty: field and unit
@@ -37,7 +37,7 @@ struct ColorBarSettings {
 // A length at the look-at point.
 struct ScaleBarSettings {
   bool show = false;
-  Place at = Place::bottom_left;
+  Anchor at = Anchor::bottom_left;
   std::optional<double> length;  // in the snapshot's unit, > 0; unset: a round one
   std::string unit;              // of the label; empty: the snapshot's
 };
@@ -45,7 +45,7 @@ struct ScaleBarSettings {
 // The scene seen by a second camera, drawn into a corner. What is not set is the first's.
 struct InsetSettings {
   bool show = false;
-  Place at = Place::bottom_right;
+  Anchor at = Anchor::bottom_right;
   std::array<double, 2> size = {0.3, 0.3};  // of the picture's width and height
   double border = 0.002;                    // of the picture's shorter side
   DisplayColor border_color = {1, 1, 1};
@@ -70,9 +70,9 @@ struct FinishSettings {
   std::string font = "DejaVuSans";  // a name, or a font file
   double text_size = 0.028;         // of the picture's shorter side
   DisplayColor text_color = {1, 1, 1};
-  TextSettings title = {"", Place::top_left, std::nullopt};
-  TextSettings label = {"", Place::top_right, std::nullopt};
-  TextSettings caption = {"", Place::bottom_right, std::nullopt};
+  TextSettings title = {"", Anchor::top_left, std::nullopt};
+  TextSettings label = {"", Anchor::top_right, std::nullopt};
+  TextSettings caption = {"", Anchor::bottom_right, std::nullopt};
   std::optional<int> frame;  // what {frame} stands for
 
   ColorBarSettings color_bar;

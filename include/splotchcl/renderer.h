@@ -55,6 +55,7 @@ struct RenderStats {
   double build_seconds = 0;        // of the total: compiling kernels, or finding them compiled
   double total_seconds = 0;
   std::vector<StageTime> stages;
+  std::string note;  // what the user should know of the device; empty: nothing
 };
 
 // Draws frames on one OpenCL device. Keeps compiled kernels and buffers between frames.

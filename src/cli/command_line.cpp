@@ -123,9 +123,9 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
                           "100, 102, ... 198"))
       ->type_name("RANGE");
   sub->add_option("--part", options->part,
-                  wrapped("Draw the I-th of N shares of the frames, for N processes; the one that "
+                  wrapped("Draw the K-th of N shares of the frames, for N processes; the one that "
                           "ends last makes the film"))
-      ->type_name("I/N");
+      ->type_name("K/N");
   sub->add_flag("--join", options->join,
                 wrapped("Draw nothing: make the film of frames that are all there"));
   sub->footer(

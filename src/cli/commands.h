@@ -44,7 +44,7 @@ struct MovieOptions {
   std::optional<double> tolerance;
   bool reference = false;
   std::string frames;  // FIRST:END:STEP
-  std::string part;    // I/N
+  std::string part;    // K/N
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "cli/scene_argument.h"
 #include "common/unfinished_file.h"
 #include "splotchcl/error.h"
+#include "splotchcl/open_scene.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
 

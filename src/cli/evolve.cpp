@@ -1,21 +1,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <set>
 
 #include "cli/commands.h"
-#include "cli/numbered_files.h"
-#include "cli/scene_argument.h"
 #include "common/unfinished_file.h"
+#include "film/frames/film_drawer.h"
+#include "film/movie/frame_range.h"
+#include "film/movie/numbered_files.h"
 #include "pictures/other_scenes.h"
 #include "snapshot/cached_snapshot.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
+#include "splotchcl/open_scene.h"
 #include "splotchcl/picture.h"
-#include "splotchcl/renderer.h"
 #include "splotchcl/snapshot_file.h"
 #include "splotchcl/turning_galaxy.h"
 
@@ -74,6 +76,9 @@ class TurningScene {
   TurningScene(const EvolveOptions& options, const TurningGalaxy& galaxy) : galaxy_(galaxy) {
     SceneWithSnapshot opened = open_scene(*options.scene, options.settings);
     scene_ = std::move(opened.scene);
+    notes_ = std::move(opened.notes);
+    const std::vector<std::string>& of_data = opened.snapshot->info().notes;
+    notes_.insert(notes_.end(), of_data.begin(), of_data.end());
     for (const Component& component : scene_.components) {
       if (is_same_file(component.snapshot, options.galaxy)) paths_.insert(component.snapshot);
     }
@@ -88,21 +93,17 @@ class TurningScene {
   }
 
   const Scene& scene() const { return scene_; }
+  OtherScenes& other_scenes() { return other_scenes_; }
+  // What the user should know of the scene and its data.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   // What the first frame decides holds for all.
-  void decide(std::vector<std::string>& notes) {
-    scene_ = decide_scene(scene_, load_frame(scene_, *snapshot_at(galaxy_.at(0)), notes));
+  void decide() {
+    scene_ = decide_scene(scene_, load_frame(scene_, *snapshot_at(galaxy_.at(0)), notes_));
     other_scenes_.decide(scene_);
   }
-  std::vector<Picture> draw(const std::shared_ptr<const Snapshot>& turned, Renderer& renderer,
-                            std::vector<std::string>& notes) {
-    const std::shared_ptr<const Snapshot> snapshot = snapshot_at(turned);
-    const Frame loaded = load_frame(scene_, *snapshot, notes);
-    return draw_pictures(
-        scene_, loaded, snapshot->info(),
-        [&](const Frame& frame) { return renderer.render(frame); }, notes, other_scenes_);
-  }
 
- private:
+  // What the scene draws when the galaxy has turned.
   std::shared_ptr<const Snapshot> snapshot_at(const std::shared_ptr<const Snapshot>& turned) {
     const std::shared_ptr<const Snapshot> main = is_main_ ? turned : surroundings_;
     for (const std::string& path : paths_)
@@ -110,8 +111,10 @@ class TurningScene {
     return main;
   }
 
+ private:
   const TurningGalaxy& galaxy_;
   Scene scene_;
+  std::vector<std::string> notes_;
   bool is_main_ = false;
   std::set<std::string> paths_;  // of the galaxy, as components name it
   std::shared_ptr<const Snapshot> surroundings_;
@@ -121,66 +124,59 @@ class TurningScene {
 class Evolution {
  public:
   Evolution(const EvolveOptions& options, Console& console) : options_(options), console_(console) {
-    if (options.output) pictures_.emplace(*options.output, "--output");
-    if (options.snapshots) snapshots_.emplace(*options.snapshots, "--snapshots");
+    if (options.output) pictures_ = NumberedFiles::require(*options.output, "--output");
+    if (options.snapshots) snapshots_ = NumberedFiles::require(*options.snapshots, "--snapshots");
     if (pictures_) check_image_path(pictures_->at(0));
     if (snapshots_) check_output_path(snapshots_->at(0));
   }
 
   void run() {
-    const Share share = share_of(options_.part, options_.frames);
+    const std::vector<int> part = select_part(options_.part, all_frames());
     console_.status("reading " + options_.galaxy.filename().string());
     const auto start = std::make_shared<CachedSnapshot>(open_snapshot(options_.galaxy));
     const TurningGalaxy galaxy(start, turning_settings(options_));
     if (const auto warning = turning_warning(options_.duration_myr)) console_.note(*warning);
     if (pictures_) begin_drawing(galaxy);
-    for (int frame = share.first; frame < share.last; ++frame) {
+    for (const int frame : part) {
       console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
       const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame, options_));
       if (snapshots_) {
         write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame, options_));
       }
-      if (scene_) draw(frame, turned);
+      if (drawer_) {
+        drawer_->draw(frame, scene_->scene(), *scene_->snapshot_at(turned), scene_->other_scenes(),
+                      pictures_->at(frame));
+      }
     }
-    console_.done(fmt::format("frames {} to {} of {}, {} Myr in all", share.first, share.last - 1,
-                              options_.frames, options_.duration_myr));
+    if (drawer_) drawer_->finish();
+    console_.done(part.empty() ? "this part has no frames"
+                               : fmt::format("frames {} to {} of {}, {} Myr in all", part.front(),
+                                             part.back(), options_.frames, options_.duration_myr));
   }
 
  private:
+  std::vector<int> all_frames() const {
+    std::vector<int> frames(static_cast<std::size_t>(options_.frames));
+    std::iota(frames.begin(), frames.end(), 0);
+    return frames;
+  }
+
   void begin_drawing(const TurningGalaxy& galaxy) {
     scene_.emplace(options_, galaxy);
     const ImageSettings& image = scene_->scene().image;
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
       check_image_size(pictures_->at(0), size.width, size.height);
-    renderer_.emplace(RendererOptions{options_.device, CompositeShape::automatic});
-    std::vector<std::string> notes;
-    scene_->decide(notes);
-    tell(notes);
-  }
-
-  void draw(int frame, const std::shared_ptr<const Snapshot>& turned) {
-    std::vector<std::string> notes;
-    ImageFileOptions file;
-    file.gamma = scene_->scene().image.gamma;
-    for (const Picture& picture : scene_->draw(turned, *renderer_, notes)) {
-      write_image(picture_path(pictures_->at(frame), picture.suffix), picture.image, file);
-    }
-    tell(notes);
-  }
-
-  // Once each.
-  void tell(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) {
-      if (told_.insert(note).second) console_.note(note);
-    }
+    drawer_.emplace(FrameDrawerOptions{options_.device, false, {}},
+                    [this](const std::string& note) { console_.note(note); });
+    scene_->decide();
+    drawer_->tell(scene_->notes());
   }
 
   const EvolveOptions& options_;
   Console& console_;
   std::optional<NumberedFiles> pictures_, snapshots_;
   std::optional<TurningScene> scene_;
-  std::optional<Renderer> renderer_;
-  std::set<std::string> told_;
+  std::optional<FilmDrawer> drawer_;
 };
 
 }  // namespace

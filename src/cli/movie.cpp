@@ -1,141 +1,135 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <iterator>
-#include <string>
-#include <vector>
+#include <cmath>
+#include <csignal>
+#include <optional>
 
 #include "cli/commands.h"
-#include "cli/film_manifest.h"
-#include "cli/film_scene.h"
-#include "cli/frame_loop.h"
-#include "film/movie/encoder.h"
-#include "film/movie/frame_files.h"
-#include "film/movie/frame_range.h"
-#include "splotchcl/error.h"
-#include "splotchcl/image_file.h"
-#include "splotchcl/picture.h"
+#include "splotchcl/film.h"
 
 namespace splotchcl::cli {
 namespace {
 
-std::vector<PictureSize> sizes_of(const Scene& scene) {
-  return picture_sizes(scene, scene.image.width, scene.image.height);
+volatile std::sig_atomic_t is_stopped = 0;
+
+void stop_after_frame(int) {
+  is_stopped = 1;
 }
 
-std::vector<std::string> suffixes_of(const Scene& scene) {
-  std::vector<std::string> suffixes;
-  for (const PictureSize& size : sizes_of(scene))
-    suffixes.push_back(size.suffix);
-  return suffixes;
+// While it lives, the first Ctrl-C only asks for an end after the frame that is being drawn; a
+// second one ends the program.
+class StopSignals {
+ public:
+  StopSignals() {
+    struct sigaction action = {};
+    action.sa_handler = stop_after_frame;
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    ::sigaction(SIGINT, &action, &interrupt_);
+    ::sigaction(SIGTERM, &action, &terminate_);
+  }
+  ~StopSignals() {
+    ::sigaction(SIGINT, &interrupt_, nullptr);
+    ::sigaction(SIGTERM, &terminate_, nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  struct sigaction interrupt_ = {}, terminate_ = {};
+};
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-// Everything that the pictures can fail by is tried before anything is read.
-void check_pictures(const FrameFiles& files, const Scene& scene) {
-  files.check();
-  for (const PictureSize& size : sizes_of(scene)) {
-    if (files.is_film()) {
-      check_film(files.film(size.suffix), scene.movie, size.width, size.height);
+std::string progress_bar(std::size_t done, std::size_t total) {
+  constexpr std::size_t width = 24;
+  const std::size_t filled = width * done / total;
+  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
+}
+
+// Tells the console, and has the signals while frames are drawn.
+class Watch {
+ public:
+  explicit Watch(Console& console) : console_(console) {}
+
+  FilmReport report() {
+    FilmReport report;
+    report.note = [this](const std::string& text) { console_.note(text); };
+    report.status = [this](const std::string& what) {
+      signals_.reset();
+      console_.status(what);
+    };
+    report.progress = [this](const std::string& what, double fraction) {
+      console_.progress(what, fraction);
+    };
+    report.frame = [this](int frame, std::size_t done, std::size_t total) {
+      show_frame(frame, done, total);
+    };
+    report.is_stopped = [] { return is_stopped != 0; };
+    return report;
+  }
+
+ private:
+  void show_frame(int frame, std::size_t done, std::size_t total) {
+    std::string left;
+    if (done == 0) {
+      signals_.emplace();
+      drawing_ = Stopwatch();
     } else {
-      check_image_size(files.picture(0, size.suffix), size.width, size.height);
+      const double per_frame = drawing_.seconds() / static_cast<double>(done);
+      left = ", " + duration(per_frame * static_cast<double>(total - done)) + " left";
     }
+    console_.status(fmt::format("{} frame {}, {} of {}{}", progress_bar(done, total), frame,
+                                done + 1, total, left));
   }
+
+  Console& console_;
+  std::optional<StopSignals> signals_;
+  Stopwatch drawing_;
+};
+
+FilmOptions film_options(const MovieOptions& options) {
+  FilmOptions film;
+  film.scene = options.scene;
+  film.output = options.output;
+  film.settings = options.settings;
+  if (options.tolerance) film.settings.push_back(fmt::format("tolerance={}", *options.tolerance));
+  film.device = options.device;
+  film.by_reference = options.reference;
+  film.frames = options.frames;
+  film.part = options.part;
+  film.only_join = options.join;
+  return film;
 }
 
-// The bytes that a PNG file holds.
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  const Image image = read_image(path);
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.pixels.size() / 4 * 3);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>(255 * image.pixels[i] + 0.5F));
+void tell_result(const FilmResult& result, const MovieOptions& options, Console& console) {
+  switch (result.state) {
+    case FilmState::complete:
+      console.done(fmt::format("{}: {} frames of {}x{} pixels", options.output.string(),
+                               result.frames, result.width, result.height));
+      break;
+    case FilmState::complete_before:
+      console.done(options.output.string() + " is complete already");
+      break;
+    case FilmState::part_is_drawn:
+      console.done(
+          fmt::format("part {} is drawn; the last part, or splotchcl movie --join, makes the film",
+                      options.part));
+      break;
+    case FilmState::joined_by_another:
+      break;
   }
-  return bytes;
-}
-
-void join(const std::vector<int>& frames, const Scene& scene, const FrameFiles& files,
-          Console& console) {
-  for (const PictureSize& size : sizes_of(scene)) {
-    Encoder encoder(files.film(size.suffix), scene.movie, size.width, size.height, files.folder());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      console.progress("joining the frames",
-                       static_cast<double>(i) / static_cast<double>(frames.size()));
-      encoder.add(read_bytes(files.picture(frames[i], size.suffix)));
-    }
-    encoder.finish();
-  }
-}
-
-std::vector<int> missing(const std::vector<int>& frames, const FrameFiles& files) {
-  std::vector<int> result;
-  std::copy_if(frames.begin(), frames.end(), std::back_inserter(result),
-               [&](int frame) { return !files.has(frame); });
-  return result;
-}
-
-// Makes the film where all its frames are there; else says what to do.
-void complete(const MovieOptions& options, const std::vector<int>& frames, const Scene& scene,
-              FrameFiles& files, Console& console) {
-  const std::size_t lacking = missing(frames, files).size();
-  if (lacking > 0 && options.join) {
-    throw DataError(fmt::format("{}: {} of {} frames are missing; draw the parts that are left",
-                                files.folder().string(), lacking, frames.size()));
-  }
-  if (lacking > 0) {
-    console.done(
-        fmt::format("part {} is drawn; the last part, or splotchcl movie --join, makes "
-                    "the film",
-                    options.part));
-    return;
-  }
-  const FrameFiles::Lock lock(files);
-  if (!lock) return;  // another part is at it
-  if (files.is_film()) join(frames, scene, files, console);
-  files.close();
-  console.done(fmt::format("{}: {} frames of {}x{} pixels", options.output.string(), frames.size(),
-                           scene.image.width, scene.image.height));
-}
-
-// The last part has made the film already, or nobody has begun it.
-void tell_of_nothing_to_join(const MovieOptions& options, const std::vector<int>& frames,
-                             const FrameFiles& files, Console& console) {
-  if (!files.is_complete(frames)) {
-    throw DataError(options.output.string() +
-                    ": found no frames to join, expected those of its parts; draw them first");
-  }
-  console.done(options.output.string() + " is complete already");
-}
-
-std::vector<std::string> settings_of(const MovieOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
-  return settings;
 }
 
 }  // namespace
 
 int run_movie(const MovieOptions& options, Console& console) {
-  FilmScene film(options.scene, settings_of(options));
-  const Scene start = film.path().scene_at(film.scene(), 0);
-  FrameFiles files(options.output, suffixes_of(start));
-  check_pictures(files, start);
-  const std::vector<int> frames = select_frames(options.frames, film.path().frame_count());
-  const std::vector<int> part = select_part(options.part, frames);
-
-  if (options.join && !files.is_begun()) {
-    tell_of_nothing_to_join(options, frames, files, console);
-    return 0;
-  }
-  console.status("reading");
-  film.decide();
-  files.open(film_manifest(film.scene(), film.path(), options.reference));
-  if (!options.join) {
-    const std::vector<int> to_draw = missing(part, files);
-    files.remove_leftovers(to_draw);
-    FrameLoop(options, film, files, console).draw(to_draw);
-  }
-  complete(options, frames, start, files, console);
+  Watch watch(console);
+  tell_result(make_film(film_options(options), watch.report()), options, console);
   return 0;
 }
 

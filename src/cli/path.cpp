@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "cli/commands.h"
-#include "cli/film_scene.h"
+#include "film/frames/film_scene.h"
 #include "film/path_plot/path_plot.h"
 #include "scene/constants.h"
 #include "scene/statistics.h"

@@ -1,20 +1,18 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <map>
 
 #include "cli/commands.h"
 #include "cli/render_stats.h"
-#include "cli/scene_argument.h"
 #include "common/unfinished_file.h"
 #include "splotchcl/error.h"
+#include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
-#include "splotchcl/picture.h"
+#include "splotchcl/open_scene.h"
 #include "splotchcl/plan.h"
-#include "splotchcl/reference.h"
-#include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl::cli {
@@ -79,12 +77,14 @@ std::vector<std::string> settings_of(const RenderOptions& options) {
   return settings;
 }
 
+LoadProgress show_progress(Console& console) {
+  return [&console](const std::string& what, double fraction) { console.progress(what, fraction); };
+}
+
 Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, Console& console) {
   console.status("reading " + source.snapshot->info().files.front().filename().string());
   std::vector<std::string> notes = source.snapshot->info().notes;
-  Frame frame = load_frame(
-      source.scene, *source.snapshot, notes,
-      [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
+  Frame frame = load_frame(source.scene, *source.snapshot, notes, show_progress(console));
   for (const std::string& note : notes)
     console.note(note);
   frame.crop = choose_crop(options.crop, frame.width, frame.height);
@@ -105,64 +105,6 @@ void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& s
   std::cout << "\n" << format_scene(scene);
 }
 
-Image draw_with_reference(const Frame& frame, RenderStats& stats, Console& console) {
-  stats.device = "reference";
-  stats.particles = particle_count(frame);
-  stats.bad_particles = reference::count_bad(frame);
-  stats.drawn_particles = reference::project(frame).size();
-  return reference::render(
-             frame,
-             [&](double fraction) { console.progress("drawing with the reference", fraction); })
-      .to_float();
-}
-
-// A picture may take several frames: seconds add up, and what is counted is the largest, since
-// the frames share their particles.
-void add(const RenderStats& frame, RenderStats& total) {
-  total.device = frame.device;
-  total.particles = std::max(total.particles, frame.particles);
-  total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
-  total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
-  total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
-  total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
-  total.build_seconds += frame.build_seconds;
-  total.total_seconds += frame.total_seconds;
-  for (const StageTime& stage : frame.stages) {
-    const auto known = std::find_if(total.stages.begin(), total.stages.end(),
-                                    [&](const StageTime& s) { return s.stage == stage.stage; });
-    if (known == total.stages.end()) {
-      total.stages.push_back(stage);
-    } else {
-      known->seconds += stage.seconds;
-    }
-  }
-}
-
-Image draw_frame(const Frame& frame, std::optional<Renderer>& renderer, RenderStats& total,
-                 Console& console) {
-  if (renderer) {
-    console.status(fmt::format("drawing {} particles", particle_count(frame)));
-    Image image = renderer->render(frame);
-    add(renderer->stats(), total);
-    return image;
-  }
-  const Stopwatch stopwatch;
-  RenderStats stats;
-  Image image = draw_with_reference(frame, stats, console);
-  stats.total_seconds = stopwatch.seconds();
-  add(stats, total);
-  return image;
-}
-
-void note_bad_particles(const RenderStats& stats, Console& console) {
-  if (stats.bad_particles == 0) return;
-  console.note(
-      fmt::format("{} of {} particles are left out: their position, smoothing length, weight, "
-                  "colour, intensity or sort field is not finite, the smoothing length not above "
-                  "0, or the weight below 0",
-                  stats.bad_particles, stats.particles));
-}
-
 // The pictures' files by suffix, and whether each could be written.
 void check_outputs(const std::filesystem::path& output, const Scene& scene, int view_width,
                    int view_height) {
@@ -180,16 +122,12 @@ std::string compilation(const RenderStats& stats) {
   return fmt::format(", of it {:.1f} s to compile kernels, this once", stats.build_seconds);
 }
 
-ImageFileOptions file_options(const Scene& scene, const RenderOptions& options,
-                              const RenderStats& stats) {
-  ImageFileOptions file;
-  file.gamma = scene.image.gamma;
-  file.truncates = scene.image.convention == PixelConvention::original;
-  file.metadata = {{"splotchcl:version", SPLOTCHCL_VERSION},
-                   {"splotchcl:scene", format_scene(scene)},
-                   {"splotchcl:device", stats.device}};
-  if (!options.crop.empty()) file.metadata["splotchcl:crop"] = options.crop;
-  return file;
+std::map<std::string, std::string> metadata(const Scene& scene, const RenderOptions& options,
+                                            const RenderStats& stats) {
+  std::map<std::string, std::string> texts = {{"splotchcl:scene", format_scene(scene)},
+                                              {"splotchcl:device", stats.device}};
+  if (!options.crop.empty()) texts["splotchcl:crop"] = options.crop;
+  return texts;
 }
 
 }  // namespace
@@ -210,10 +148,10 @@ int run_render(const RenderOptions& options, Console& console) {
     check_outputs(*output, source.scene, cropped ? wanted.width : picture.width,
                   cropped ? wanted.height : picture.height);
   }
-  std::optional<Renderer> renderer;
-  if (output && !options.reference) {
-    console.status("starting the device");
-    renderer.emplace(RendererOptions{options.device, CompositeShape::automatic});
+  std::optional<FrameDrawer> drawer;
+  if (output) {
+    if (!options.reference) console.status("starting the device");
+    drawer.emplace(FrameDrawerOptions{options.device, options.reference, show_progress(console)});
   }
 
   RenderReport report;
@@ -225,21 +163,16 @@ int run_render(const RenderOptions& options, Console& console) {
   if (!output) return 0;
 
   const Stopwatch drawing;
-  std::vector<std::string> notes;
-  const std::vector<Picture> pictures = draw_pictures(
-      source.scene, report.frame, source.snapshot->info(),
-      [&](const Frame& frame) { return draw_frame(frame, renderer, report.stats, console); },
-      notes);
-  for (const std::string& note : notes)
+  console.status(fmt::format("drawing {} particles", particle_count(report.frame)));
+  const DrawnFrame drawn = drawer->draw(source.scene, report.frame, source.snapshot->info());
+  report.stats = drawn.stats;
+  for (const std::string& note : drawn.all_notes())
     console.note(note);
-  note_bad_particles(report.stats, console);
   report.draw_seconds = drawing.seconds();
   const Stopwatch writing;
-  for (const Picture& drawn : pictures) {
-    const std::filesystem::path path = picture_path(*output, drawn.suffix);
-    console.status("writing " + path.string());
-    write_image(path, drawn.image, file_options(source.scene, options, report.stats));
-  }
+  console.status("writing " + output->string());
+  write_pictures(*output, drawn.pictures,
+                 image_file_options(source.scene, metadata(source.scene, options, drawn.stats)));
   report.write_seconds = writing.seconds();
   if (options.stats) {
     report.scene = options.scene.string();
@@ -248,10 +181,11 @@ int run_render(const RenderOptions& options, Console& console) {
     report.reference = options.reference;
     write_stats(*options.stats, report);
   }
-  console.done(fmt::format(
-      "{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}", output->string(),
-      pictures.front().image.width, pictures.front().image.height, report.stats.particles,
-      report.read_seconds, report.draw_seconds, report.stats.device, compilation(report.stats)));
+  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}",
+                           output->string(), drawn.pictures.front().image.width,
+                           drawn.pictures.front().image.height, report.stats.particles,
+                           report.read_seconds, report.draw_seconds, report.stats.device,
+                           compilation(report.stats)));
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "device/opencl/device_context.h"
+#include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "splotchcl/error.h"
 
@@ -66,6 +67,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   const double built_before = device.programs.build_seconds();
   stats = {};
   stats.device = device.device.name();
+  stats.note = device.programs.note();
   device.timer.clear();
   device.pool.reset_peak();
   particles.begin_frame();
@@ -89,6 +91,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
 }
 
 Renderer::Renderer(const RendererOptions& options) {
+  const auto lock = lock_runtime();
   try {
     state_ = std::make_unique<State>(options);
   } catch (const compute::opencl_error& error) {

@@ -14,7 +14,7 @@
 namespace splotchcl {
 namespace {
 
-// One bar with all that is written beside it, before it has a place. Along the bar are
+// One bar with all that is written beside it, before it has a position. Along the bar are
 // pixels from its low end; across, pixels from its side without numbers.
 class ColorBar {
  public:
@@ -179,7 +179,7 @@ std::vector<Overlay> make_color_bars(const Scene& scene, const Frame& frame,
                                      Layout& layout) {
   const ColorBarSettings& settings = scene.finish.color_bar;
   const std::vector<std::size_t> shown = components_with_bars(scene);
-  const bool upright = settings.at != Place::top && settings.at != Place::bottom;
+  const bool upright = settings.at != Anchor::top && settings.at != Anchor::bottom;
   const double side = upright ? frame.height : frame.width;
   const double gap = std::round((upright ? 1.5 : 3) * style.size());
   const auto count = static_cast<double>(shown.size());

@@ -30,9 +30,9 @@ bool has_text(const FinishSettings& finish) {
   return has_any;
 }
 
-TextAlignment alignment_at(Place place) {
-  if (is_at_right(place)) return TextAlignment::right;
-  return is_at_left(place) ? TextAlignment::left : TextAlignment::center;
+TextAlignment alignment_at(Anchor anchor) {
+  if (is_at_right(anchor)) return TextAlignment::right;
+  return is_at_left(anchor) ? TextAlignment::left : TextAlignment::center;
 }
 
 std::string words_of(const NamedText& named, const FinishSettings& finish,

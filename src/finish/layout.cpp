@@ -19,17 +19,18 @@ bool overlap(const Box& a, const Box& b) {
 
 }  // namespace
 
-bool is_at_top(Place place) {
-  return place == Place::top_left || place == Place::top || place == Place::top_right;
+bool is_at_top(Anchor anchor) {
+  return anchor == Anchor::top_left || anchor == Anchor::top || anchor == Anchor::top_right;
 }
-bool is_at_bottom(Place place) {
-  return place == Place::bottom_left || place == Place::bottom || place == Place::bottom_right;
+bool is_at_bottom(Anchor anchor) {
+  return anchor == Anchor::bottom_left || anchor == Anchor::bottom ||
+         anchor == Anchor::bottom_right;
 }
-bool is_at_left(Place place) {
-  return place == Place::top_left || place == Place::left || place == Place::bottom_left;
+bool is_at_left(Anchor anchor) {
+  return anchor == Anchor::top_left || anchor == Anchor::left || anchor == Anchor::bottom_left;
 }
-bool is_at_right(Place place) {
-  return place == Place::top_right || place == Place::right || place == Place::bottom_right;
+bool is_at_right(Anchor anchor) {
+  return anchor == Anchor::top_right || anchor == Anchor::right || anchor == Anchor::bottom_right;
 }
 
 Layout::Layout(int width, int height)
@@ -38,9 +39,9 @@ Layout::Layout(int width, int height)
       unit_(std::min(width, height)),
       margin_(std::round(margin_part * unit_)) {}
 
-Box Layout::place(Place place, double width, double height, const std::string& what) {
-  double& used = used_[static_cast<std::size_t>(place)];
-  const bool is_stacked = is_at_top(place) || is_at_bottom(place);
+Box Layout::place(Anchor anchor, double width, double height, const std::string& what) {
+  double& used = used_[static_cast<std::size_t>(anchor)];
+  const bool is_stacked = is_at_top(anchor) || is_at_bottom(anchor);
   const double room_x = width_ - 2 * margin_ - (is_stacked ? 0 : used);
   const double room_y = height_ - 2 * margin_ - (is_stacked ? used : 0);
   if (width > room_x || height > room_y) {
@@ -51,12 +52,12 @@ Box Layout::place(Place place, double width, double height, const std::string& w
   }
   Box box;
   const double depth_x = is_stacked ? 0 : used, depth_y = is_stacked ? used : 0;
-  box.left = is_at_left(place)    ? margin_ + depth_x
-             : is_at_right(place) ? width_ - margin_ - depth_x - width
-                                  : (width_ - width) / 2;
-  box.top = is_at_top(place)      ? margin_ + depth_y
-            : is_at_bottom(place) ? height_ - margin_ - depth_y - height
-                                  : (height_ - height) / 2;
+  box.left = is_at_left(anchor)    ? margin_ + depth_x
+             : is_at_right(anchor) ? width_ - margin_ - depth_x - width
+                                   : (width_ - width) / 2;
+  box.top = is_at_top(anchor)      ? margin_ + depth_y
+            : is_at_bottom(anchor) ? height_ - margin_ - depth_y - height
+                                   : (height_ - height) / 2;
   box.left = std::round(box.left);
   box.top = std::round(box.top);
   box.right = box.left + width;

@@ -10,7 +10,7 @@
 
 namespace splotchcl {
 
-// Finds room for what is put upon a picture. Things at the same place stand below each
+// Finds room for what is put upon a picture. Things at the same anchor stand below each
 // other: at the top from the edge downwards, at the bottom upwards, and at the left and
 // right, in the middle of their height, beside each other.
 class Layout {
@@ -22,17 +22,17 @@ class Layout {
 
   // Room of this size. Throws UsageError, naming `what`, where the picture has too little or
   // something else lies there.
-  Box place(Place place, double width, double height, const std::string& what);
+  Box place(Anchor anchor, double width, double height, const std::string& what);
 
  private:
   double width_, height_, unit_, margin_;
-  std::array<double, 8> used_{};  // depth from the margin inwards, by place
+  std::array<double, 8> used_{};  // depth from the margin inwards, by anchor
   std::vector<std::pair<Box, std::string>> placed_;
 };
 
-bool is_at_top(Place place);
-bool is_at_bottom(Place place);
-bool is_at_left(Place place);
-bool is_at_right(Place place);
+bool is_at_top(Anchor anchor);
+bool is_at_bottom(Anchor anchor);
+bool is_at_left(Anchor anchor);
+bool is_at_right(Anchor anchor);
 
 }  // namespace splotchcl

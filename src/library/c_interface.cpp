@@ -7,10 +7,10 @@
 
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
-#include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/splotchcl_c.h"
 
@@ -23,7 +23,7 @@ struct splotchcl_particles {
 };
 
 struct splotchcl_renderer {
-  splotchcl::Renderer renderer;
+  splotchcl::FrameDrawer drawer;
   std::string notes;
 };
 
@@ -180,10 +180,10 @@ void splotchcl_particles_free(splotchcl_particles* particles) {
 
 splotchcl_renderer* splotchcl_renderer_new(const char* device, splotchcl_error* error) {
   return made<splotchcl_renderer>(error, [&] {
-    splotchcl::RendererOptions options;
+    splotchcl::FrameDrawerOptions options;
     if (device != nullptr) options.device = device;
     return std::unique_ptr<splotchcl_renderer>(
-        new splotchcl_renderer{splotchcl::Renderer(options), ""});
+        new splotchcl_renderer{splotchcl::FrameDrawer(options), ""});
   });
 }
 
@@ -208,18 +208,13 @@ int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
     require(images, "the array of images");
     for (std::size_t i = 0; i < count; ++i)
       require(images[i], "an image");
-    std::vector<std::string> notes;
-    const auto pictures = splotchcl::draw_pictures(
-        scene->scene, arrays_now(particles),
-        [&](const splotchcl::Frame& frame) {
-          return require(renderer, "the renderer")->renderer.render(frame);
-        },
-        notes);
+    const splotchcl::DrawnFrame drawn =
+        require(renderer, "the renderer")->drawer.draw(scene->scene, arrays_now(particles));
     renderer->notes.clear();
-    for (const std::string& note : notes)
+    for (const std::string& note : drawn.all_notes())
       renderer->notes += note + "\n";
     for (std::size_t i = 0; i < count; ++i) {
-      const std::vector<float>& pixels = pictures.at(i).image.pixels;
+      const std::vector<float>& pixels = drawn.pictures.at(i).image.pixels;
       std::copy(pixels.begin(), pixels.end(), images[i]);
     }
   });

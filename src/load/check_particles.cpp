@@ -16,7 +16,7 @@ void check_particles(const DrawnComponent& component, const std::string& snapsho
   throw DataError(fmt::format(
       "{}: component {}: none of its {} particles can be drawn: all have a position, smoothing "
       "length, weight, colour, intensity or sort field that is not finite, a smoothing length not "
-      "above 0, or a weight below 0; splotchcl info tells which",
+      "above 0, or a weight or own colour below 0; splotchcl info tells which",
       snapshot, component.name, particles.count));
 }
 

@@ -35,7 +35,7 @@ std::optional<std::string> nearest_key_anywhere(const std::string& name) {
   return std::nullopt;
 }
 
-[[noreturn]] void refuse_unknown(const Place& table, const std::string& name,
+[[noreturn]] void refuse_unknown(const KeyAddress& table, const std::string& name,
                                  const std::string& where) {
   const std::vector<std::string> known = names_in_table(table.path);
   std::optional<std::string> nearest = nearest_name(name, known);
@@ -45,17 +45,17 @@ std::optional<std::string> nearest_key_anywhere(const std::string& name) {
 }
 
 // The innermost known table of a path: {"camera", "fov"} of "camera.fov".
-[[noreturn]] void refuse_unknown_path(const Place& place, const std::string& where) {
-  std::string table = place.path;
+[[noreturn]] void refuse_unknown_path(const KeyAddress& address, const std::string& where) {
+  std::string table = address.path;
   do {
     const std::size_t dot = table.rfind('.');
     table = dot == std::string::npos ? "" : table.substr(0, dot);
   } while (!is_table(table));
-  const std::size_t rest = place.path.size() - table.size();
-  Place parent = place;
+  const std::size_t rest = address.path.size() - table.size();
+  KeyAddress parent = address;
   parent.path = table;
-  parent.label = table.empty() ? "" : place.label.substr(0, place.label.size() - rest);
-  refuse_unknown(parent, place.path.substr(table.empty() ? 0 : table.size() + 1), where);
+  parent.label = table.empty() ? "" : address.label.substr(0, address.label.size() - rest);
+  refuse_unknown(parent, address.path.substr(table.empty() ? 0 : table.size() + 1), where);
 }
 
 bool is_known(const std::string& path) {
@@ -120,53 +120,54 @@ Scene SceneBuilder::finish() const {
 void SceneBuilder::apply_setting(const std::string& setting) {
   const Setting parts = split_setting(setting);
   const std::string where = fmt::format("setting \"{}\"", one_line(setting));
-  const Place place = locate(parts.key, scene_, where);
-  if (!is_known(place.path)) refuse_unknown_path(place, where);
+  const KeyAddress address = locate(parts.key, scene_, where);
+  if (!is_known(address.path)) refuse_unknown_path(address, where);
   const toml::table table = parse_value(parts.text);
-  assign(place, {*table.get("value"), where, &parts.text});
+  assign(address, {*table.get("value"), where, &parts.text});
 }
 
-void SceneBuilder::assign(const Place& place, const Value& value) {
-  if (const Key* key = find_key(place.path)) {
-    assign_key(*key, place, value);
-  } else if (place.label == "component") {
+void SceneBuilder::assign(const KeyAddress& address, const Value& value) {
+  if (const Key* key = find_key(address.path)) {
+    assign_key(*key, address, value);
+  } else if (address.label == "component") {
     assign_components(value);
   } else {
-    assign_table(place, value);
+    assign_table(address, value);
   }
 }
 
-void SceneBuilder::assign_key(const Key& key, const Place& place, const Value& value) {
+void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const Value& value) {
   for (const Assignment& earlier : assigned_) {
-    if (earlier.place.label != place.label) continue;
-    refuse(value.where, place.label, "it for the second time", "each key once");
+    if (earlier.address.label != address.label) continue;
+    refuse(value.where, address.label, "it for the second time", "each key once");
   }
-  need_camera(place, value.where);
-  need_stereo(place);
-  bool is_set = key.set(scene_, place.component, value.node);
+  need_camera(address, value.where);
+  need_stereo(address);
+  bool is_set = key.set(scene_, address.component, value.node);
   if (!is_set && value.bare_text != nullptr) {
-    is_set = key.set(scene_, place.component, toml::value<std::string>(*value.bare_text));
+    is_set = key.set(scene_, address.component, toml::value<std::string>(*value.bare_text));
   }
-  if (!is_set) refuse(value.where, place.label, describe(value.node), key.expected);
-  origins_.where[place.label] = value.where;
-  assigned_.push_back({&key, place});
+  if (!is_set) refuse(value.where, address.label, describe(value.node), key.expected);
+  origins_.where[address.label] = value.where;
+  assigned_.push_back({&key, address});
 }
 
-void SceneBuilder::assign_table(const Place& place, const Value& value) {
+void SceneBuilder::assign_table(const KeyAddress& address, const Value& value) {
   const toml::table* table = value.node.as_table();
   if (table == nullptr) {
     refuse(
-        value.where, place.label, describe(value.node),
-        fmt::format("a table with keys such as {}", fmt::join(names_in_table(place.path), ", ")));
+        value.where, address.label, describe(value.node),
+        fmt::format("a table with keys such as {}", fmt::join(names_in_table(address.path), ", ")));
   }
-  need_camera(place, value.where);
-  need_stereo(place);
+  need_camera(address, value.where);
+  need_stereo(address);
   for (const auto& [key, node] : in_file_order(*table)) {
     const std::string name(key->str());
     const std::string where = is_reading_file_ ? where_in_file(key->source()) : value.where;
-    const Place child = {join(place.path, name), join(place.label, name), place.component};
+    const KeyAddress child = {join(address.path, name), join(address.label, name),
+                              address.component};
     const bool is_one_name = name.find('.') == std::string::npos && !name.empty();
-    if (!is_one_name || !is_known(child.path)) refuse_unknown(place, name, where);
+    if (!is_one_name || !is_known(child.path)) refuse_unknown(address, name, where);
     assign(child, {*node, where});
   }
 }
@@ -186,8 +187,8 @@ void SceneBuilder::assign_components(const Value& value) {
   }
 }
 
-void SceneBuilder::need_camera(const Place& place, const std::string& where) {
-  const bool is_of_camera = place.path.substr(0, place.path.find('.')) == "camera";
+void SceneBuilder::need_camera(const KeyAddress& address, const std::string& where) {
+  const bool is_of_camera = address.path.substr(0, address.path.find('.')) == "camera";
   if (!is_of_camera || scene_.camera) return;
   scene_.camera.emplace();
   camera_is_new_ = true;
@@ -195,8 +196,8 @@ void SceneBuilder::need_camera(const Place& place, const std::string& where) {
 }
 
 // An empty [stereo] asks for two eyes, too.
-void SceneBuilder::need_stereo(const Place& place) {
-  const bool is_of_stereo = place.path.substr(0, place.path.find('.')) == "stereo";
+void SceneBuilder::need_stereo(const KeyAddress& address) {
+  const bool is_of_stereo = address.path.substr(0, address.path.find('.')) == "stereo";
   if (is_of_stereo && !scene_.stereo) scene_.stereo.emplace();
 }
 
@@ -205,11 +206,11 @@ void SceneBuilder::refuse_exclusions() const {
     for (const Assignment& other : assigned_) {
       const auto& excluded = given.key->excludes;
       const bool is_excluded =
-          given.place.component == other.place.component &&
+          given.address.component == other.address.component &&
           std::find(excluded.begin(), excluded.end(), other.key->path) != excluded.end();
       if (!is_excluded) continue;
-      refuse(origins_.at(other.place.label), other.place.label,
-             fmt::format("it beside {}", given.place.label), "only one of the two");
+      refuse(origins_.at(other.address.label), other.address.label,
+             fmt::format("it beside {}", given.address.label), "only one of the two");
     }
   }
 }

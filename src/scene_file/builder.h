@@ -32,16 +32,16 @@ class SceneBuilder {
   };
   struct Assignment {
     const Key* key;
-    Place place;
+    KeyAddress address;
   };
 
   void apply_setting(const std::string& setting);
-  void assign(const Place& place, const Value& value);
-  void assign_key(const Key& key, const Place& place, const Value& value);
-  void assign_table(const Place& place, const Value& value);
+  void assign(const KeyAddress& address, const Value& value);
+  void assign_key(const Key& key, const KeyAddress& address, const Value& value);
+  void assign_table(const KeyAddress& address, const Value& value);
   void assign_components(const Value& value);
-  void need_camera(const Place& place, const std::string& where);
-  void need_stereo(const Place& place);
+  void need_camera(const KeyAddress& address, const std::string& where);
+  void need_stereo(const KeyAddress& address);
   void refuse_exclusions() const;
   std::string where_in_file(const toml::source_region& region) const;
 

@@ -28,15 +28,15 @@ Key text_key(const std::string& path, Member member, const Text& text_of_key) {
       text_of_key);
 }
 
-ValueType<Place> place() {
-  return choice<Place>({{"top left", Place::top_left},
-                        {"top", Place::top},
-                        {"top right", Place::top_right},
-                        {"left", Place::left},
-                        {"right", Place::right},
-                        {"bottom left", Place::bottom_left},
-                        {"bottom", Place::bottom},
-                        {"bottom right", Place::bottom_right}});
+ValueType<Anchor> anchor() {
+  return choice<Anchor>({{"top left", Anchor::top_left},
+                         {"top", Anchor::top},
+                         {"top right", Anchor::top_right},
+                         {"left", Anchor::left},
+                         {"right", Anchor::right},
+                         {"bottom left", Anchor::bottom_left},
+                         {"bottom", Anchor::bottom},
+                         {"bottom right", Anchor::bottom_right}});
 }
 
 ValueType<DisplayColor> display_color() {
@@ -76,7 +76,7 @@ Keys text_keys(const std::string& name, Member member, const std::string& what,
                {what + " Placeholders such as `{redshift:.2f}` take values of the snapshot.", "",
                 "none"}),
       finish_key(
-          name + ".at", place(), [member](auto& f) -> auto& { return member(f).at; },
+          name + ".at", anchor(), [member](auto& f) -> auto& { return member(f).at; },
           where("it lies")),
       finish_key(name + ".size",
                  text_height(), [member](auto& f) -> auto& { return member(f).size; },
@@ -114,7 +114,7 @@ Keys bar_keys() {
       finish_key("color_bar.show", boolean(), [](auto& f) -> auto& { return f.color_bar.show; },
                  {"Draw the components' palettes with the values of their fields."}),
       finish_key(
-          "color_bar.at", place(), [](auto& f) -> auto& { return f.color_bar.at; },
+          "color_bar.at", anchor(), [](auto& f) -> auto& { return f.color_bar.at; },
           where("the bars lie")),
       finish_key("color_bar.length", number(between(0.05, 1)),
                  [](auto& f) -> auto& { return f.color_bar.length; },
@@ -129,7 +129,7 @@ Keys bar_keys() {
       finish_key("scale_bar.show", boolean(), [](auto& f) -> auto& { return f.scale_bar.show; },
                  {"Draw a length as it appears at the look-at point."}),
       finish_key(
-          "scale_bar.at", place(), [](auto& f) -> auto& { return f.scale_bar.at; },
+          "scale_bar.at", anchor(), [](auto& f) -> auto& { return f.scale_bar.at; },
           where("the bar lies")),
       finish_key("scale_bar.length", number(more_than(0)),
                  [](auto& f) -> auto& { return f.scale_bar.length; },
@@ -146,7 +146,7 @@ Keys inset_keys() {
                  {"Draw the scene a second time, as another camera sees it, into a part of the "
                   "picture."}),
       finish_key(
-          "inset.at", place(), [](auto& f) -> auto& { return f.inset.at; },
+          "inset.at", anchor(), [](auto& f) -> auto& { return f.inset.at; },
           where("the inset lies")),
       finish_key("inset.size", two_numbers(between(0.01, 1), "[width, height]"),
                  [](auto& f) -> auto& { return f.inset.size; },

@@ -89,7 +89,7 @@ toml::table parse_value(const std::string& text) {
   return toml::table{{"value", text}};
 }
 
-Place locate(const std::string& key, const Scene& scene, const std::string& where) {
+KeyAddress locate(const std::string& key, const Scene& scene, const std::string& where) {
   if (key.compare(0, component_prefix.size(), component_prefix) != 0) return {key, key, 0};
   const std::string address = key.substr(component_prefix.size());
   std::optional<Found> found = find_by_number(address, scene);

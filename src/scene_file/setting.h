@@ -10,7 +10,7 @@
 namespace splotchcl::scene_file {
 
 // A key or table: as the list of keys calls it, and as the user does.
-struct Place {
+struct KeyAddress {
   std::string path;   // "component.size.field"
   std::string label;  // "component.0.size.field"
   std::size_t component = 0;
@@ -29,6 +29,6 @@ toml::table parse_value(const std::string& text);
 
 // Finds the component in "component.0.palette" or "component.gas.palette"; other keys are
 // left as they are. Throws UsageError when the scene has no such component.
-Place locate(const std::string& key, const Scene& scene, const std::string& where);
+KeyAddress locate(const std::string& key, const Scene& scene, const std::string& where);
 
 }  // namespace splotchcl::scene_file

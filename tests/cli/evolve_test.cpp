@@ -1,6 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
@@ -67,6 +72,45 @@ TEST_F(Evolve, PartsMakeTheSameFramesAsOneProcess) {
   ASSERT_EQ(splotchcl_in(folder_, command + "-o part_%d.png --part 2/2").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "part_0.png"));
   EXPECT_EQ(read_text(folder_ / "part_2.png"), read_text(folder_ / "all_2.png"));
+}
+
+// A halo, two of whose particles have no place, around the galaxy.
+TEST_F(Evolve, CountsBadParticlesInOneNote) {
+  ASSERT_EQ(splotchcl_in(folder_, "generate halo --particles 1000 -o halo.gadget").exit_code, 0);
+  {
+    // The first of the positions: after HEAD (16 + 264) and the label of POS (16 + 4).
+    std::fstream file(folder_ / "halo.gadget", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(16 + 264 + 16 + 4);
+    const float bad[6] = {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0,
+                          std::numeric_limits<float>::infinity()};
+    file.write(reinterpret_cast<const char*>(bad), sizeof bad);
+  }
+  std::ofstream(folder_ / "both.toml")
+      << "snapshot = 'halo.gadget'\n[image]\nsize = [32, 24]\n"
+         "[camera]\nposition = [0, 0, 400]\nlook_at = [0, 0, 0]\n"
+         "[[component]]\nname = 'gas'\n"
+         "[[component]]\nsnapshot = 'galaxy.hdf5'\ncolor = { vector = 'Color' }\n";
+  const auto result =
+      splotchcl_in(folder_, "evolve galaxy.hdf5 both.toml -o t_%d.png --frames 3 --duration 60");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 of "));
+  EXPECT_THAT(result.err, HasSubstr("particles are left out"));
+}
+
+TEST_F(Evolve, TruncatesAsTheOriginalDoesWhereTheSceneAsksForIt) {
+  const std::string command =
+      "evolve galaxy.hdf5 scene.toml --frames 1 --set image.convention=original -o original_%d.";
+  ASSERT_EQ(splotchcl_in(folder_, command + "png").exit_code, 0);
+  ASSERT_EQ(splotchcl_in(folder_, command + "exr").exit_code, 0);
+  const Image bytes = read_image(folder_ / "original_0.png");
+  const Image light = read_image(folder_ / "original_0.exr");
+  ASSERT_EQ(bytes.pixels.size(), light.pixels.size());
+  for (std::size_t i = 0; i < light.pixels.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const float truncated = std::floor(256 * std::clamp(light.pixels[i], 0.0F, 1.0F));
+    EXPECT_EQ(std::lround(255 * bytes.pixels[i]), std::lround(std::min(truncated, 255.0F)));
+  }
 }
 
 TEST_F(Evolve, WarnsOfWinding) {

@@ -1,6 +1,7 @@
 #include "device/opencl/binary_cache.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -54,6 +55,46 @@ TEST_F(BinaryCacheTest, IgnoresAFileThatIsCutOrOfAnotherKey) {
                  : fs::directory_iterator(folder_)->path(),
              file);
   EXPECT_FALSE(cache_.find("key"));
+}
+
+TEST_F(BinaryCacheTest, IgnoresAFileWithAnyByteChanged) {
+  cache_.keep("key", binary_);
+  const fs::path file = only_file();
+  std::string bytes(fs::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::string flipped = bytes;
+    flipped[i] = static_cast<char>(flipped[i] ^ 4);
+    std::ofstream(file, std::ios::binary) << flipped;
+    EXPECT_FALSE(cache_.find("key")) << "byte " << i;
+  }
+}
+
+TEST_F(BinaryCacheTest, UsesNoFolderThatOthersMayWriteTo) {
+  cache_.keep("key", binary_);
+  EXPECT_EQ(cache_.note(), "");
+  fs::permissions(folder_, fs::perms::group_write, fs::perm_options::add);
+  const BinaryCache shared(folder_);
+  EXPECT_NE(shared.note().find("may be written to by others"), std::string::npos) << shared.note();
+  EXPECT_FALSE(shared.find("key"));
+  fs::permissions(folder_, fs::perms::group_write, fs::perm_options::remove);
+  EXPECT_EQ(BinaryCache(folder_).find("key"), binary_);
+}
+
+TEST_F(BinaryCacheTest, UsesNoFolderOfAnotherUser) {
+  cache_.keep("key", binary_);
+  if (::chown(folder_.c_str(), 65534, 65534) != 0)
+    GTEST_SKIP() << "only root may give folders away";
+  const BinaryCache given_away(folder_);
+  EXPECT_NE(given_away.note().find("belongs to someone else"), std::string::npos);
+  EXPECT_FALSE(given_away.find("key"));
+}
+
+TEST_F(BinaryCacheTest, MakesAFolderOfItsUsersOwn) {
+  cache_.keep("key", binary_);
+  EXPECT_EQ(fs::status(folder_).permissions() & (fs::perms::group_all | fs::perms::others_all),
+            fs::perms::none);
 }
 
 TEST_F(BinaryCacheTest, WithoutAFolderKeepsNothing) {

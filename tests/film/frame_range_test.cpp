@@ -48,7 +48,7 @@ TEST(SelectPart, MayBeEmptyWithMorePartsThanFrames) {
 
 TEST(SelectPart, RefusesWhatIsNoPart) {
   for (const std::string text : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/2/3", "-1/3"})
-    EXPECT_THAT(refusal([&] { select_part(text, {1, 2, 3}); }), HasSubstr("is not I/N"));
+    EXPECT_THAT(refusal([&] { select_part(text, {1, 2, 3}); }), HasSubstr("expected K/N"));
 }
 
 }  // namespace

@@ -12,36 +12,36 @@ constexpr double margin = 32;  // of a picture whose shorter side has 1000 pixel
 
 TEST(Layout, KeepsAMarginOnEverySide) {
   Layout layout(1600, 1000);
-  const Box first = layout.place(Place::top_left, 100, 20, "it");
+  const Box first = layout.place(Anchor::top_left, 100, 20, "it");
   EXPECT_EQ(first.left, margin);
   EXPECT_EQ(first.top, margin);
-  const Box last = layout.place(Place::bottom_right, 100, 20, "it");
+  const Box last = layout.place(Anchor::bottom_right, 100, 20, "it");
   EXPECT_EQ(last.right, 1600 - margin);
   EXPECT_EQ(last.bottom, 1000 - margin);
 }
 
 TEST(Layout, CentersWhatLiesAtTheMiddleOfASide) {
   Layout layout(1600, 1000);
-  const Box top = layout.place(Place::top, 100, 20, "it");
+  const Box top = layout.place(Anchor::top, 100, 20, "it");
   EXPECT_EQ(top.left + top.right, 1600);
-  const Box right = layout.place(Place::right, 100, 20, "it");
+  const Box right = layout.place(Anchor::right, 100, 20, "it");
   EXPECT_EQ(right.top + right.bottom, 1000);
 }
 
 TEST(Layout, PutsThingsOfOnePlaceBesideEachOther) {
   Layout layout(1600, 1000);
-  const Box first = layout.place(Place::bottom_left, 100, 20, "it");
-  const Box second = layout.place(Place::bottom_left, 50, 30, "it");
+  const Box first = layout.place(Anchor::bottom_left, 100, 20, "it");
+  const Box second = layout.place(Anchor::bottom_left, 50, 30, "it");
   EXPECT_LE(second.bottom, first.top);
-  const Box one = layout.place(Place::right, 100, 20, "it");
-  const Box other = layout.place(Place::right, 100, 20, "it");
+  const Box one = layout.place(Anchor::right, 100, 20, "it");
+  const Box other = layout.place(Anchor::right, 100, 20, "it");
   EXPECT_LE(other.right, one.left);
 }
 
 TEST(Layout, RefusesWhatDoesNotFitAndNamesIt) {
   Layout layout(1600, 1000);
   try {
-    layout.place(Place::top, 1700, 20, "finish.title");
+    layout.place(Anchor::top, 1700, 20, "finish.title");
     FAIL() << "expected it to be refused";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("finish.title: takes 1700 x 20 pixels"));
@@ -50,9 +50,9 @@ TEST(Layout, RefusesWhatDoesNotFitAndNamesIt) {
 
 TEST(Layout, RefusesToPutOneThingUponAnother) {
   Layout layout(1600, 1000);
-  layout.place(Place::bottom_right, 300, 400, "finish.inset");
+  layout.place(Anchor::bottom_right, 300, 400, "finish.inset");
   try {
-    layout.place(Place::right, 100, 400, "finish.color_bar");
+    layout.place(Anchor::right, 100, 400, "finish.color_bar");
     FAIL() << "expected it to be refused";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(),

@@ -61,7 +61,7 @@ TEST(PictureFinish, NeedsNoFontWithoutText) {
 
 TEST(PictureFinish, PutsTextIntoTheCornerThatIsSaid) {
   FinishScene scene;
-  scene.scene.finish.title = {"HELM", Place::bottom_right, 0.1};
+  scene.scene.finish.title = {"HELM", Anchor::bottom_right, 0.1};
   const Rectangle text = bounds(scene.finish(), is_bright);
   const int margin = 10;  // 0.032 of 300 pixels, rounded
   // Beside an M the font leaves a tenth of its size.
@@ -82,7 +82,7 @@ TEST(PictureFinish, GivesTextItsColorAfterGamma) {
   FinishScene scene;
   scene.scene.image.gamma = 2.2;
   scene.scene.finish.text_color = {1, 0.5, 0};
-  scene.scene.finish.title = {"█", Place::top_left, 0.2};
+  scene.scene.finish.title = {"█", Anchor::top_left, 0.2};
   const Image image = scene.finish();
   const float* pixel = image.at(25, 25);
   EXPECT_NEAR(pixel[0], 1, 1e-6);
@@ -93,13 +93,13 @@ TEST(PictureFinish, GivesTextItsColorAfterGamma) {
 TEST(PictureFinish, DoesNotExposeText) {
   FinishScene scene;
   scene.scene.finish.exposure = 3;
-  scene.scene.finish.title = {"█", Place::top_left, 0.2};
+  scene.scene.finish.title = {"█", Anchor::top_left, 0.2};
   EXPECT_EQ(scene.finish().at(25, 25)[0], 1.0F);
 }
 
 TEST(ScaleBar, IsAsLongAsItsLengthAppears) {
   FinishScene scene;
-  scene.scene.finish.scale_bar = {true, Place::bottom_left, 73, ""};
+  scene.scene.finish.scale_bar = {true, Anchor::bottom_left, 73, ""};
   const Image image = scene.finish();
   // The bar's row: the lowest in which anything bright is longer than a cap.
   int longest = 0;
@@ -116,13 +116,13 @@ TEST(ScaleBar, ChoosesARoundLength) {
   FinishScene chosen, given;
   chosen.scene.finish.scale_bar.show = true;
   // A fifth of 400 pixels is 40 kpc, and 20 is the round number below.
-  given.scene.finish.scale_bar = {true, Place::bottom_left, 20, "kpc"};
+  given.scene.finish.scale_bar = {true, Anchor::bottom_left, 20, "kpc"};
   EXPECT_EQ(chosen.finish().pixels, given.finish().pixels);
 }
 
 TEST(ScaleBar, LongerThanThePictureIsRefused) {
   FinishScene scene;
-  scene.scene.finish.scale_bar = {true, Place::bottom_left, 250, ""};
+  scene.scene.finish.scale_bar = {true, Anchor::bottom_left, 250, ""};
   EXPECT_THAT(refusal([&] { scene.finish(); }), HasSubstr("finish.scale_bar: takes 500 x"));
 }
 
@@ -172,7 +172,7 @@ TEST(ColorBar, HasItsTicksAtTheirColors) {
 TEST(ColorBar, LiesAtTheTopAndBottom) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
-  scene.scene.finish.color_bar = {true, Place::bottom, 0.5, {}, {}};
+  scene.scene.finish.color_bar = {true, Anchor::bottom, 0.5, {}, {}};
   const Rectangle bar = bounds(scene.finish(), is_of_palette);
   EXPECT_EQ(bar.width, 200);
   EXPECT_LT(bar.height, 20);
@@ -182,7 +182,7 @@ TEST(ColorBar, OfEveryColoredComponentShareTheLength) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
   scene.add_component("stars", red_to_blue(), zero_to_one);
-  scene.scene.finish.color_bar = {true, Place::right, 0.6, {}, {"gas", "stars"}};
+  scene.scene.finish.color_bar = {true, Anchor::right, 0.6, {}, {"gas", "stars"}};
   const Image image = scene.finish();
   const Rectangle both = bounds(image, is_of_palette);
   EXPECT_NEAR(both.height, 180, 2);
@@ -196,7 +196,7 @@ TEST(ColorBar, OfEveryColoredComponentShareTheLength) {
 TEST(ColorBar, OfAComponentThatDoesNotExistIsRefused) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
-  scene.scene.finish.color_bar = {true, Place::right, 0.6, {"gass"}, {}};
+  scene.scene.finish.color_bar = {true, Anchor::right, 0.6, {"gass"}, {}};
   const std::string message = refusal([&] { check_finish(scene.scene, scene.snapshot); });
   EXPECT_THAT(message, HasSubstr("finish.color_bar.components"));
   EXPECT_THAT(message, HasSubstr("did you mean gas"));
@@ -212,7 +212,7 @@ TEST(ColorBar, WithoutAColoredComponentIsRefused) {
 TEST(ColorBar, WithAnotherNumberOfLabelsIsRefused) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);
-  scene.scene.finish.color_bar = {true, Place::right, 0.6, {}, {"one", "two"}};
+  scene.scene.finish.color_bar = {true, Anchor::right, 0.6, {}, {"one", "two"}};
   EXPECT_THAT(refusal([&] { check_finish(scene.scene, scene.snapshot); }),
               HasSubstr("found 2 labels, expected one for each of 1 bars"));
 }
@@ -221,7 +221,7 @@ TEST(Inset, ShowsTheSecondViewInItsRectangle) {
   FinishScene scene;
   scene.scene.finish.inset.show = true;
   scene.scene.finish.inset.size = {0.25, 0.3};
-  scene.scene.finish.inset.at = Place::top_right;
+  scene.scene.finish.inset.at = Anchor::top_right;
   scene.scene.finish.inset.border = 0.01;
   Frame seen;
   const Image image = scene.finish({0.1F, 0.1F, 0.1F}, [&seen](const Frame& frame) {
@@ -334,7 +334,7 @@ TEST(PictureFinish, OfACropIsThatOfThePicture) {
   scene.scene.finish.scale_bar.show = true;
   scene.scene.finish.color_bar.show = true;
   scene.scene.finish.inset.show = true;
-  scene.scene.finish.inset.at = Place::bottom;
+  scene.scene.finish.inset.at = Anchor::bottom;
   const DrawFrame draw = [](const Frame& frame) {
     return plain_image(frame.width, frame.height, {0, 0.5F, 0});
   };

@@ -202,10 +202,10 @@ class RandomScenes {
     return time;
   }
 
-  Place place_on_picture() { return static_cast<Place>(integer(0, 7)); }
+  Anchor anchor_on_picture() { return static_cast<Anchor>(integer(0, 7)); }
   DisplayColor display_color() { return {unit(), unit(), unit()}; }
   TextSettings text_settings() {
-    return {coin() ? word() : "", place_on_picture(), maybe(0.001 + 0.4 * unit())};
+    return {coin() ? word() : "", anchor_on_picture(), maybe(0.001 + 0.4 * unit())};
   }
   std::optional<Vec3> maybe_vector() {
     return coin() ? std::make_optional(Vec3{{length(), length(), length()}}) : std::nullopt;
@@ -230,9 +230,9 @@ class RandomScenes {
     finish.label = text_settings();
     finish.caption = text_settings();
     if (coin()) finish.frame = integer(-1000, 1000000);
-    finish.color_bar = {coin(), place_on_picture(), 0.05 + 0.9 * unit(), words(), words()};
-    finish.scale_bar = {coin(), place_on_picture(), maybe(positive()), coin() ? word() : ""};
-    finish.inset = {coin(),         place_on_picture(), {0.1 + 0.5 * unit(), 0.1 + 0.5 * unit()},
+    finish.color_bar = {coin(), anchor_on_picture(), 0.05 + 0.9 * unit(), words(), words()};
+    finish.scale_bar = {coin(), anchor_on_picture(), maybe(positive()), coin() ? word() : ""};
+    finish.inset = {coin(),         anchor_on_picture(), {0.1 + 0.5 * unit(), 0.1 + 0.5 * unit()},
                     0.1 * unit(),   display_color(),    maybe_vector(),
                     maybe_vector(), maybe_vector(),     maybe(0.1 + 179 * unit()),
                     words()};

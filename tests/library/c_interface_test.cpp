@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -77,6 +78,16 @@ TEST_F(CInterface, DrawsWhatTheCppInterfaceDraws) {
       scene, arrays, [&](const Frame& frame) { return renderer.render(frame); }, notes);
   EXPECT_EQ(image_, pictures.at(0).image.pixels);
   EXPECT_GT(*std::max_element(image_.begin(), image_.end()), 0.1F);
+}
+
+TEST_F(CInterface, NotesTellOfBadParticles) {
+  position_[4] = std::numeric_limits<float>::quiet_NaN();
+  ASSERT_EQ(draw(), 0) << error_.message;
+  EXPECT_THAT(splotchcl_renderer_notes(renderer_.get()),
+              HasSubstr("1 of 2 particles are left out"));
+  position_[4] = 0;
+  ASSERT_EQ(draw(), 0) << error_.message;
+  EXPECT_STREQ(splotchcl_renderer_notes(renderer_.get()), "");
 }
 
 TEST_F(CInterface, SceneCanBeChanged) {

@@ -1,17 +1,27 @@
 #include "device/opencl/binary_cache.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <sstream>
+#include <utility>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#define SPLOTCHCL_HAS_POSIX_FILES
+#endif
 
 namespace splotchcl {
 namespace {
 
-// What a file holds: this line, the key, its end, the binary and how many bytes that has.
-constexpr char first_line[] = "splotchcl kernels 1\n";
+// What a file holds: this line, how many bytes the binary has, a checksum of key and binary,
+// the key, its end, the binary.
+constexpr char first_line[] = "splotchcl kernels 2\n";
 constexpr char end_of_key = '\0';
 
 // FNV-1a: it only has to spread names.
@@ -23,8 +33,23 @@ std::uint64_t hash_of(const std::string& text) {
   return hash;
 }
 
-std::string head_of(const std::string& key, std::size_t bytes) {
-  return first_line + std::to_string(bytes) + '\n' + key + end_of_key;
+// FNV-1a on words of eight bytes. Each step can be undone, so every change of one word shows;
+// others go unseen once in 2^64.
+std::uint64_t checksum_of(const std::string& text, std::uint64_t hash) {
+  for (std::size_t i = 0; i < text.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + i, std::min(sizeof(word), text.size() - i));
+    hash = (hash ^ word) * 1099511628211ULL;
+  }
+  return hash ^ text.size();
+}
+
+std::string head_of(const std::string& key, const std::string& binary) {
+  std::ostringstream head;
+  head << first_line << binary.size() << ' ' << std::hex
+       << checksum_of(binary, checksum_of(key, 14695981039346656037ULL)) << '\n'
+       << key << end_of_key;
+  return head.str();
 }
 
 }  // namespace
@@ -43,6 +68,25 @@ std::optional<std::filesystem::path> BinaryCache::user_folder() {
   return std::nullopt;
 }
 
+// What is run from a folder that someone else may write to is theirs, not ours.
+std::string BinaryCache::distrust(const std::filesystem::path& folder) {
+#ifdef SPLOTCHCL_HAS_POSIX_FILES
+  struct stat status = {};
+  if (stat(folder.c_str(), &status) != 0) return {};  // it will be made
+  const std::string what = "the cache of compiled kernels is not used: " + folder.string();
+  if (status.st_uid != geteuid()) return what + " belongs to someone else";
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
+    return what + " may be written to by others; chmod go-w mends that";
+  }
+#endif
+  return {};
+}
+
+BinaryCache::BinaryCache(std::optional<std::filesystem::path> folder)
+    : folder_(std::move(folder)), note_(folder_ ? distrust(*folder_) : std::string()) {
+  if (!note_.empty()) folder_.reset();
+}
+
 std::filesystem::path BinaryCache::file_for(const std::string& key) const {
   std::ostringstream name;
   name << std::hex << hash_of(key) << ".kernels";
@@ -56,7 +100,7 @@ std::optional<std::string> BinaryCache::find(const std::string& key) const {
   const std::size_t key_end = text.find(end_of_key);
   if (key_end == std::string::npos) return std::nullopt;
   std::string binary = text.substr(key_end + 1);
-  if (binary.empty() || text.compare(0, key_end + 1, head_of(key, binary.size())) != 0) {
+  if (binary.empty() || text.compare(0, key_end + 1, head_of(key, binary)) != 0) {
     return std::nullopt;
   }
   return binary;
@@ -65,13 +109,15 @@ std::optional<std::string> BinaryCache::find(const std::string& key) const {
 void BinaryCache::keep(const std::string& key, const std::string& binary) const {
   if (!folder_ || binary.empty()) return;
   std::error_code failure;
-  std::filesystem::create_directories(*folder_, failure);
+  if (std::filesystem::create_directories(*folder_, failure)) {
+    std::filesystem::permissions(*folder_, std::filesystem::perms::owner_all, failure);
+  }
   const std::filesystem::path file = file_for(key);
   std::filesystem::path unfinished = file;
   unfinished += "." + std::to_string(std::random_device()());
   {
     std::ofstream out(unfinished, std::ios::binary);
-    out << head_of(key, binary.size()) << binary;
+    out << head_of(key, binary) << binary;
     out.close();
     if (!out) {
       std::filesystem::remove(unfinished, failure);

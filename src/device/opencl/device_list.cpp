@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/opencl/device_context.h"
+#include "device/opencl/runtime_lock.h"
 #include "splotchcl/error.h"
 #include "splotchcl/renderer.h"
 
@@ -12,6 +13,7 @@ namespace splotchcl {
 namespace {
 
 std::vector<compute::device> all_devices() {
+  const auto lock = lock_runtime();
   try {
     return compute::system::devices();
   } catch (const std::exception&) {

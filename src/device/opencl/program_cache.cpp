@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "device/opencl/runtime_lock.h"
 #include "splotchcl/error.h"
 #include "splotchcl_embedded/kernels.h"
 
@@ -82,6 +83,7 @@ compute::program ProgramCache::get(const ProgramSource& source) {
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
 
+  const auto lock = lock_runtime();
   const auto start = std::chrono::steady_clock::now();
   std::optional<compute::program> program = restore(key);
   if (!program) {

@@ -30,6 +30,8 @@ class ProgramCache {
   compute::program get(const ProgramSource& source);
 
   double build_seconds() const { return build_seconds_; }
+  // Why compiled programs are not kept from run to run; empty: they are, or need not be.
+  const std::string& note() const { return binaries_.note(); }
 
  private:
   std::optional<compute::program> restore(const std::string& key);

@@ -2,13 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/printf.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstddef>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -24,21 +21,8 @@
 namespace splotchcl {
 namespace {
 
-// Of %d, %4d or %04d at the place of the '%'; 0: none of these.
-std::size_t length_of_number(const std::string& name, std::size_t percent) {
-  std::size_t end = percent + 1;
-  while (end < name.size() && end - percent < 4 &&
-         std::isdigit(static_cast<unsigned char>(name[end])) != 0) {
-    ++end;
-  }
-  return end < name.size() && name[end] == 'd' ? end + 1 - percent : 0;
-}
-
-void check_pattern(const std::filesystem::path& output) {
-  const std::string name = output.filename().string();
-  const std::size_t percent = name.find('%');
-  const bool is_one = std::count(name.begin(), name.end(), '%') == 1;
-  if (is_one && length_of_number(name, percent) > 0) return;
+NumberedFiles numbered_images(const std::filesystem::path& output) {
+  if (std::optional<NumberedFiles> images = NumberedFiles::find(output)) return *images;
   throw UsageError(output.string() +
                    ": found no film or numbered images, expected a film (.mp4, .mov, .mkv, .webm) "
                    "or a name with one number in it, such as frame_%04d.png");
@@ -67,7 +51,7 @@ FrameFiles::FrameFiles(const std::filesystem::path& output, std::vector<std::str
     manifest_ = folder_ / "movie.txt";
     return;
   }
-  check_pattern(output);
+  images_ = numbered_images(output);
   folder_ = output.has_parent_path() ? output.parent_path() : ".";
   manifest_ = output.string() + ".movie.txt";
 }
@@ -78,8 +62,7 @@ std::filesystem::path FrameFiles::film(const std::string& suffix) const {
 
 std::filesystem::path FrameFiles::picture(int frame, const std::string& suffix) const {
   if (is_film_) return folder_ / fmt::format("frame_{:06d}{}.png", frame, suffix);
-  const std::string name = fmt::sprintf(output_.filename().string(), frame);
-  return picture_path(output_.parent_path() / name, suffix);
+  return picture_path(images_->at(frame), suffix);
 }
 
 void FrameFiles::check() const {

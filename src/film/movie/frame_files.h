@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "film/movie/numbered_files.h"
 
 namespace splotchcl {
 
@@ -52,6 +55,7 @@ class FrameFiles {
 
  private:
   std::filesystem::path output_, folder_, manifest_;
+  std::optional<NumberedFiles> images_;  // none for a film
   std::vector<std::string> suffixes_;
   bool is_film_;
 };

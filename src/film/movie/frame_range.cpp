@@ -72,7 +72,8 @@ std::vector<int> select_part(const std::string& text, const std::vector<int>& fr
   const auto part = read_whole_number(parts[0]);
   const auto count = parts.size() == 2 ? read_whole_number(parts[1]) : std::nullopt;
   if (!part || !count || *part < 1 || *part > *count) {
-    throw UsageError(fmt::format("--part: '{}' is not I/N, with I from 1 to N, such as 3/8", text));
+    throw UsageError(
+        fmt::format("--part: found '{}', expected K/N with K from 1 to N, such as 3/8", text));
   }
   const auto boundary = [&](int parts_before) {
     return static_cast<std::ptrdiff_t>(static_cast<std::uint64_t>(frames.size()) *

@@ -10,7 +10,7 @@ namespace splotchcl {
 // frame; nothing is all frames. Throws UsageError.
 std::vector<int> select_frames(const std::string& text, int frame_count);
 
-// The share of part I of N, given as "I/N", I from 1: neighbouring frames, all parts together
+// The share of part K of N, given as "K/N", K from 1: neighbouring frames, all parts together
 // being all of them. Nothing is all. Throws UsageError.
 std::vector<int> select_part(const std::string& text, const std::vector<int>& frames);
 

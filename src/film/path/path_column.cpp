@@ -75,11 +75,11 @@ std::optional<std::size_t> axis_of(const std::string& word) {
   return std::nullopt;
 }
 
-// The key's place, if it is one.
-std::optional<scene_file::Place> find_place(const std::string& key, const Scene& scene,
-                                            const std::string& where) {
-  const scene_file::Place place = scene_file::locate(key, scene, where);
-  return find_key(place.path) == nullptr ? std::nullopt : std::optional(place);
+// The key's address, if it is one.
+std::optional<scene_file::KeyAddress> find_address(const std::string& key, const Scene& scene,
+                                                   const std::string& where) {
+  const scene_file::KeyAddress address = scene_file::locate(key, scene, where);
+  return find_key(address.path) == nullptr ? std::nullopt : std::optional(address);
 }
 
 std::vector<std::string> all_names() {
@@ -108,9 +108,9 @@ std::string list_names(const std::map<std::string, std::string>& names) {
       list_names(original_component_names()), did_you_mean(nearest_name(name, all_names()))));
 }
 
-std::optional<Scaling> scaling_to_undo(const scene_file::Place& place, const Scene& scene) {
-  const bool is_color = place.path.rfind("component.color.", 0) == 0;
-  const Component& component = scene.components.at(place.component);
+std::optional<Scaling> scaling_to_undo(const scene_file::KeyAddress& address, const Scene& scene) {
+  const bool is_color = address.path.rfind("component.color.", 0) == 0;
+  const Component& component = scene.components.at(address.component);
   return (is_color ? component.color : component.intensity).scaling;
 }
 
@@ -127,27 +127,27 @@ PathColumn find_path_column(const std::string& name, const Scene& scene, const s
   PathColumn column;
   column.name = name;
   column.key = key;
-  std::optional<scene_file::Place> place = find_place(key, scene, where);
-  if (!place) {
+  std::optional<scene_file::KeyAddress> address = find_address(key, scene, where);
+  if (!address) {
     const std::size_t dot = key.rfind('.');
     column.axis = dot == std::string::npos ? std::nullopt : axis_of(key.substr(dot + 1));
     if (column.axis) {
       column.key = key.substr(0, dot);
-      place = find_place(column.key, scene, where);
+      address = find_address(column.key, scene, where);
     }
   }
-  if (!place) refuse_column(name, where);
-  if (!may_change_in_film(place->path)) {
+  if (!address) refuse_column(name, where);
+  if (!may_change_in_film(address->path)) {
     throw UsageError(fmt::format("{}: found {}, expected a key that may change within a film",
                                  where, scene_file::write_text(name)));
   }
-  column.path = place->path;
-  column.label = place->label;
+  column.path = address->path;
+  column.label = address->label;
   // The original's is of r = 2 h.
   if (name == "minrad_pix") column.factor = 0.5;
-  const std::string last = place->path.substr(place->path.rfind('.') + 1);
+  const std::string last = address->path.substr(address->path.rfind('.') + 1);
   const bool is_range = last == "min" || last == "max";
-  if (key != name && is_range) column.undo = scaling_to_undo(*place, scene);
+  if (key != name && is_range) column.undo = scaling_to_undo(*address, scene);
   return column;
 }
 

@@ -13,15 +13,16 @@ namespace {
 
 constexpr double kpc_in_cm = 3.0856775814913673e21;
 
-struct Place {
+struct AttributeLocation {
   const char* object;
   const char* attribute;
 };
 
-// The first of the places that has a number.
-double find_number(const Hdf5File& file, const std::vector<Place>& places, double otherwise) {
-  for (const Place& place : places) {
-    if (const auto number = file.number(place.object, place.attribute)) return *number;
+// The first of the locations that has a number.
+double find_number(const Hdf5File& file, const std::vector<AttributeLocation>& locations,
+                   double otherwise) {
+  for (const AttributeLocation& location : locations) {
+    if (const auto number = file.number(location.object, location.attribute)) return *number;
   }
   return otherwise;
 }

@@ -12,7 +12,7 @@
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
-namespace splotchcl::cli {
+namespace splotchcl {
 
 // A scene with its path and its data, which are read once for all frames.
 class FilmScene {
@@ -45,4 +45,4 @@ class FilmScene {
   std::vector<std::string> notes_;
 };
 
-}  // namespace splotchcl::cli
+}  // namespace splotchcl

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "splotchcl/scene.h"
-#include "splotchcl/snapshot.h"
 
-namespace splotchcl::cli {
+namespace splotchcl {
 
+class Snapshot;
+
+// A scene and what it draws.
 struct SceneWithSnapshot {
   Scene scene;
   std::shared_ptr<const Snapshot> snapshot;  // opened; no particle has been read
@@ -19,9 +21,11 @@ struct SceneWithSnapshot {
 // Whether `path` is a parameter file of the original program, by its ending.
 bool is_par_file(const std::filesystem::path& path);
 
-// `path` is a scene file, a parameter file of the original program, or a snapshot for which a
-// scene is chosen; `settings` override each.
+// What the command line takes for a scene: a scene file, a parameter file of the original program,
+// or a snapshot, for which a scene is chosen. `settings` are "key=value" strings of scene keys
+// that override it. Throws UsageError for a scene or a setting that is wrong, DataError for files
+// that cannot be read.
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
-                             const std::vector<std::string>& settings);
+                             const std::vector<std::string>& settings = {});
 
-}  // namespace splotchcl::cli
+}  // namespace splotchcl

@@ -1,4 +1,4 @@
-#include "cli/film_manifest.h"
+#include "film/frames/film_manifest.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
 
-namespace splotchcl::cli {
+namespace splotchcl {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference) 
   return text;
 }
 
-}  // namespace splotchcl::cli
+}  // namespace splotchcl

@@ -1,4 +1,4 @@
-#include "cli/scene_argument.h"
+#include "splotchcl/open_scene.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "splotchcl/snapshot_file.h"
 #include "splotchcl/snapshot_source.h"
 
-namespace splotchcl::cli {
+namespace splotchcl {
 namespace {
 
 // How the settings say that a snapshot is read: it must be open before there is a scene to which
@@ -61,4 +61,4 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
   return result;
 }
 
-}  // namespace splotchcl::cli
+}  // namespace splotchcl

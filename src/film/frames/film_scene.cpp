@@ -1,4 +1,4 @@
-#include "cli/film_scene.h"
+#include "film/frames/film_scene.h"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <iterator>
 #include <set>
 
-#include "cli/scene_argument.h"
 #include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot_source.h"
 
-namespace splotchcl::cli {
+namespace splotchcl {
 namespace {
 
 // Whether the value of "key=value" is a word, such as a field's name, or holds one.
@@ -98,4 +98,4 @@ void FilmScene::decide_components() {
       "reference_column anew, which may flicker; set them in the scene");
 }
 
-}  // namespace splotchcl::cli
+}  // namespace splotchcl

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame_drawer.h"
+
+namespace splotchcl {
+
+// A film, as the command `splotchcl movie` makes it (docs/movies.md).
+struct FilmOptions {
+  std::filesystem::path scene;   // as for open_scene; its [path] and [movie] say what the film is
+  std::filesystem::path output;  // a film (.mp4, .mov, .mkv, .webm), or frame_%04d.png
+  std::vector<std::string> settings;  // "key=value" strings of scene keys
+  std::string device;                 // as in FrameDrawerOptions
+  bool by_reference = false;
+  std::string frames;      // FIRST:END:STEP; empty: all of the path
+  std::string part;        // K/N, the K-th of N runs of frames; empty: all
+  bool only_join = false;  // makes the film of frames that are drawn already
+};
+
+// Who is told while a film is made. Each may be empty.
+struct FilmReport {
+  std::function<void(const std::string&)> note;    // what the user should know, a line
+  std::function<void(const std::string&)> status;  // what is being done
+  std::function<void(const std::string& what, double fraction)> progress;
+  // Before each frame: its number, and how many of those to be drawn are done.
+  std::function<void(int frame, std::size_t done, std::size_t total)> frame;
+  // Asked after each frame; true ends the film as an interruption does.
+  std::function<bool()> is_stopped;
+};
+
+// What there is in the end.
+enum class FilmState {
+  complete,           // the film, or all its numbered images
+  complete_before,    // there was nothing to join: it had been made already
+  part_is_drawn,      // other parts are missing
+  joined_by_another,  // process, which is at it
+};
+
+struct FilmResult {
+  FilmState state = FilmState::complete;
+  std::size_t frames = 0;     // of the film, or of the selection of it
+  int width = 0, height = 0;  // of a view of the scene, in pixels
+};
+
+// Draws what is missing of the film's frames, and makes the film where all are there. A film that
+// was interrupted is continued by the same call. Every frame of the path is checked before the
+// first is drawn. Throws UsageError for a scene, a path or an output that is wrong, DataError for
+// files that cannot be read or written, a missing ffmpeg, frames that are missing for only_join,
+// and where it was stopped, DeviceError.
+FilmResult make_film(const FilmOptions& options, const FilmReport& report = {});
+
+}  // namespace splotchcl

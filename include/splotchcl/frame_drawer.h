@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/image_file.h"
+#include "splotchcl/picture.h"
+#include "splotchcl/renderer.h"
+
+namespace splotchcl {
+
+class OtherScenes;
+
+// What draws, and whom to tell how far it is.
+struct FrameDrawerOptions {
+  std::string device;         // part of its name, as in RendererOptions
+  bool by_reference = false;  // the oracle draws, in double precision and slowly; no device does
+  // Called with what is being done and the fraction done, where it takes long. May be empty.
+  std::function<void(const std::string& what, double fraction)> progress;
+};
+
+// One frame of a scene, drawn, and what is to be told of it.
+struct DrawnFrame {
+  std::vector<Picture> pictures;  // finished, in linear light
+  // Of all drawings together that the pictures are made of (eyes, faces, insets): seconds add up,
+  // and what is counted is the largest, since they share their particles.
+  RenderStats stats;
+  std::vector<std::string> notes;  // what the user should know, a line each
+  // One such line about particles that were left out for their bad values, if there were some.
+  std::optional<std::string> bad_particles;
+
+  // Both of them.
+  std::vector<std::string> all_notes() const;
+};
+
+// Draws the frames of scenes, on a device or with the oracle, always in the same way: loads what
+// the scene uses, draws its views, finishes the pictures, and keeps account of what is to be
+// told. Everything that draws does so through this class. Keeps compiled kernels and buffers
+// between frames. Not for use from several threads at once; several FrameDrawers are.
+class FrameDrawer {
+ public:
+  // Throws DeviceError where there is no device, UsageError where none has such a name.
+  explicit FrameDrawer(const FrameDrawerOptions& options = {});
+  ~FrameDrawer();
+  FrameDrawer(FrameDrawer&&) noexcept;
+  FrameDrawer& operator=(FrameDrawer&&) noexcept;
+
+  // Throws as load_frame and Renderer::render do.
+  DrawnFrame draw(const Scene& scene, const Snapshot& snapshot);
+  // For the frames of a film, which keep what other scenes they fade to.
+  DrawnFrame draw(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes);
+  // For a frame of the scene that has been loaded already, with any crop.
+  DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// How the pictures of a scene are stored: with its gamma, and with 8 bits as the original program
+// makes them where it has the original's convention. The program's version is added to the
+// metadata.
+ImageFileOptions image_file_options(const Scene& scene,
+                                    std::map<std::string, std::string> metadata = {});
+
+// Each picture to its own file: picture_path(output, its suffix). Throws as write_image does.
+void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
+                    const ImageFileOptions& options);
+
+}  // namespace splotchcl

@@ -1,0 +1,138 @@
+#include "splotchcl/frame_drawer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "pictures/other_scenes.h"
+#include "splotchcl/load.h"
+#include "splotchcl/reference.h"
+
+namespace splotchcl {
+namespace {
+
+// The frames of one picture share their particles.
+void add(const RenderStats& frame, RenderStats& total) {
+  total.device = frame.device;
+  total.particles = std::max(total.particles, frame.particles);
+  total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
+  total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
+  total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
+  total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
+  total.build_seconds += frame.build_seconds;
+  total.total_seconds += frame.total_seconds;
+  for (const StageTime& stage : frame.stages) {
+    const auto known = std::find_if(total.stages.begin(), total.stages.end(),
+                                    [&](const StageTime& s) { return s.stage == stage.stage; });
+    if (known == total.stages.end()) {
+      total.stages.push_back(stage);
+    } else {
+      known->seconds += stage.seconds;
+    }
+  }
+}
+
+std::optional<std::string> tell_of_bad_particles(const RenderStats& stats) {
+  if (stats.bad_particles == 0) return std::nullopt;
+  return fmt::format(
+      "{} of {} particles are left out: their position, smoothing length, weight, colour, "
+      "intensity or sort field is not finite, the smoothing length not above 0, or the weight "
+      "or own colour below 0",
+      stats.bad_particles, stats.particles);
+}
+
+}  // namespace
+
+std::vector<std::string> DrawnFrame::all_notes() const {
+  std::vector<std::string> all = notes;
+  if (bad_particles) all.push_back(*bad_particles);
+  return all;
+}
+
+struct FrameDrawer::State {
+  explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
+    if (!options.by_reference) {
+      renderer.emplace(RendererOptions{options.device, CompositeShape::automatic});
+    }
+  }
+
+  Image draw_view(const Frame& view, RenderStats& total) {
+    if (!renderer) return draw_with_reference(view, total);
+    Image image = renderer->render(view);
+    add(renderer->stats(), total);
+    return image;
+  }
+
+  Image draw_with_reference(const Frame& view, RenderStats& total) const {
+    const auto start = std::chrono::steady_clock::now();
+    RenderStats stats;
+    stats.device = "reference";
+    stats.particles = particle_count(view);
+    stats.bad_particles = reference::count_bad(view);
+    stats.drawn_particles = reference::project(view).size();
+    Image image = reference::render(view, [this](double fraction) {
+                    if (progress) progress("drawing with the reference", fraction);
+                  }).to_float();
+    stats.total_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    add(stats, total);
+    return image;
+  }
+
+  DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                  OtherScenes& other_scenes, std::vector<std::string> notes) {
+    DrawnFrame drawn;
+    drawn.notes = std::move(notes);
+    drawn.pictures = draw_pictures(
+        scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
+        drawn.notes, other_scenes);
+    drawn.bad_particles = tell_of_bad_particles(drawn.stats);
+    return drawn;
+  }
+
+  std::optional<Renderer> renderer;  // none: the reference draws
+  std::function<void(const std::string&, double)> progress;
+};
+
+FrameDrawer::FrameDrawer(const FrameDrawerOptions& options)
+    : state_(std::make_unique<State>(options)) {}
+FrameDrawer::~FrameDrawer() = default;
+FrameDrawer::FrameDrawer(FrameDrawer&&) noexcept = default;
+FrameDrawer& FrameDrawer::operator=(FrameDrawer&&) noexcept = default;
+
+DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot) {
+  OtherScenes none_kept;
+  return draw(scene, snapshot, none_kept);
+}
+
+DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot,
+                             OtherScenes& other_scenes) {
+  std::vector<std::string> notes;
+  const Frame frame = load_frame(scene, snapshot, notes, state_->progress);
+  return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes));
+}
+
+DrawnFrame FrameDrawer::draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot) {
+  OtherScenes none_kept;
+  return state_->draw(scene, frame, snapshot, none_kept, {});
+}
+
+ImageFileOptions image_file_options(const Scene& scene,
+                                    std::map<std::string, std::string> metadata) {
+  ImageFileOptions options;
+  options.gamma = scene.image.gamma;
+  options.truncates = scene.image.convention == PixelConvention::original;
+  options.metadata = std::move(metadata);
+  options.metadata["splotchcl:version"] = SPLOTCHCL_VERSION;
+  return options;
+}
+
+void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
+                    const ImageFileOptions& options) {
+  for (const Picture& picture : pictures)
+    write_image(picture_path(output, picture.suffix), picture.image, options);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,44 @@
+#include "film/frames/film_drawer.h"
+
+#include <utility>
+
+namespace splotchcl {
+
+FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
+                       std::function<void(const std::string&)> note)
+    : drawer_(options), note_(std::move(note)) {}
+
+// The future waits for the frame that is being written.
+FilmDrawer::~FilmDrawer() = default;
+
+void FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
+                      OtherScenes& other_scenes, const std::filesystem::path& output) {
+  DrawnFrame drawn = drawer_.draw(scene, snapshot, other_scenes);
+  tell(drawn.notes);
+  tell_of_bad_particles(drawn);
+  finish();
+  writing_ = std::async(
+      std::launch::async,
+      [output, pictures = std::move(drawn.pictures),
+       options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
+        write_pictures(output, pictures, options);
+      });
+}
+
+void FilmDrawer::finish() {
+  if (writing_.valid()) writing_.get();
+}
+
+void FilmDrawer::tell(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (told_.insert(note).second && note_) note_(note);
+  }
+}
+
+void FilmDrawer::tell_of_bad_particles(const DrawnFrame& drawn) {
+  if (!drawn.bad_particles || has_told_bad_) return;
+  has_told_bad_ = true;
+  tell({*drawn.bad_particles});
+}
+
+}  // namespace splotchcl

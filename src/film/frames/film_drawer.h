@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame_drawer.h"
+
+namespace splotchcl {
+
+// Draws frames of a film one after the other. Each is written while the next is drawn, and what
+// the user should know is told once in the film, bad particles as of the first frame that has
+// some.
+class FilmDrawer {
+ public:
+  // `note` takes a line. Throws as FrameDrawer.
+  FilmDrawer(const FrameDrawerOptions& options, std::function<void(const std::string&)> note);
+  ~FilmDrawer();
+  FilmDrawer(const FilmDrawer&) = delete;
+  FilmDrawer& operator=(const FilmDrawer&) = delete;
+
+  // The frame of this number as the scene shows it, to picture_path(output, ...). Throws as
+  // FrameDrawer::draw, and what writing an earlier frame has thrown.
+  void draw(int frame, const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes,
+            const std::filesystem::path& output);
+  // All frames are written. Throws what writing has thrown.
+  void finish();
+
+  void tell(const std::vector<std::string>& notes);
+
+ private:
+  void tell_of_bad_particles(const DrawnFrame& drawn);
+
+  FrameDrawer drawer_;
+  std::function<void(const std::string&)> note_;
+  std::set<std::string> told_;
+  bool has_told_bad_ = false;
+  std::future<void> writing_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "film/frames/film_drawer.h"
+#include "film/frames/film_manifest.h"
+#include "film/frames/film_scene.h"
+#include "film/movie/encoder.h"
+#include "film/movie/frame_files.h"
+#include "film/movie/frame_range.h"
+#include "splotchcl/error.h"
+#include "splotchcl/film.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl {
+namespace {
+
+std::vector<PictureSize> sizes_of(const Scene& scene) {
+  return picture_sizes(scene, scene.image.width, scene.image.height);
+}
+
+std::vector<std::string> suffixes_of(const Scene& scene) {
+  std::vector<std::string> suffixes;
+  for (const PictureSize& size : sizes_of(scene))
+    suffixes.push_back(size.suffix);
+  return suffixes;
+}
+
+// Everything that the pictures can fail by is tried before anything is read.
+void check_pictures(const FrameFiles& files, const Scene& scene) {
+  files.check();
+  for (const PictureSize& size : sizes_of(scene)) {
+    if (files.is_film()) {
+      check_film(files.film(size.suffix), scene.movie, size.width, size.height);
+    } else {
+      check_image_size(files.picture(0, size.suffix), size.width, size.height);
+    }
+  }
+}
+
+// The bytes that a PNG file holds.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+  const Image image = read_image(path);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(image.pixels.size() / 4 * 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>(255 * image.pixels[i] + 0.5F));
+  }
+  return bytes;
+}
+
+// One film that is being made.
+class Film {
+ public:
+  Film(const FilmOptions& options, const FilmReport& report)
+      : options_(options),
+        report_(report),
+        scene_(options.scene, options.settings),
+        start_(scene_.scene_at(0)),
+        files_(options.output, suffixes_of(start_)) {
+    check_pictures(files_, start_);
+    frames_ = select_frames(options.frames, scene_.path().frame_count());
+    part_ = select_part(options.part, frames_);
+  }
+
+  FilmResult make() {
+    if (options_.only_join && !files_.is_begun()) {
+      require_complete();
+      return result(FilmState::complete_before);
+    }
+    status("reading");
+    scene_.decide();
+    files_.open(film_manifest(scene_.scene(), scene_.path(), options_.by_reference));
+    if (!options_.only_join) draw(missing(part_));
+    return complete();
+  }
+
+ private:
+  void status(const std::string& what) const {
+    if (report_.status) report_.status(what);
+  }
+
+  // The last part has made the film already, or nobody has begun it.
+  void require_complete() const {
+    if (files_.is_complete(frames_)) return;
+    throw DataError(options_.output.string() +
+                    ": found no frames to join, expected those of its parts; draw them first");
+  }
+
+  std::vector<int> missing(const std::vector<int>& frames) const {
+    std::vector<int> result;
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(result),
+                 [this](int frame) { return !files_.has(frame); });
+    return result;
+  }
+
+  void draw(const std::vector<int>& frames) {
+    files_.remove_leftovers(frames);
+    if (frames.empty()) return;
+    if (!options_.by_reference) status("starting the device");
+    FilmDrawer drawer({options_.device, options_.by_reference, {}}, report_.note);
+    drawer.tell(scene_.notes());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      if (report_.frame) report_.frame(frames[i], i, frames.size());
+      const Scene scene = scene_.scene_at(frames[i]);
+      drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(),
+                  files_.picture(frames[i], ""));
+      if (report_.is_stopped && report_.is_stopped()) {
+        drawer.finish();
+        throw DataError(
+            "stopped; the frames that were drawn are kept, and the same command goes on with the "
+            "next");
+      }
+    }
+    drawer.finish();
+  }
+
+  // Makes the film where all its frames are there.
+  FilmResult complete() {
+    const std::size_t lacking = missing(frames_).size();
+    if (lacking > 0 && options_.only_join) {
+      throw DataError(fmt::format("{}: {} of {} frames are missing; draw the parts that are left",
+                                  files_.folder().string(), lacking, frames_.size()));
+    }
+    if (lacking > 0) return result(FilmState::part_is_drawn);
+    const FrameFiles::Lock lock(files_);
+    if (!lock) return result(FilmState::joined_by_another);
+    if (files_.is_film()) join();
+    files_.close();
+    return result(FilmState::complete);
+  }
+
+  void join() const {
+    status("joining the frames");
+    for (const PictureSize& size : sizes_of(start_)) {
+      Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height,
+                      files_.folder());
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        if (report_.progress) {
+          report_.progress("joining the frames",
+                           static_cast<double>(i) / static_cast<double>(frames_.size()));
+        }
+        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix)));
+      }
+      encoder.finish();
+    }
+  }
+
+  FilmResult result(FilmState state) const {
+    return {state, frames_.size(), start_.image.width, start_.image.height};
+  }
+
+  const FilmOptions& options_;
+  const FilmReport& report_;
+  FilmScene scene_;
+  Scene start_;  // as the first frame shows it, before anything is decided
+  FrameFiles files_;
+  std::vector<int> frames_, part_;
+};
+
+}  // namespace
+
+FilmResult make_film(const FilmOptions& options, const FilmReport& report) {
+  return Film(options, report).make();
+}
+
+}  // namespace splotchcl

@@ -1,3 +1,0 @@
-#pragma once
-
-#include "scene/particle_rules.h"

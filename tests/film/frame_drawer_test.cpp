@@ -1,0 +1,116 @@
+// One way to draw a frame: what comes back of it, with the oracle, which needs no device.
+#include "splotchcl/frame_drawer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "splotchcl/array_snapshot.h"
+#include "splotchcl/scene_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* scene_text = R"(
+snapshot = "arrays"
+[image]
+size = [16, 12]
+[camera]
+position = [0, 0, -5]
+look_at = [0, 0, 0]
+[[component]]
+types = ["halo"]
+size = { fixed = 0.5 }
+palette = "white"
+weight = "constant"
+)";
+
+class FrameDrawing : public ::testing::Test {
+ protected:
+  FrameDrawing() { arrays_.set_field(1, "position", position_.data(), 2, 3); }
+
+  static Scene scene(const std::vector<std::string>& settings = {}) {
+    return parse_scene(scene_text, "scene", settings);
+  }
+  DrawnFrame draw(const std::vector<std::string>& settings = {}) {
+    arrays_.changed();
+    return drawer_.draw(scene(settings), arrays_);
+  }
+  void spoil_one() { position_[4] = std::numeric_limits<float>::quiet_NaN(); }
+
+  std::vector<float> position_ = {0, 0, 0, 1, 0.5F, 0.3F};
+  ArraySnapshot arrays_;
+  FrameDrawer drawer_{FrameDrawerOptions{"", true, {}}};
+};
+
+TEST_F(FrameDrawing, GivesThePictureAndWhatItTook) {
+  const DrawnFrame drawn = draw();
+  ASSERT_EQ(drawn.pictures.size(), 1U);
+  EXPECT_EQ(drawn.pictures[0].image.width, 16);
+  EXPECT_GT(drawn.pictures[0].image.at(8, 6)[0], 0.1F);
+  EXPECT_EQ(drawn.stats.device, "reference");
+  EXPECT_EQ(drawn.stats.particles, 2U);
+  EXPECT_EQ(drawn.stats.drawn_particles, 2U);
+  EXPECT_THAT(drawn.all_notes(), IsEmpty());
+}
+
+TEST_F(FrameDrawing, TellsOfBadParticlesInOneLine) {
+  spoil_one();
+  const DrawnFrame drawn = draw();
+  EXPECT_EQ(drawn.stats.bad_particles, 1U);
+  EXPECT_THAT(drawn.all_notes(), ElementsAre(HasSubstr("1 of 2 particles are left out")));
+}
+
+TEST_F(FrameDrawing, CountsParticlesOnceForTwoEyes) {
+  spoil_one();
+  const DrawnFrame drawn = draw({"stereo.angle=3"});
+  EXPECT_EQ(drawn.pictures.size(), 2U);
+  EXPECT_EQ(drawn.stats.particles, 2U);
+  EXPECT_EQ(drawn.stats.bad_particles, 1U);
+}
+
+TEST_F(FrameDrawing, TellsWhatLoadingTells) {
+  EXPECT_THAT(draw({"camera.look_at=[0,0,-9]"}).notes,
+              ElementsAre(HasSubstr("sees none of its particles")));
+}
+
+TEST_F(FrameDrawing, TellsHowFarTheReferenceIs) {
+  double last = -1;
+  FrameDrawer drawer(FrameDrawerOptions{"", true, [&](const std::string& what, double fraction) {
+                                          EXPECT_THAT(what, HasSubstr("reference"));
+                                          EXPECT_GE(fraction, last);
+                                          last = fraction;
+                                        }});
+  drawer.draw(scene(), arrays_);
+  EXPECT_GT(last, 0.5);
+}
+
+TEST_F(FrameDrawing, StoresPicturesAsTheSceneSays) {
+  const ImageFileOptions usual = image_file_options(scene({"image.gamma=2"}));
+  EXPECT_EQ(usual.gamma, 2);
+  EXPECT_FALSE(usual.truncates);
+  EXPECT_EQ(usual.metadata.count("splotchcl:version"), 1U);
+  const Scene original = scene({"image.convention=original"});
+  const ImageFileOptions options = image_file_options(original, {{"splotchcl:frame", "7"}});
+  EXPECT_TRUE(options.truncates);
+  EXPECT_EQ(options.metadata.at("splotchcl:frame"), "7");
+}
+
+TEST_F(FrameDrawing, WritesEachPictureToItsFile) {
+  const testing::TemporaryFolder folder;
+  const Scene pair = scene({"stereo.angle=3"});
+  write_pictures(folder / "a.png", drawer_.draw(pair, arrays_).pictures, image_file_options(pair));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a_left.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a_right.png"));
+  EXPECT_EQ(folder.count_files(), 2U);
+}
+
+}  // namespace
+}  // namespace splotchcl
