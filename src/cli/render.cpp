@@ -158,7 +158,7 @@ int run_render(const RenderOptions& options, Console& console) {
   const Stopwatch reading;
   report.frame = read_frame(source, options, console);
   report.read_seconds = reading.seconds();
-  report.plan = make_plan(report.frame);
+  if (options.explain || options.stats) report.plan = make_plan(report.frame);
   if (options.explain) print_explanation(report.plan, report.frame, source.scene);
   if (!output) return 0;
 

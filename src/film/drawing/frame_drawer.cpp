@@ -16,6 +16,7 @@ namespace {
 // The frames of one picture share their particles.
 void add(const RenderStats& frame, RenderStats& total) {
   total.device = frame.device;
+  total.note = frame.note;
   total.particles = std::max(total.particles, frame.particles);
   total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
   total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
@@ -88,6 +89,7 @@ struct FrameDrawer::State {
     drawn.pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
         drawn.notes, other_scenes);
+    if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
     drawn.bad_particles = tell_of_bad_particles(drawn.stats);
     return drawn;
   }
