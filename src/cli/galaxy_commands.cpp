@@ -5,7 +5,7 @@
 namespace splotchcl::cli {
 namespace {
 
-// Where the galaxy is in the picture, and what of the picture is its light.
+// Where the galaxy is in the picture, and which part of the picture's light is its own.
 void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
   GalaxySettings& s = options.settings;
   sub.add_option("--center,--centre", s.center,

@@ -66,7 +66,7 @@ std::string header_text(const SnapshotInfo& info) {
   return text;
 }
 
-// What the columns of names need.
+// Of the columns of names, in letters.
 struct Widths {
   std::size_t name, label;
 };

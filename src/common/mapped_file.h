@@ -40,7 +40,8 @@ class MappedFile {
   std::filesystem::path path_;
   std::uint64_t size_ = 0;
   const std::byte* data_ = nullptr;
-  ::dev_t device_ = 0;  // with the node, what tells the file from one that took its name
+  // They tell the file from another one that took its name.
+  ::dev_t device_ = 0;
   ::ino_t node_ = 0;
   std::vector<std::byte> unpacked_;  // instead of a mapping
 };

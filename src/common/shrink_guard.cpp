@@ -61,7 +61,8 @@ extern "C" void handle_bus_error(int signal, siginfo_t* info, void*) {
         begin != nullptr && place >= begin && place < begin + mapping.size.load();
     if (is_inside) end_for_shrunken_file(mapping);
   }
-  ::signal(signal, SIG_DFL);  // not ours: on return it strikes again
+  ::signal(signal,
+           SIG_DFL);  // no file of ours: on return the signal comes again, and ends the program
 }
 
 }  // namespace

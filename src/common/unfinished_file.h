@@ -11,8 +11,8 @@ namespace splotchcl {
 // is missing or not writable, or `path` is itself a folder.
 void check_output_path(const std::filesystem::path& path);
 
-// Removes what processes that were killed have left of files with these names in a folder. Only
-// of such as do not run here any more.
+// Removes the unfinished files of these names that killed processes left in a folder. Those of
+// processes that still run here stay.
 void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names);
 
 // A file that appears under its name only when it is complete. Until finish() it has a

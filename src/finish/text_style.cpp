@@ -23,7 +23,7 @@ TextMask shade_of(const TextMask& letters, double size) {
   return shade;
 }
 
-// What light letters stand out from, and dark ones.
+// The shade behind letters: dark behind light ones, light behind dark ones.
 DisplayColor opposite(const DisplayColor& color) {
   const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
   return luminance > 0.4 ? DisplayColor{0, 0, 0} : DisplayColor{1, 1, 1};

@@ -12,7 +12,7 @@ namespace {
 
 // Record lengths of a Gadget file are 32 bits: positions take 12 bytes a particle.
 constexpr std::uint64_t most_particles = 170'000'000;
-// Fewer could not be told a smoothing length from their neighbours.
+// Fewer do not have enough neighbours for a smoothing length.
 constexpr std::uint64_t least_particles = 1000;
 
 std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double box_size) {

@@ -40,7 +40,7 @@ void load_weight(const Component& component, const ComponentFields& fields, Draw
   }
 }
 
-// Particles that vanish or appear between two snapshots are but partly there.
+// Particles that vanish or appear between two snapshots are there only in part.
 void apply_fade(const ComponentFields& fields, Particles& particles) {
   const Column fade = fields.fade();
   if (fade.is_absent()) return;

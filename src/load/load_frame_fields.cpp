@@ -196,7 +196,7 @@ Column ComponentFields::smoothing_lengths() const {
 
 void ComponentFields::note(const std::string& text) const {
   const std::string line = label() + ": " + text;
-  // Two of a component's values may rest on the same fact.
+  // Two of a component's values may give the same reason for a note.
   if (std::find(notes_.begin(), notes_.end(), line) == notes_.end()) notes_.push_back(line);
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using Ids = std::vector<std::uint64_t>;
 
-// Whether each particle of a type still belongs to a set, as one thing after the other
-// that the set asks for is looked at.
+// Which particles of a type still belong to a set, while its conditions are applied one after the
+// other.
 class Membership {
  public:
   Membership(const TypeFields& fields, const Snapshot& snapshot)

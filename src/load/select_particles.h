@@ -11,7 +11,7 @@
 
 namespace splotchcl {
 
-// Places of particles in their type's columns, in increasing order.
+// Indices of particles in their type's columns, in increasing order.
 using ParticleIndices = std::vector<std::size_t>;
 
 // The particles that component.select and component.exclude leave of a type; null where

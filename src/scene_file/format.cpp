@@ -60,7 +60,7 @@ std::string format_scene(const Scene& scene) {
     if (table == "camera" && !scene.camera) continue;
     if (table == "stereo" && !scene.stereo) continue;
     const std::string lines = format_table(table, scene, 0);
-    // What most scenes have nothing of.
+    // Tables that most scenes do not have.
     const bool is_for_some =
         table == "read" || table == "time" || table == "path" || table == "movie";
     if (lines == "\n") continue;

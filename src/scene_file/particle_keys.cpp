@@ -84,7 +84,7 @@ bool equal(const Vec3& a, const Vec3& b) {
   return a.a[0] == b.a[0] && a.a[1] == b.a[1] && a.a[2] == b.a[2];
 }
 
-// Most components are placed nowhere: what is as by default is not written.
+// Most components are not placed anywhere: defaults are not written.
 Keys placement_keys() {
   return {
       key<Component, Vec3>(

@@ -108,7 +108,7 @@ Column InterpolatedSnapshot::interpolate(int type, const FieldInfo& field) const
   if (field.name == fade_field && field.file_name.empty()) return fade(match, fraction_);
   const Column first = read_or_nothing(*pair_->first, type, field.name);
   const Column second = read_or_nothing(*pair_->second, type, field.name);
-  // An id is nothing that could lie in between.
+  // There is nothing between two ids.
   const double fraction = field.name == "id" ? 0 : fraction_;
   return interpolate_values(first, second, field.values_per_particle, match, fraction,
                             is_logarithmic(field.name));

@@ -23,7 +23,7 @@ struct TypePath {
 // Two snapshots that follow each other, with their particles matched.
 class SnapshotPair {
  public:
-  // What a type of which a snapshot has nothing has to say is absent.
+  // Columns of a type that a snapshot does not have are absent.
   const TypePath& path(int type) const;  // read at the first call
 
   std::shared_ptr<const SequenceMember> first, second;

@@ -9,8 +9,7 @@
 
 namespace splotchcl {
 
-// Where one view of a scene goes: which picture, and which of the equal parts that the
-// picture is put together of.
+// Where one view of a scene goes: to which picture, and to which of its equal parts.
 struct ViewPlace {
   std::string suffix;  // of the picture
   int column = 0, row = 0;

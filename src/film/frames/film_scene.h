@@ -17,11 +17,13 @@ namespace splotchcl {
 // A scene with its path and its data, which are read once for all frames.
 class FilmScene {
  public:
-  // Checks every frame of the path. Reads no more than a scene without a camera needs for one.
+  // Checks every frame of the path. Reads particles only to choose a camera for a scene that has
+  // none.
   FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings);
 
-  // Decides whatever the scene leaves to the data from the first frame, or from later ones for
-  // components of which that shows nothing. Checks before what frames name by words.
+  // First checks what frames name: fields, palettes, files, texts. Then decides whatever the scene
+  // leaves to the data, from the first frame, or from a later one for a component of which the
+  // first shows nothing.
   void decide();
 
   const Scene& scene() const { return scene_; }

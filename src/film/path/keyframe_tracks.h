@@ -12,8 +12,7 @@ namespace splotchcl {
 // The keys that a path's keyframes move, each along a curve through its values.
 class KeyframeTracks {
  public:
-  // Throws UsageError for values of a key that differ in kind, and for directions that are
-  // none.
+  // Throws UsageError for values of a key that differ in kind, and for directions of length 0.
   explicit KeyframeTracks(const Scene& scene);
 
   // "key=value" for each key at a frame.

@@ -37,7 +37,7 @@ double part_of(std::size_t frame, std::size_t count) {
   return count > 1 ? static_cast<double>(frame) / static_cast<double>(count - 1) : 0;
 }
 
-// Some frames of all, the first and the last among them.
+// A choice of frames, with the first and the last among them.
 std::vector<std::size_t> some_frames(std::size_t count, std::size_t wanted) {
   std::vector<std::size_t> frames;
   if (count <= wanted) wanted = count;
@@ -70,7 +70,7 @@ struct Bounds {
   }
 };
 
-// Headers name a box also where the particles have nothing to do with it.
+// A header may name a box that has nothing to do with the particles.
 bool fill_box(const Bounds& bulk, double box_size) {
   return std::all_of(bulk.axes.begin(), bulk.axes.end(), [box_size](const ValueRange& range) {
     return range.minimum >= 0 && range.maximum <= box_size &&
