@@ -135,8 +135,8 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     Stages stages(device, frame, lanes);
     stages.project();
     const std::size_t count = stages.keys().size();
-    constexpr std::size_t floats = sizeof(kernel::Splat) / sizeof(float) + 3;
-    splats.push_back(stages.read<float>(device.buffers.get("splats", 0), count * floats));
+    constexpr std::size_t floats = sizeof(shared::Splat) / sizeof(float) + 3;
+    splats.push_back(stages.read_as<float>(stages.keyed().splats.splats, count * floats));
     ASSERT_GT(count, 500u);
     std::set<float> reds;
     for (std::size_t i = 0; i < count; ++i)
