@@ -113,7 +113,7 @@ Keys absorption_keys() {
                            : std::optional(component.absorption);
               },
               [](Component& component, const Absorption& value) { component.absorption = value; },
-              {"What the matter swallows. `\"emission\"`: as much as it emits, A = E. "
+              {"What the matter absorbs. `\"emission\"`: as much as it emits, A = E. "
                "`\"none\"` or 0: nothing. A number: A = number * palette_A."}),
           {"component.gray_absorption"}),
       key<Component, double>(

@@ -135,7 +135,7 @@ Keys bar_keys() {
                  [](auto& f) -> auto& { return f.scale_bar.length; },
                  {"The length that is drawn.", "length", "a round one, a fifth of the picture"}),
       text_key("scale_bar.unit", [](auto& f) -> auto& { return f.scale_bar.unit; },
-               {"What is written behind the number.", "", "the unit of the snapshot's positions"}),
+               {"What is written after the number.", "", "the unit of the snapshot's positions"}),
   };
 }
 

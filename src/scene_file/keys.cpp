@@ -30,8 +30,8 @@ Keys top_level_keys() {
            "name. A relative path starts at the scene file's folder.",
            "", "required, unless there is `time.snapshots`"}),
       key("tolerance", number(between(0, 1)), &Scene::tolerance,
-          {"How far a pixel may be from the exact picture: error <= tolerance * max(1, value). "
-           "0 asks for the most exact that the device can do.",
+          {"How far a pixel may be from the reference picture: error <= tolerance * max(1, "
+           "value). 0 asks for the most exact picture that the device can make.",
            "of white"}),
   };
 }
@@ -63,7 +63,8 @@ Keys background_keys() {
             image.background_image = value;
           },
           {"A picture behind everything, instead of a colour. It is scaled to fill the whole "
-           "picture, and what overhangs is cut off. Files of 8 and 16 bits hold display values, "
+           "picture, and cut off where it is too large. Files of 8 and 16 bits hold display "
+           "values, "
            "which become value^gamma; others hold linear light. A relative path starts at the "
            "scene file's folder.",
            "", "none"}),
@@ -131,7 +132,7 @@ Keys camera_keys() {
            "files whose names end in _right, _left, _up, _down, _front and _back."})),
       key("camera.near", number(), &Camera::near_limit,
           {"Particles nearer than this along the view direction are left out; in `fisheye`, "
-           "`equirectangular` and `cube` the distance itself counts. Needs a value >= 0 but "
+           "`equirectangular` and `cube` the distance itself counts. Must be >= 0, except "
            "with `orthographic`.",
            "length", "orthographic: 0; others: 0.1 h of the particle itself"}),
       key("camera.far", number(), &Camera::far_limit,

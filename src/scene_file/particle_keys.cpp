@@ -127,7 +127,7 @@ Keys placement_keys() {
           },
           [](Component& component, double value) { component.placement.scale = value; },
           {"A length of 1 in the component's snapshot becomes this length in the scene. Sizes h "
-           "are scaled, too, but for `size.fixed`; masses and densities stay.",
+           "are scaled, too, except `size.fixed`; masses and densities stay.",
            "", "`1`"}),
   };
 }
@@ -150,7 +150,7 @@ Keys particle_keys() {
   };
   append(keys, set_keys("component.select", &Component::select, "Only particles are drawn"));
   append(keys, set_keys("component.exclude", &Component::exclude,
-                        "Particles are left out for which all that `exclude` gives holds:"));
+                        "Particles that fulfil everything in `exclude` are left out: those"));
   append(keys, placement_keys());
   return keys;
 }

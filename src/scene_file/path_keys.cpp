@@ -115,8 +115,9 @@ Keys path_keys() {
                  [](PathSettings& path, const std::vector<Keyframe>& value) {
                    path.keyframes = value;
                  },
-                 {"`[[path.keyframes]]`: what keys of the scene are at some frames, the first "
-                  "being 0. In between they are interpolated, before and after they stay. "
+                 {"`[[path.keyframes]]`: the values of keys of the scene at some frames; the "
+                  "film's first frame is 0. In between they are interpolated, before and after "
+                  "they stay. "
                   "`position`, `look_at` and `sky` are short for the camera's.",
                   "", "none"}),
              key("path.interpolation", choice<bool>({{"smooth", true}, {"linear", false}}),

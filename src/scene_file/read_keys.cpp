@@ -35,7 +35,7 @@ Keys read_keys() {
             read.max_particles = value;
             read.every = 1;
           },
-          {"At most so many particles are drawn, chosen at random and brighter by as much as is "
+          {"At most this many particles are drawn, chosen at random and brighter by as much as is "
            "left out.",
            "", "all"}),
       key("read.seed", integer(0, most), &ReadSettings::seed,
