@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "architecture/rules.h"
+#include "paths.h"
 
 namespace splotchcl::testing {
 namespace {
@@ -44,19 +45,19 @@ TEST(Project, TableHasItsTargets) {
 }
 
 TEST(Project, IncludesOnlyWhatItLinks) {
-  EXPECT_THAT(find_wrong_includes(table(), SPLOTCHCL_SOURCE_DIR), IsEmpty());
+  EXPECT_THAT(find_wrong_includes(table(), test::source_folder()), IsEmpty());
 }
 
 TEST(Project, LinksOnlyWhatItIncludes) {
-  EXPECT_THAT(find_idle_links(table(), SPLOTCHCL_SOURCE_DIR), IsEmpty());
+  EXPECT_THAT(find_idle_links(table(), test::source_folder()), IsEmpty());
 }
 
 TEST(Project, EachPublicHeaderBelongsToOneTarget) {
-  EXPECT_THAT(find_stray_headers(table(), SPLOTCHCL_SOURCE_DIR), IsEmpty());
+  EXPECT_THAT(find_stray_headers(table(), test::source_folder()), IsEmpty());
 }
 
 TEST(Project, EachFileBelongsToATarget) {
-  EXPECT_THAT(find_stray_files(table(), SPLOTCHCL_SOURCE_DIR), IsEmpty());
+  EXPECT_THAT(find_stray_files(table(), test::source_folder()), IsEmpty());
 }
 
 TEST(Project, HasNoCycles) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "paths.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::testing {
@@ -19,10 +20,10 @@ struct ProgramResult {
 // Runs a shell command in `folder`, in which $splotchcl is the program.
 inline ProgramResult run_in(const TemporaryFolder& folder, const std::string& command) {
   const TemporaryFolder captured("output");
-  const std::string script =
-      "export splotchcl='" SPLOTCHCL_PROGRAM "' data='" SPLOTCHCL_TEST_DATA "'; cd '" +
-      folder.path().string() + "' || exit 99; (" + command + ") > '" + (captured / "out").string() +
-      "' 2> '" + (captured / "err").string() + "' < /dev/null";
+  const std::string script = "export splotchcl='" + test::program_path().string() + "' data='" +
+                             test::data_folder().string() + "'; cd '" + folder.path().string() +
+                             "' || exit 99; (" + command + ") > '" + (captured / "out").string() +
+                             "' 2> '" + (captured / "err").string() + "' < /dev/null";
   const int status = std::system(script.c_str());
   ProgramResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -41,20 +42,22 @@ inline bool is_one_line(const std::string& text) {
 }
 
 inline bool has_test_data() {
-  return std::filesystem::exists(SPLOTCHCL_TEST_DATA);
+  return std::filesystem::exists(test::data_folder());
 }
 
 inline bool has_device() {
-  static const bool found = std::system("'" SPLOTCHCL_PROGRAM "' devices > /dev/null 2>&1") == 0;
+  static const bool found =
+      std::system(("'" + test::program_path().string() + "' devices > /dev/null 2>&1").c_str()) ==
+      0;
   return found;
 }
 
 }  // namespace splotchcl::testing
 
-#define SKIP_WITHOUT_TEST_DATA()                            \
-  if (!::splotchcl::testing::has_test_data()) {             \
-    GTEST_SKIP() << "no snapshots in " SPLOTCHCL_TEST_DATA; \
-  }                                                         \
+#define SKIP_WITHOUT_TEST_DATA()                                            \
+  if (!::splotchcl::testing::has_test_data()) {                             \
+    GTEST_SKIP() << "no snapshots in " << ::splotchcl::test::data_folder(); \
+  }                                                                         \
   static_assert(true)
 
 #define SKIP_WITHOUT_DEVICE()                                                         \

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cli/program.h"
+#include "paths.h"
 #include "splotchcl/image_file.h"
 
 namespace splotchcl::testing {
@@ -137,7 +138,7 @@ TEST(RenderSubset, MayStandInTheScene) {
 TEST(RealFiles, AreAllTold) {
   SKIP_WITHOUT_TEST_DATA();
   const TemporaryFolder folder;
-  const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data = test::data_folder();
   int files = 0;
   for (const char* name :
        {"gadget2_ics", "gadget_minimal", "galaxy_collision", "gassphere", "gassphere_id64",

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "components/particles.h"
+#include "paths.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
@@ -15,13 +16,13 @@ namespace splotchcl::test {
 namespace {
 
 std::unique_ptr<Snapshot> open_real(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(SPLOTCHCL_TEST_DATA) / name;
+  const std::filesystem::path path = data_folder() / name;
   return std::filesystem::exists(path) ? open_snapshot(path) : nullptr;
 }
 
 TEST(RealSelection, DividesTheGasOfACosmologicalBox) {
   const auto snapshot = open_real("lcdm/fmt2_snapshot_006");
-  if (!snapshot) GTEST_SKIP() << "no lcdm in " << SPLOTCHCL_TEST_DATA;
+  if (!snapshot) GTEST_SKIP() << "no lcdm in " << data_folder();
   Component hot = gas(), rest = gas();
   hot.select.where = {"temperature > 1e5 or density > 1e-5"};
   hot.select.sphere_center = Vec3{{25000, 25000, 25000}};
@@ -34,7 +35,7 @@ TEST(RealSelection, DividesTheGasOfACosmologicalBox) {
 
 TEST(RealSelection, FindsEveryOtherOfIdsThatSinglePrecisionCannotHold) {
   const auto snapshot = open_real("gassphere_id64/fmt2_snapshot_001");
-  if (!snapshot) GTEST_SKIP() << "no gassphere_id64 in " << SPLOTCHCL_TEST_DATA;
+  if (!snapshot) GTEST_SKIP() << "no gassphere_id64 in " << data_folder();
   const splotchcl::testing::TemporaryFolder folder;
   const std::vector<std::uint64_t> ids = snapshot->read_ids(0);
   ASSERT_GE(*std::min_element(ids.begin(), ids.end()), 1ull << 33);
@@ -54,7 +55,7 @@ TEST(RealSelection, FindsEveryOtherOfIdsThatSinglePrecisionCannotHold) {
 
 TEST(RealTemperature, OfACosmologicalBoxIsThatOfIntergalacticGas) {
   const auto snapshot = open_real("lcdm/fmt2_snapshot_006");
-  if (!snapshot) GTEST_SKIP() << "no lcdm in " << SPLOTCHCL_TEST_DATA;
+  if (!snapshot) GTEST_SKIP() << "no lcdm in " << data_folder();
   Component component = gas();
   component.color = {"temperature", Scaling::log, {}, {}};
   component.color.percentiles = {0, 100};
@@ -68,7 +69,7 @@ TEST(RealTemperature, OfACosmologicalBoxIsThatOfIntergalacticGas) {
 
 TEST(ComponentExamples, AreScenesWithPalettesThatExist) {
   for (const char* name : {"cluster.toml", "planted_galaxy.toml"}) {
-    const Scene scene = read_scene_file(std::string(SPLOTCHCL_SOURCE_DIR) + "/examples/" + name);
+    const Scene scene = read_scene_file(source_folder() / "examples" / name);
     EXPECT_GE(scene.components.size(), 3u) << name;
     for (const Component& component : scene.components)
       EXPECT_NO_THROW(load_palette(component.palette)) << name;

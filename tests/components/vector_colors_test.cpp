@@ -135,7 +135,8 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     Stages stages(device, frame, lanes);
     stages.project();
     const std::size_t count = stages.keys().size();
-    constexpr std::size_t floats = sizeof(shared::Splat) / sizeof(float) + 3;
+    constexpr std::size_t floats =
+        (sizeof(shared::Splat) + sizeof(shared::OwnColor)) / sizeof(float);
     splats.push_back(stages.read_as<float>(stages.keyed().splats.splats, count * floats));
     ASSERT_GT(count, 500u);
     std::set<float> reds;

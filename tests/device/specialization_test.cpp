@@ -14,6 +14,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "paths.h"
 
 namespace splotchcl::test {
 namespace {
@@ -42,12 +43,11 @@ std::set<std::string> names_in(const std::string& text, const std::string& patte
   return names;
 }
 
-const fs::path source_folder = SPLOTCHCL_SOURCE_DIR;
-const fs::path specialization = source_folder / "src/device/frame/specialization.cpp";
+const fs::path specialization = source_folder() / "src/device/frame/specialization.cpp";
 
 std::string kernel_texts() {
   std::string text;
-  for (const fs::path& file : files_below(source_folder / "kernels"))
+  for (const fs::path& file : files_below(source_folder() / "kernels"))
     text += text_of(file);
   return text;
 }
@@ -57,7 +57,7 @@ std::set<std::string> written_macros() {
 }
 
 TEST(Defines, AreWrittenByTheSpecializationAlone) {
-  for (const fs::path& file : files_below(source_folder / "src")) {
+  for (const fs::path& file : files_below(source_folder() / "src")) {
     if (file == specialization) continue;
     EXPECT_EQ(text_of(file).find("\"#define"), std::string::npos) << file;
   }

@@ -6,6 +6,7 @@
 
 #include "film/path/film_path.h"
 #include "film/path_messages.h"
+#include "paths.h"
 #include "splotchcl/scene_file.h"
 #include "temporary_folder.h"
 
@@ -106,7 +107,7 @@ TEST_F(PathFile, MayNameTheOneSnapshotInEachRow) {
 }
 
 TEST_F(PathFile, OfTheOriginalProgramHasItsFrames) {
-  const std::string real = SPLOTCHCL_TEST_DATA "/camera/anim1_452frames.txt";
+  const std::string real = test::data_folder() / "camera" / "anim1_452frames.txt";
   if (!std::filesystem::exists(real)) GTEST_SKIP() << "no " << real;
   const auto result = frames(testing::read_text(real));
   ASSERT_EQ(result.size(), 453U);  // 0 to 452

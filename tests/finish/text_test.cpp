@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "finish/text_style.h"
+#include "paths.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::test {
@@ -103,7 +104,7 @@ TEST(Fonts, AreFoundByTheirNameInAnyCase) {
 }
 
 TEST(Fonts, ThatAreNoFontsAreRefused) {
-  EXPECT_THAT(refusal(std::string(SPLOTCHCL_SOURCE_DIR) + "/README.md"), HasSubstr("README.md"));
+  EXPECT_THAT(refusal(source_folder() / "README.md"), HasSubstr("README.md"));
 }
 
 }  // namespace

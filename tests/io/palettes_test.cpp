@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palette/palette_file.h"
+#include "paths.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
@@ -55,7 +56,7 @@ TEST(BuiltInPalettes, AllLoadUnderTheirNames) {
 }
 
 TEST(BuiltInPalettes, AreTheFilesOfThePalettesFolder) {
-  for (const auto& entry : fs::directory_iterator(SPLOTCHCL_SOURCE_DIR "/palettes")) {
+  for (const auto& entry : fs::directory_iterator(test::source_folder() / "palettes")) {
     if (entry.path().extension() != ".txt") continue;
     const Palette from_file = load_palette(entry.path().string());
     EXPECT_EQ(load_palette(entry.path().stem().string()).emission, from_file.emission);
@@ -183,8 +184,8 @@ TEST(UnknownPalettes, ThatAreFoldersAreRefused) {
 }
 
 TEST(OriginalPalettes, OfTheOriginalProgramAreRead) {
-  const fs::path folder = fs::path(SPLOTCHCL_TEST_DATA) / "splotch_par";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no data in " << SPLOTCHCL_TEST_DATA;
+  const fs::path folder = test::data_folder() / "splotch_par";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no data in " << test::data_folder();
   EXPECT_EQ(load_palette("M51.pal", folder).emission.size(), 256u);
   EXPECT_EQ(load_palette("OrionNew1.pal", folder).emission.size(), 7u);
   EXPECT_THAT(load_palette("OldSplotch.pal", folder).emission,

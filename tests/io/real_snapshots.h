@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "paths.h"
+
 namespace splotchcl::testing {
 
 // Every file of the test data that is a snapshot; none where there are no test data.
 inline std::vector<std::string> real_snapshots() {
   namespace fs = std::filesystem;
-  const fs::path data = SPLOTCHCL_TEST_DATA;
+  const fs::path data = test::data_folder();
   std::vector<std::string> names;
   if (!fs::exists(data)) return names;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data)) {

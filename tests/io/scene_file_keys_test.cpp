@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "paths.h"
 #include "scene_file/keys.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
@@ -20,7 +21,7 @@ using scene_file::Key;
 using ::testing::HasSubstr;
 
 std::string read(const std::string& path) {
-  std::ifstream file(std::string(SPLOTCHCL_SOURCE_DIR) + "/" + path);
+  std::ifstream file(test::source_folder() / path);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -96,7 +97,7 @@ TEST(SceneDocumentation, ShowsTheExamplesAsTheyAre) {
 TEST(Examples, AreScenesWithPalettesThatExist) {
   for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml", "dome.toml",
                            "panorama.toml", "cube.toml", "stereo.toml"}) {
-    const Scene scene = read_scene_file(std::string(SPLOTCHCL_SOURCE_DIR) + "/examples/" + name);
+    const Scene scene = read_scene_file(test::source_folder() / "examples" / name);
     EXPECT_FALSE(scene.components.empty()) << name;
     for (const Component& component : scene.components) {
       EXPECT_NO_THROW(load_palette(component.palette)) << name;

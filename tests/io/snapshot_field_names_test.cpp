@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "formats/unit_names.h"
+#include "paths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 
@@ -29,7 +30,7 @@ TEST(FieldNames, LabelsOfAllDialectsMeanTheCanonicalField) {
 }
 
 TEST(FieldNames, AreAsTheDocumentationSays) {
-  std::ifstream document(SPLOTCHCL_SOURCE_DIR "/docs/formats.md");
+  std::ifstream document(test::source_folder() / "docs" / "formats.md");
   std::set<std::string> names;
   for (std::string line; std::getline(document, line);) {
     // A row of that table: | `name` | label, label |

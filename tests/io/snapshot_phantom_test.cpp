@@ -2,6 +2,7 @@
 
 #include "formats/hdf5/hdf5_file.h"
 #include "io/snapshot_checks.h"
+#include "paths.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -122,7 +123,7 @@ TEST(Phantom, TypesThatAreNotOneNumberPerParticleAreRefused) {
 }
 
 TEST(RealPhantom, ADumpIsRead) {
-  const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data = test::data_folder();
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no real snapshots in " << data;
   const auto snapshot = open_snapshot(data / "phantom/dustmixture_00000.h5");
   EXPECT_EQ(snapshot->info().find_type(0)->count, 1000U);

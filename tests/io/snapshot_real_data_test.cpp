@@ -3,6 +3,7 @@
 
 #include "io/real_snapshots.h"
 #include "io/snapshot_checks.h"
+#include "paths.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_statistics.h"
 #include "splotchcl/snapshot_file.h"
@@ -24,7 +25,7 @@ class RealSnapshots : public ::testing::Test {
   std::unique_ptr<Snapshot> open(const std::string& name) const {
     return open_snapshot(data_ / name);
   }
-  const std::filesystem::path data_ = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data_ = test::data_folder();
 };
 
 std::size_t bad_values(const Snapshot& snapshot) {

@@ -3,6 +3,7 @@
 
 #include "io/snapshot_checks.h"
 #include "io/snapshot_writer.h"
+#include "paths.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -88,7 +89,7 @@ TEST(TipsyFields, SofteningIsNotTakenForASmoothingLength) {
 }
 
 TEST(RealTipsy, FilesOfPublicCodesAreRead) {
-  const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data = test::data_folder();
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no real snapshots in " << data;
   const auto tiny = open_snapshot(data / "tipsy/tiny.000640");
   EXPECT_EQ(tiny->info().format, "Tipsy, big-endian");

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "io/memory_snapshot.h"
+#include "paths.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
@@ -178,7 +179,7 @@ std::vector<float> brightness(const Image& image) {
 class SuggestedPicture : public testing::TestWithParam<const char*> {};
 
 TEST_P(SuggestedPicture, IsNeitherBlackNorBurntOut) {
-  const auto path = std::filesystem::path(SPLOTCHCL_TEST_DATA) / GetParam();
+  const auto path = test::data_folder() / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto snapshot = open_snapshot(path);
   Scene scene = suggest_scene(*snapshot);

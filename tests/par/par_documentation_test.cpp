@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "par/par_keys.h"
+#include "paths.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {
@@ -11,8 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(ParDocumentation, NamesEveryKey) {
-  const std::string page =
-      testing::read_text(std::string(SPLOTCHCL_SOURCE_DIR) + "/docs/original-files.md");
+  const std::string page = testing::read_text(test::source_folder() / "docs" / "original-files.md");
   ASSERT_FALSE(page.empty());
   for (const std::string& key : par::translated_keys())
     EXPECT_THAT(page, HasSubstr("`" + key + "`")) << key;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "paths.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
@@ -215,7 +216,7 @@ TEST_F(ParScenes, AreTheSameAsTheSceneFilesTheyAreConvertedTo) {
 }
 
 TEST(RealParFiles, BecomeScenes) {
-  const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data = test::data_folder();
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no real files in " << data;
   for (const char* const name : {"demo.par", "g51.par", "sample.par"}) {
     SCOPED_TRACE(name);

@@ -53,12 +53,12 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
   for (const reference::Splat& splat : reference::project(stages.frame()))
     expected.emplace(splat.particle, splat);
   // With the widths of ellipses behind each.
-  const std::size_t words = splat_bytes(stages.layout()) / sizeof(float);
+  const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
   const std::vector<std::uint32_t> keys = stages.keys();
-  const auto values = stages.read<float>("splats", keys.size() * words);
+  const auto values = stages.read_as<float>(stages.keyed().splats.splats, keys.size() * words);
   ASSERT_GT(keys.size(), 400u);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    kernel::Splat splat;
+    shared::Splat splat;
     std::memcpy(&splat, values.data() + i * words, sizeof(splat));
     const auto [first, last] = expected.equal_range(identity_of(splat));
     ASSERT_NE(first, last) << "a particle that the reference leaves out";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/pictures.h"
+#include "long_tests.h"
 #include "projections/wide_scene_maker.h"
 
 namespace splotchcl::test {
@@ -58,8 +59,9 @@ double worst_error(const Frame& frame, const Image& image, const ReferenceImage&
 class WideAngleScenes : public PictureTest {};
 
 TEST_F(WideAngleScenes, KeepTheirTolerance) {
-  int lit = 0;
-  for (std::uint64_t seed = 1; seed <= 90; ++seed) {
+  int drawn = 0, lit = 0;
+  for (const std::uint64_t seed : seeds(1, 90)) {
+    ++drawn;
     const Frame frame = WideSceneMaker(seed).make();
     const ReferenceImage exact = reference::render(frame);
     lit += largest_value(exact) > 0.05;
@@ -69,7 +71,7 @@ TEST_F(WideAngleScenes, KeepTheirTolerance) {
     EXPECT_LE(worst_error(frame, draw(frame, CompositeShape::groups), exact), frame.tolerance)
         << "in groups, seed " << seed << ": " << describe(frame);
   }
-  EXPECT_GT(lit, 60) << "most scenes should have something to see";
+  EXPECT_GT(3 * lit, 2 * drawn) << "most scenes should have something to see";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "io/snapshot_hdf5_writer.h"
 #include "io/snapshot_writer.h"
+#include "paths.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
@@ -48,7 +49,7 @@ TEST(SnapshotMotion, IsNewtonianWithoutMatterDensity) {
 }
 
 TEST(RealSnapshotMotion, FollowsTheUnitsOfEachCode) {
-  const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+  const std::filesystem::path data = test::data_folder();
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no real snapshots in " << data;
   const auto gadget = open_snapshot(data / "lcdm/fmt2_snapshot_005");
   ASSERT_TRUE(gadget->info().cosmology);

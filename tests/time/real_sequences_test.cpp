@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "paths.h"
 #include "sequence/interpolated_snapshot.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
@@ -10,7 +11,7 @@
 namespace splotchcl {
 namespace {
 
-const std::filesystem::path data = SPLOTCHCL_TEST_DATA;
+const std::filesystem::path data = test::data_folder();
 
 std::shared_ptr<const SequenceMember> open(const std::string& name) {
   return std::make_shared<SequenceMember>(open_snapshot(data / name));

@@ -1,0 +1,19 @@
+#include "long_tests.h"
+
+#include <cstdlib>
+
+namespace splotchcl::test {
+
+bool long_tests() {
+  const char* const value = std::getenv("SPLOTCHCL_LONG_TESTS");
+  return value != nullptr && *value != '\0';
+}
+
+std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last) {
+  std::vector<std::uint64_t> chosen;
+  for (std::uint64_t seed = first; seed <= last; seed += long_tests() ? 1 : 7)
+    chosen.push_back(seed);
+  return chosen;
+}
+
+}  // namespace splotchcl::test
