@@ -11,6 +11,13 @@
 
 namespace splotchcl::test {
 
+// Whether a case is drawn in one way.
+enum class Drawn {
+  always,
+  in_long_tests,  // takes seconds (long_tests.h); a smaller case is always drawn that way
+  never,          // takes minutes
+};
+
 // A frame that is hard to draw within its tolerance.
 struct HardCase {
   std::string name;  // letters and digits: also the test's name
@@ -21,9 +28,9 @@ struct HardCase {
   std::function<ReferenceImage(const Frame&)> exact = [](const Frame& frame) {
     return reference::render(frame);
   };
-  bool dark = false;       // nothing to see: a black picture is right
-  bool groups_too = true;  // false: too slow on a processor in the shape made for GPUs
-  bool exact_too = true;   // false: too slow in the most exact mode
+  bool dark = false;                   // nothing to see: a black picture is right
+  Drawn in_groups = Drawn::always;     // the shape made for GPUs, slow on a processor
+  Drawn most_exactly = Drawn::always;  // at tolerance 0
 };
 
 std::vector<HardCase> light_cases();    // absorption, depth, dynamic range

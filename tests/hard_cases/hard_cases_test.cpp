@@ -11,6 +11,7 @@
 
 #include "device/scenes.h"
 #include "hard_cases/error_table.h"
+#include "long_tests.h"
 #include "splotchcl/renderer.h"
 
 namespace splotchcl::test {
@@ -38,15 +39,20 @@ struct CaseRun {
   Way way;
 };
 
+bool is_drawn(Drawn when) {
+  return when == Drawn::always || (when == Drawn::in_long_tests && long_tests());
+}
+
 std::vector<CaseRun> all_runs() {
   std::vector<CaseRun> runs;
   for (std::size_t i = 0; i < all_cases().size(); ++i) {
     for (const LightPlan plan : all_cases()[i].plans) {
+      const bool groups = is_drawn(all_cases()[i].in_groups);
+      const bool exact = is_drawn(all_cases()[i].most_exactly);
       runs.push_back({i, plan, Way::rows});
-      if (all_cases()[i].groups_too) runs.push_back({i, plan, Way::groups});
-      if (all_cases()[i].exact_too) runs.push_back({i, plan, Way::exact});
-      if (all_cases()[i].groups_too && all_cases()[i].exact_too)
-        runs.push_back({i, plan, Way::pairs});
+      if (groups) runs.push_back({i, plan, Way::groups});
+      if (exact) runs.push_back({i, plan, Way::exact});
+      if (groups && exact) runs.push_back({i, plan, Way::pairs});
     }
   }
   return runs;
