@@ -12,7 +12,6 @@
 #include "splotchcl/light_model.h"
 #include "splotchcl/palette.h"
 #include "splotchcl/particles.h"
-#include "splotchcl/scene.h"
 
 namespace splotchcl {
 
@@ -48,8 +47,9 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Everything a renderer needs for one picture, the same for the device and the reference. Renderers
-// throw UsageError for a crop or a background image that does not fit the picture.
+// Everything a renderer needs for one picture, the same for the device and the reference.
+// Renderer::render throws UsageError for a crop or a background image that does not fit the
+// picture; the reference takes what it gets.
 struct Frame {
   int width = 0, height = 0;  // of the whole picture, in pixels: they fix the camera
   Rectangle crop;             // what is drawn; inside the picture, not empty

@@ -18,6 +18,7 @@ struct Image {
         height(height_pixels),
         pixels(4 * static_cast<std::size_t>(width_pixels) *
                static_cast<std::size_t>(height_pixels)) {}
+  // The four floats of a pixel, 0 <= x < width, 0 <= y < height.
   float* at(int x, int y) { return pixels.data() + offset(x, y); }
   const float* at(int x, int y) const { return pixels.data() + offset(x, y); }
 
@@ -39,6 +40,7 @@ struct ReferenceImage {
         height(height_pixels),
         pixels(4 * static_cast<std::size_t>(width_pixels) *
                static_cast<std::size_t>(height_pixels)) {}
+  // Every value rounded to the nearest float.
   Image to_float() const {
     Image image(width, height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "splotchcl/frame.h"
 #include "splotchcl/image.h"
-#include "splotchcl/snapshot.h"
 #include "splotchcl/views.h"
 
 namespace splotchcl {
+
+struct SnapshotInfo;
+class Snapshot;
 
 // One picture that a scene asks for, ready to be written, in linear light.
 struct Picture {

@@ -6,14 +6,15 @@
 
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
-#include "splotchcl/plan.h"
 
 // The reference renderer, also called the oracle: scalar, in double precision, written for
 // reading. It shares no code with the kernels. Its stages have the kernels' names, so each can be
 // compared.
 namespace splotchcl::reference {
 
-// A projected particle. Positions and widths are in pixels of the whole picture.
+// A projected particle, a Gaussian of matter whose column at a point of the picture is
+//   X = weight * exp(-((x_pixel - x) / (stretch sigma))^2 - ((y_pixel - y) / sigma)^2).
+// Positions and widths are in pixels of the whole picture.
 struct Splat {
   double x = 0, y = 0;
   double sigma = 0;            // after kernel.min_radius, before any pixel averaging
@@ -32,29 +33,32 @@ struct Splat {
 std::vector<Splat> project(const Frame& frame);
 
 // Number of particles with bad values: any that is not finite, h <= 0, weight < 0, a
-// colour vector < 0.
+// color of its own < 0.
 std::uint64_t count_bad(const Frame& frame);
 
 // Nearest first as frame.sort says; stable; -0 equals +0.
 void sort(std::vector<Splat>& splats, const SortOrder& order);
 
 // X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two
-// differences of erf) or the centre value, cut if the kernel says so.
+// differences of erf) or the center value, cut if the kernel says so.
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel);
 
 // What a splat, or several, make of the light behind a pixel, per channel: I becomes
 // exp(-tau) I + S. One splat of column X has tau = A X and S = E X phi(tau), where
-// phi(y) = (1 - exp(-y)) / y (docs/scene.md).
+// phi(y) = (1 - exp(-y)) / y (docs/scene.md): equation (3) of the paper that light_model.h names,
+// without its division by A.
 struct Layer {
-  double optical_depth[3] = {};
-  double source[3] = {};
+  double optical_depth[3] = {};  // tau
+  double source[3] = {};         // S
 };
+// Both in one: tau = tau_near + tau_far, S = S_near + exp(-tau_near) S_far.
 Layer over(const Layer& near_layer, const Layer& far_layer);
 
 // The layer of one pixel: every splat of the list in order (nearest first).
 Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const KernelSettings& kernel);
 
-// The whole frame: frame.crop in size. `progress` (may be empty) takes 0..1.
+// The whole frame: frame.crop in size. `progress` (may be empty) takes the fraction done, from 0
+// to 1. The frame's tolerance is not looked at.
 ReferenceImage render(const Frame& frame, const std::function<void(double)>& progress = {});
 
 }  // namespace splotchcl::reference

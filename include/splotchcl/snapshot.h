@@ -21,10 +21,11 @@ struct FieldInfo {
   std::string unit;             // empty when unknown
 };
 
+// The particles of one type, which all have the same fields.
 struct ParticleTypeInfo {
   int type = 0;  // 0 gas, 1 halo, 2 disk, 3 bulge, 4 stars, 5 boundary
   std::uint64_t count = 0;
-  std::optional<double> table_mass;  // the same mass for all
+  std::optional<double> table_mass;  // the same mass for all, in the snapshot's unit
   std::vector<FieldInfo> fields;
 };
 
@@ -39,20 +40,22 @@ struct Cosmology {
   double velocity_power = 0.5;
 };
 
+// What is known of a snapshot before particles are read. Values are in its own units.
 struct SnapshotInfo {
-  std::string format;  // "Gadget format 2, big-endian", ...
-  std::vector<std::filesystem::path> files;
+  std::string format;                        // "Gadget format 2, big-endian", ...
+  std::vector<std::filesystem::path> files;  // at least one; of arrays in memory, their name
   double time = 0;
   std::optional<double> redshift;
-  std::optional<double> box_size;  // none: not periodic, or unknown
-  std::optional<double> hubble_parameter;
-  std::optional<Cosmology> cosmology;  // none: velocities are dx/dt, with t the time above
+  std::optional<double> box_size;  // side of the periodic box; none: not periodic, or unknown
+  std::optional<double> hubble_parameter;  // h: H0 in units of 100 km/s/Mpc
+  std::optional<Cosmology> cosmology;      // none: velocities are dx/dt, with t the time above
   // Why velocities cannot be taken for changes of the positions in time; empty: they can.
   std::string velocity_doubt;
   // How many particles of the file each stands for, where only a part of them is read.
   double particles_per_drawn = 1;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
+  // Null for a type without particles.
   const ParticleTypeInfo* find_type(int type) const;
 };
 

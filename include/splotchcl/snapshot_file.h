@@ -17,11 +17,11 @@ struct SnapshotOptions {
   std::vector<std::string> columns;
 };
 
-// Recognises the format by content. `path` may be any member or the base name of a
-// multi-file set. Throws DataError.
+// Recognises the format by content (docs/formats.md). `path` may be any member or the base name of
+// a multi-file set. Reads no particles. Throws DataError.
 std::unique_ptr<Snapshot> open_snapshot(const std::filesystem::path& path,
                                         const SnapshotOptions& options = {});
-// The snapshot, or the part of it, that a scene's [read] asks for.
+// The snapshot, or the part of it, that a scene's [read] asks for. Throws DataError.
 std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
                                             const ReadSettings& read);
 

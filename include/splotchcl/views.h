@@ -6,9 +6,10 @@
 
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
-#include "splotchcl/scene.h"
 
 namespace splotchcl {
+
+struct Scene;
 
 // Draws one frame: a Renderer's render, or the reference's.
 using DrawFrame = std::function<Image(const Frame&)>;
@@ -26,8 +27,8 @@ std::vector<FrameView> views_of(const Scene& scene, const Frame& frame);
 // for the width and height of the view.
 // Two eyes and six faces may be one picture each or parts of one.
 struct PictureSize {
-  std::string suffix;
-  int width = 0, height = 0;
+  std::string suffix;         // as Picture has it
+  int width = 0, height = 0;  // pixels
 };
 std::vector<PictureSize> picture_sizes(const Scene& scene, int view_width, int view_height);
 

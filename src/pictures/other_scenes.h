@@ -7,6 +7,7 @@
 
 #include "sequence/film_snapshots.h"
 #include "splotchcl/picture.h"
+#include "splotchcl/scene.h"
 
 namespace splotchcl {
 

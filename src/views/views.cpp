@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "splotchcl/cube.h"
+#include "splotchcl/scene.h"
 
 namespace splotchcl {
 namespace {

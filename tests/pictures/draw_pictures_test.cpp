@@ -7,6 +7,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 namespace {
