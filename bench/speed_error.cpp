@@ -93,13 +93,6 @@ std::vector<SceneToTime> make_scenes(const Size& size) {
           {"universe", "all", universe_frame(make_universe(universe), size.width, size.height)}};
 }
 
-std::size_t count_particles(const Frame& frame) {
-  std::size_t count = 0;
-  for (const DrawnComponent& component : frame.components)
-    count += component.particles.count;
-  return count;
-}
-
 std::string text_of_tolerance(double tolerance) {
   return tolerance > 0 ? "1e" + fixed(std::log10(tolerance), 0) : "0";
 }
@@ -121,7 +114,7 @@ class SpeedAndError {
     const ReferenceImage reference_image = reference::render(frame);
     const Cost reference_cost = stopwatch.elapsed();
     std::vector<std::string> cells = {scene.name, scene.splats, name(light),
-                                      std::to_string(count_particles(frame))};
+                                      std::to_string(particle_count(frame))};
     for (const double tolerance : tolerances) {
       frame.tolerance = tolerance;
       Image image;
@@ -154,7 +147,7 @@ class SpeedAndError {
     const bool kept = error.maximum <= promise(frame.tolerance);
     ++point_count_;
     points_beyond_ += kept ? 0 : 1;
-    const std::size_t count = count_particles(frame);
+    const auto count = static_cast<std::size_t>(particle_count(frame));
     const double rate = static_cast<double>(count) / runs.median().wall_seconds;
     points_.add(
         {scene.name, scene.splats, name(light), text_of_tolerance(frame.tolerance),
