@@ -103,10 +103,9 @@ int run(const std::filesystem::path& folder) {
     for (int i = 0; i < steps_per_picture; ++i)
       step(stars, half, 0.01F);
     snapshot.changed();
-    const splotchcl::Frame frame = splotchcl::load_frame(scene, snapshot, notes);
-    // What the first picture chose from the data, such as its exposure, holds for all.
-    if (picture == 0) scene = splotchcl::decide_scene(scene, frame);
-    const splotchcl::DrawnFrame drawn = drawer.draw(scene, frame, snapshot.info());
+    // What the first picture chooses from the data, such as its exposure, holds for all.
+    if (picture == 0) scene = splotchcl::fixed_scene(splotchcl::decide(scene, snapshot, notes));
+    const splotchcl::DrawnFrame drawn = drawer.draw(scene, snapshot);
     const auto path = folder / ("in_situ_" + std::to_string(picture) + ".png");
     splotchcl::write_pictures(path, drawn.pictures, splotchcl::image_file_options(scene));
     std::printf("%s\n", path.c_str());

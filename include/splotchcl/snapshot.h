@@ -80,7 +80,7 @@ class Snapshot {
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 
-  // What load_frame has made of the snapshot and wants again for the next frame of a film:
+  // What decide and load have made of the snapshot and want again for the next frame of a film:
   // selections, derived fields, snapshots of single components. No part of the snapshot's
   // value; copies share it. Not for use from several threads at once.
   LoadMemory& memory() const;

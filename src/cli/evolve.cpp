@@ -99,7 +99,7 @@ class TurningScene {
 
   // What the first frame decides holds for all.
   void decide() {
-    scene_ = decide_scene(scene_, load_frame(scene_, *snapshot_at(galaxy_.at(0)), notes_));
+    scene_ = fixed_scene(splotchcl::decide(scene_, *snapshot_at(galaxy_.at(0)), notes_));
     other_scenes_.decide(scene_);
   }
 

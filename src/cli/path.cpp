@@ -3,6 +3,7 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 #include "cli/commands.h"
 #include "film/frames/film_scene.h"
@@ -53,6 +54,13 @@ void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
   }
 }
 
+void tell_once(const std::vector<std::string>& notes, Console& console) {
+  std::set<std::string> told;
+  for (const std::string& note : notes) {
+    if (told.insert(note).second) console.note(note);
+  }
+}
+
 }  // namespace
 
 int run_path(const PathOptions& options, Console& console) {
@@ -60,13 +68,11 @@ int run_path(const PathOptions& options, Console& console) {
   FilmScene film(options.scene, options.settings);
   console.status("reading");
   film.decide();
-  for (const std::string& note : film.notes())
-    console.note(note);
-
   const Scene start = film.scene_at(0);
   const std::shared_ptr<const Snapshot> snapshot = film.snapshot_at(start);
-  std::vector<std::string> told;
-  Frame frame = load_frame(start, *snapshot, told);
+  std::vector<std::string> notes = film.notes();
+  Frame frame = load_frame(start, *snapshot, notes);
+  tell_once(notes, console);
   PathPlot plot;
   plot.particles = sample_particles(frame);
   plot.box_size = snapshot->info().box_size;

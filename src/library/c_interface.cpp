@@ -127,9 +127,8 @@ int splotchcl_scene_decide(splotchcl_scene* scene, const splotchcl_particles* pa
                            splotchcl_error* error) {
   return guarded(error, [&] {
     std::vector<std::string> notes;
-    const splotchcl::Frame frame =
-        splotchcl::load_frame(require(scene, "the scene")->scene, arrays_now(particles), notes);
-    scene->scene = splotchcl::decide_scene(scene->scene, frame);
+    scene->scene = splotchcl::fixed_scene(
+        splotchcl::decide(require(scene, "the scene")->scene, arrays_now(particles), notes));
   });
 }
 

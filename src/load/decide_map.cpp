@@ -51,9 +51,10 @@ ValueRange range_from_data(const Column& column, const FieldMap& map,
 
 }  // namespace
 
-ScalarMap decide_map(const FieldMap& map, const Column& column, const ComponentFields& fields,
-                     const std::string& key) {
+ScalarMap decide_map(const FieldMap& map, const std::function<Column()>& read,
+                     const ComponentFields& fields, const std::string& key) {
   ScalarMap decided;
+  if (map.field.empty()) return decided;
   decided.scaling = map.scaling;
   const auto minimum = scaled_limit(map.minimum, map.scaling, fields.label(), key + ".min");
   const auto maximum = scaled_limit(map.maximum, map.scaling, fields.label(), key + ".max");
@@ -62,7 +63,7 @@ ScalarMap decide_map(const FieldMap& map, const Column& column, const ComponentF
     decided.maximum = *maximum;
     return decided;
   }
-  const ValueRange data = range_from_data(column, map, fields);
+  const ValueRange data = range_from_data(read(), map, fields);
   decided.minimum = minimum.value_or(data.minimum);
   decided.maximum = maximum.value_or(data.maximum);
   if (decided.minimum < decided.maximum) return decided;

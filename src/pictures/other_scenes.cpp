@@ -12,7 +12,7 @@ void OtherScenes::decide(const Scene& scene) {
   if (other.decided) return;
   const Scene open = *cross_fade_scene(scene);
   std::vector<std::string> ignored;  // told when it is drawn
-  other.decided = decide_scene(open, load_frame(open, *other.snapshots.at(open), ignored));
+  other.decided = fixed_scene(splotchcl::decide(open, *other.snapshots.at(open), ignored));
 }
 
 std::vector<Picture> OtherScenes::draw(const std::string& file, Scene other, const Rectangle& crop,

@@ -12,9 +12,9 @@ namespace splotchcl {
 
 class Snapshot;
 
-// What load_frame has made from one snapshot and will want again for the next frame of a
-// film: derived fields, selections, snapshots of single components. What two loads in a row
-// did not ask for is forgotten.
+// What decide and load have made from one snapshot and will want again for the next frame of a
+// film: derived fields, selections, snapshots of single components. What two loads of
+// frames in a row did not ask for is forgotten.
 class LoadMemory {
  public:
   // The value that `make` gave for this key, now or before.

@@ -40,6 +40,11 @@ Frame load(const Scene& scene, const Snapshot& snapshot) {
   return load_frame(scene, snapshot, notes);
 }
 
+Scene decided_as_scene(const Scene& scene, const Snapshot& snapshot) {
+  std::vector<std::string> notes;
+  return fixed_scene(decide(scene, snapshot, notes));
+}
+
 TEST(CachedSnapshot, ReadsEachColumnOnce) {
   const auto source = some_particles();
   const CachedSnapshot cached(source);
@@ -80,7 +85,7 @@ TEST(CachedSnapshot, RemembersThePictureBehindEverything) {
 TEST(DecideScene, LeavesNothingToTheData) {
   const auto snapshot = some_particles();
   const Scene scene = scene_left_to_the_data();
-  const Scene decided = decide_scene(scene, load(scene, *snapshot));
+  const Scene decided = decided_as_scene(scene, *snapshot);
   ASSERT_TRUE(decided.camera);
   const Component& gas = decided.components[0];
   EXPECT_TRUE(gas.color.minimum && gas.color.maximum && gas.intensity.minimum);
@@ -94,7 +99,7 @@ TEST(DecideScene, DescribesTheSameFrame) {
   const auto snapshot = some_particles();
   const Scene scene = scene_left_to_the_data();
   const Frame open = load(scene, *snapshot);
-  const Frame decided = load(decide_scene(scene, open), *snapshot);
+  const Frame decided = load(decided_as_scene(scene, *snapshot), *snapshot);
   const DrawnComponent &a = open.components[0], &b = decided.components[0];
   EXPECT_NEAR(a.color.minimum, b.color.minimum, 1e-14);
   EXPECT_NEAR(a.color.maximum, b.color.maximum, 1e-14);
@@ -114,7 +119,7 @@ TEST(DecideScene, KeepsWhatTheSceneSays) {
   scene.components[0].color.minimum = 2;
   scene.components[0].weight = WeightModel::constant;
   scene.components[0].reference_column = 7;
-  const Scene decided = decide_scene(scene, load(scene, *snapshot));
+  const Scene decided = decided_as_scene(scene, *snapshot);
   EXPECT_EQ(decided.components[0].color.minimum, 2);
   EXPECT_EQ(decided.components[0].weight, WeightModel::constant);
   EXPECT_EQ(decided.components[0].reference_column, 7);
@@ -125,7 +130,7 @@ TEST(DecideScene, LeavesOpenWhatTheFrameShowsNothingOf) {
   const auto snapshot = some_particles();
   Scene scene = scene_left_to_the_data();
   scene.components[0].select.where = {"internal_energy > 1e9"};
-  const Scene nothing_selected = decide_scene(scene, load(scene, *snapshot));
+  const Scene nothing_selected = decided_as_scene(scene, *snapshot);
   EXPECT_FALSE(is_decided(nothing_selected));
   EXPECT_FALSE(nothing_selected.components[0].color.minimum);
   EXPECT_FALSE(nothing_selected.components[0].reference_column);
@@ -134,12 +139,12 @@ TEST(DecideScene, LeavesOpenWhatTheFrameShowsNothingOf) {
   scene.camera = Camera();
   scene.camera->position = {{0, 0, 10}};
   scene.camera->look_at = {{0, 0, 20}};
-  const Scene nothing_seen = decide_scene(scene, load(scene, *snapshot));
+  const Scene nothing_seen = decided_as_scene(scene, *snapshot);
   EXPECT_TRUE(nothing_seen.components[0].color.minimum);
   EXPECT_FALSE(nothing_seen.components[0].reference_column);
 
   scene.camera->look_at = {{0, 0, 0}};
-  EXPECT_TRUE(is_decided(decide_scene(scene, load(scene, *snapshot))));
+  EXPECT_TRUE(is_decided(decided_as_scene(scene, *snapshot)));
 }
 
 TEST(Unscaled, UndoesTheScaling) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cstdint>
 #include <iterator>
 #include <set>
@@ -22,13 +23,23 @@ bool has_words(const std::string& setting) {
   return value.find_first_not_of("0123456789+-.eE[], ") != std::string::npos;
 }
 
+// With the picture's own upward direction as its sky, about which an orbit turns that has no axis:
+// what the camera was chosen to show stays in the middle, as high as it is.
+Camera upright(Camera camera, const ImageSettings& image) {
+  using namespace boost::qvm;
+  camera.sky = -make_camera_frame(camera, image.width, image.height).down;
+  return camera;
+}
+
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings) {
   SceneWithSnapshot opened = open_scene(path, settings);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
-  if (!scene_.camera && !path_has_camera(scene_)) decide_camera();
+  if (!scene_.camera && !path_has_camera(scene_)) {
+    scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
+  }
   path_.emplace(scene_, notes_);
   path_->check(scene_);
   check_moments();
@@ -45,11 +56,6 @@ void FilmScene::check_moments() const {
       throw UsageError(fmt::format("frame {} of the path: {}", frame, error.what()));
     }
   }
-}
-
-void FilmScene::decide_camera() {
-  std::vector<std::string> ignored;  // load_frame tells it again
-  scene_.camera = decide_scene(scene_, load_frame(scene_, *snapshot_at(scene_), ignored)).camera;
 }
 
 void FilmScene::decide() {
@@ -90,7 +96,7 @@ void FilmScene::decide_components() {
   std::vector<std::string> ignored;
   for (int i = 0; i <= most_tries; ++i) {
     const Scene scene = scene_at(static_cast<int>(std::int64_t{last} * i / most_tries));
-    scene_ = decide_scene(scene, load_frame(scene, *snapshot_at(scene), i == 0 ? notes_ : ignored));
+    scene_ = fixed_scene(splotchcl::decide(scene, *snapshot_at(scene), i == 0 ? notes_ : ignored));
     if (is_decided(scene_) || last == 0) return;
   }
   notes_.push_back(

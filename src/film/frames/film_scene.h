@@ -35,7 +35,6 @@ class FilmScene {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void decide_camera();
   void check_moments() const;
   void check_words();
   void decide_components();

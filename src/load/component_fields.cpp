@@ -1,4 +1,4 @@
-#include "load/load_frame_fields.h"
+#include "load/component_fields.h"
 
 #include <fmt/format.h>
 

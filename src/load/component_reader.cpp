@@ -1,0 +1,103 @@
+#include "load/component_reader.h"
+
+#include <utility>
+#include <vector>
+
+#include "load/choose_palette.h"
+
+namespace splotchcl {
+namespace {
+
+// Particles that vanish or appear between two snapshots are there only in part.
+void apply_fade(const ComponentFields& fields, Particles& particles) {
+  const Column fade = fields.fade();
+  if (fade.is_absent()) return;
+  std::vector<float> faded(particles.count);
+  for (std::size_t i = 0; i < faded.size(); ++i)
+    faded[i] = fade[i] * (particles.weight.is_absent() ? 1 : particles.weight[i]);
+  particles.weight = Column::owning(std::move(faded));
+}
+
+// Lengths of the snapshot are scaled with it; a fixed size is a length of the scene.
+double drawn_size_factor(const Component& component) {
+  return component.size_fixed ? component.size_factor
+                              : component.size_factor * component.placement.scale;
+}
+
+}  // namespace
+
+WeightModel ComponentReader::weight() const {
+  return component_.weight.value_or(fields_.masses_are_known() ? WeightModel::mass
+                                                               : WeightModel::constant);
+}
+
+void ComponentReader::select() {
+  if (is_selected_) return;
+  fields_.select();
+  is_selected_ = true;
+}
+
+std::size_t ComponentReader::count() {
+  select();
+  return fields_.count();
+}
+
+const Column& ComponentReader::read_once(std::optional<Column>& column, const std::string& field,
+                                         const char* key) {
+  if (!column) {
+    select();
+    column = field.empty() ? Column() : fields_.scalars(field, key);
+  }
+  return *column;
+}
+
+const Column& ComponentReader::color() {
+  return read_once(color_, component_.color.field, "color.field");
+}
+
+const Column& ComponentReader::intensity() {
+  return read_once(intensity_, component_.intensity.field, "intensity.field");
+}
+
+Column ComponentReader::weights(WeightModel weight) const {
+  switch (weight) {
+    case WeightModel::mass:
+      return fields_.masses();
+    case WeightModel::density:
+      return fields_.scalars("density", "weight = \"density\"");
+    case WeightModel::constant:
+      break;
+  }
+  return {};
+}
+
+DrawnComponent ComponentReader::drawn(WeightModel weight) {
+  select();
+  DrawnComponent drawn;
+  drawn.name = component_.name;
+  drawn.size_factor = drawn_size_factor(component_);
+  drawn.brightness = component_.brightness;
+  drawn.absorption = component_.absorption;
+  drawn.palette = choose_palette(component_);
+  drawn.weight = weight;
+  drawn.particles_per_drawn = fields_.snapshot_info().particles_per_drawn;
+
+  Particles& particles = drawn.particles;
+  particles.count = fields_.count();
+  particles.origin = fields_.origin();
+  particles.position = fields_.positions();
+  particles.smoothing_length = fields_.smoothing_lengths();
+  particles.weight = weights(weight);
+  apply_fade(fields_, particles);
+  particles.color = color();
+  if (!component_.color_vector.empty()) {
+    particles.color_vector = fields_.vectors(component_.color_vector, "color.vector");
+  }
+  particles.intensity = intensity();
+  if (sort_.by == SortOrder::By::field) {
+    particles.sort_field = fields_.scalars(sort_.field, "sort.by");
+  }
+  return drawn;
+}
+
+}  // namespace splotchcl

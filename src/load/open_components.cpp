@@ -1,0 +1,69 @@
+#include "load/open_components.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "load/choose_palette.h"
+#include "snapshot/load_memory.h"
+#include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+namespace {
+
+void check_factor(double value, const ComponentFields& fields, const char* key) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw UsageError(
+        fmt::format("{}: {} is {}, expected a finite number > 0", fields.label(), key, value));
+  }
+}
+
+void check_placement(const Component& component, const ComponentFields& fields) {
+  const Placement& placement = component.placement;
+  double largest = 0;
+  for (const double component_of_axis : placement.axis.a)
+    largest = std::max(largest, std::abs(component_of_axis));
+  if (std::isfinite(placement.angle_degrees) && std::isfinite(largest) && largest > 0) return;
+  throw UsageError(
+      fmt::format("{}: rotation is by {} degrees about the axis ({}, {}, {}), expected finite "
+                  "numbers and an axis that is not 0",
+                  fields.label(), placement.angle_degrees, placement.axis.a[0], placement.axis.a[1],
+                  placement.axis.a[2]));
+}
+
+void check(const Component& component, const SortOrder& sort, const ComponentFields& fields) {
+  check_factor(component.size_factor, fields, "size.factor");
+  if (component.size_fixed) check_factor(*component.size_fixed, fields, "size.fixed");
+  check_factor(component.placement.scale, fields, "scale");
+  check_placement(component, fields);
+  fields.check(sort);
+  choose_palette(component);
+}
+
+}  // namespace
+
+OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
+                               const MissingSizes& sizes, std::vector<std::string>& notes) {
+  for (const Component& component : scene.components) {
+    const Snapshot* source = &snapshot;
+    if (!component.snapshot.empty()) {
+      companions_.push_back(snapshot.memory().companion(
+          component.snapshot, [](const std::string& path) { return open_snapshot(path); }));
+      source = companions_.back().get();
+    }
+    sources_.insert(source);
+    fields_.emplace_back(component, *source, sizes, notes);
+  }
+  auto fields = fields_.begin();
+  for (const Component& component : scene.components)
+    check(component, scene.sort, *fields++);
+}
+
+void OpenComponents::begin_load() {
+  for (const Snapshot* const source : sources_)
+    source->memory().begin_load();
+}
+
+}  // namespace splotchcl
