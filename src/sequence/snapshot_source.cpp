@@ -44,8 +44,9 @@ void read_fields(const SequenceMember& member, const std::set<TypeField>& fields
   for (const auto& [type, field] : fields) {
     const ParticleTypeInfo* const info = member.info().find_type(type);
     if (info == nullptr) continue;
-    const bool has_field = std::any_of(info->fields.begin(), info->fields.end(),
-                                       [&](const FieldInfo& f) { return f.name == field; });
+    const bool has_field =
+        std::any_of(info->fields.begin(), info->fields.end(),
+                    [&name = field](const FieldInfo& f) { return f.name == name; });
     if (has_field) member.read(type, field);
   }
 }
