@@ -10,8 +10,8 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/plan/cloud_in_picture.h"
 #include "scene/constants.h"
+#include "scene/plan/cloud_in_picture.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 

@@ -233,8 +233,8 @@ class RandomScenes {
     finish.color_bar = {coin(), anchor_on_picture(), 0.05 + 0.9 * unit(), words(), words()};
     finish.scale_bar = {coin(), anchor_on_picture(), maybe(positive()), coin() ? word() : ""};
     finish.inset = {coin(),         anchor_on_picture(), {0.1 + 0.5 * unit(), 0.1 + 0.5 * unit()},
-                    0.1 * unit(),   display_color(),    maybe_vector(),
-                    maybe_vector(), maybe_vector(),     maybe(0.1 + 179 * unit()),
+                    0.1 * unit(),   display_color(),     maybe_vector(),
+                    maybe_vector(), maybe_vector(),      maybe(0.1 + 179 * unit()),
                     words()};
     finish.cross_fade = {coin() ? word() : "", unit()};
     finish.fade = unit();

@@ -10,14 +10,14 @@ namespace splotchcl {
 // always does the same sums in the same order.
 struct DeviceTraits {
   bool is_gpu = false;
-  bool shares_host_memory = false;   // buffers may lie in the caller's own memory
-  bool rows = true;                  // eight lanes, rows of float8; not groups of work-items
-  bool double_numbers = false;       // extended numbers are double precision, not pairs
-  std::uint32_t project_block = 0;   // particles per work-item of a projection
-  std::uint32_t chunk_blocks = 0;    // such blocks per chunk
-  std::uint32_t bin_blocks = 0;      // blocks that a chunk's splats are binned in, in order
-  std::uint32_t sort_blocks = 0;     // blocks of the radix sort
-  std::uint32_t segment_length = 0;  // entries of a tile's list per work-item
+  bool shares_host_memory = false;         // buffers may lie in the caller's own memory
+  bool rows = true;                        // eight lanes, rows of float8; not groups of work-items
+  bool double_numbers = false;             // extended numbers are double precision, not pairs
+  std::uint32_t project_block = 0;         // particles per work-item of a projection
+  std::uint32_t chunk_blocks = 0;          // such blocks per chunk
+  std::uint32_t bin_blocks = 0;            // blocks that a chunk's splats are binned in, in order
+  std::uint32_t sort_blocks = 0;           // blocks of the radix sort
+  std::uint32_t segment_length = 0;        // entries of a tile's list per work-item
   std::uint64_t list_capacity = 3u << 20;  // entries of all lists of a band of the picture
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }
 };
