@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cli/program.h"
-#include "io/real_snapshots.h"
+#include "real_snapshots.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/image_file.h"
 

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "formats/hdf5_values.h"
-#include "io/snapshot_checks.h"
-#include "io/snapshot_hdf5_writer.h"
+#include "formats/hdf5/hdf5_values.h"
+#include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "formats/snapshot_checks.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"

@@ -1,6 +1,6 @@
 // The reader of docs/add-a-reader.md.
+#include "formats/snapshot_checks.h"
 #include "formats/snapshot_format.h"
-#include "io/snapshot_checks.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -1,5 +1,5 @@
 #include "common/shrink_guard.h"
-#include "io/snapshot_checks.h"
+#include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/snapshot_checks.h"
-#include "io/snapshot_hdf5_writer.h"
+#include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 

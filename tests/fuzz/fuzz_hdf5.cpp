@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "formats/hdf5_values.h"
+#include "formats/hdf5/hdf5_values.h"
 #include "fuzz/fuzz.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "film/path/film_path.h"
-#include "io/memory_snapshot.h"
 #include "original_drawing.h"
+#include "snapshot/memory_snapshot.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"

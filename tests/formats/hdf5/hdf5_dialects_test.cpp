@@ -1,0 +1,165 @@
+#include "formats/hdf5/hdf5_values.h"
+#include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "formats/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Two cells or particles of gas in a group Header and PartType0.
+class Hdf5Dialects : public ::testing::Test {
+ protected:
+  Hdf5Output create(const std::vector<double>& counts = {2, 0, 0, 0, 0, 0}) const {
+    Hdf5Output file = create_hdf5(path_);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", counts);
+    write_values(file, "PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+    return file;
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "snap.hdf5";
+};
+
+TEST_F(Hdf5Dialects, GizmoIsTold) {
+  {
+    const Hdf5Output file = create();
+    write_attribute(file, "Header", "GIZMO_version", {2022});
+    write_values(file, "PartType0/SmoothingLength", {0.5, 0.25});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().format, "GIZMO HDF5");
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+}
+
+TEST_F(Hdf5Dialects, ArepoIsToldByItsCells) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType0/CenterOfMass", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "PartType0/Volume", {8, 27});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().format, "AREPO HDF5");
+  EXPECT_THAT(values_of(snapshot->read(0, "volume")), ElementsAre(8, 27));
+}
+
+TEST_F(Hdf5Dialects, TracersWithoutPositionsAreLeftOutWithANote) {
+  {
+    const Hdf5Output file = create({2, 0, 0, 3, 0, 0});
+    write_attribute(file, "Header", "NumPart_Total", {2, 0, 0, 3, 0, 0});
+    write_values(file, "PartType3/TracerID", {1, 2, 3}, 1, H5T_STD_U64LE);
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().types.size(), 1U);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("tracers of PartType3")));
+}
+
+TEST_F(Hdf5Dialects, CountsOfZeroOrNonsenseInTheHeaderAreTakenFromTheRows) {
+  for (const std::vector<double>& counts :
+       {std::vector<double>{0, 0, 0, 0, 0, 0}, {-1, 0, 0, 0, 0, 0}, {1e300, 0.5}, {0}}) {
+    create(counts);
+    const auto snapshot = open_snapshot(path_);
+    EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("those of the rows of the positions")));
+  }
+}
+
+TEST_F(Hdf5Dialects, AHeaderThatClaimsMoreOrFewerIsRefused) {
+  for (const double count : {1.0, 3.0, 1e15}) {
+    create({count, 0, 0, 0, 0, 0});
+    EXPECT_THAT(refusal(path_), HasSubstr("Coordinates has 2 rows, but the header counts"));
+  }
+}
+
+TEST_F(Hdf5Dialects, TotalsThatAreNonsenseAreIgnoredWithANote) {
+  {
+    const Hdf5Output file = create();
+    write_attribute(file, "Header", "NumPart_Total", {-2, 0, 0, 0, 0, 0});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("NumPart_Total holds -2")));
+}
+
+TEST_F(Hdf5Dialects, IdentifiersOfAnyWidthAreExact) {
+  const Hdf5Handle<H5Tclose> six_bytes(H5Tcopy(H5T_STD_U64BE));
+  H5Tset_size(six_bytes.id(), 6);
+  for (const hid_t type : {H5T_STD_U32BE, six_bytes.id(), H5T_STD_I64LE}) {
+    {
+      const Hdf5Output file = create();
+      write_values(file, "PartType0/ParticleIDs", {4294967295.0, 1}, 1, type);
+    }
+    EXPECT_THAT(open_snapshot(path_)->read_ids(0), ElementsAre(4294967295U, 1U));
+  }
+}
+
+TEST_F(Hdf5Dialects, SingularAndPluralNamesMeanTheSame) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType0/Densities", {1, 2});
+    write_values(file, "PartType0/InternalEnergies", {3, 4});
+    write_values(file, "PartType0/SmoothingLengths", {5, 6});
+    write_values(file, "PartType0/Velocity", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "PartType0/Mass", {7, 8});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(1, 2));
+  EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(3, 4));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+}
+
+TEST_F(Hdf5Dialects, AHeaderOfArraysOfAnyLengthIsRead) {
+  for (const std::size_t types : {1U, 2U, 7U, 20U}) {
+    std::vector<double> counts(types, 0);
+    counts[0] = 2;
+    {
+      const Hdf5Output file = create(counts);
+      write_attribute(file, "Header", "Time", {0.5, 9, 9});
+      write_attribute(file, "Header", "BoxSize", {64, 64, 64});
+      write_attribute(file, "Header", "MassTable", {3});
+    }
+    const auto snapshot = open_snapshot(path_);
+    EXPECT_EQ(snapshot->info().time, 0.5) << types;
+    EXPECT_EQ(snapshot->info().box_size, 64) << types;
+    EXPECT_EQ(snapshot->read(0, "mass").uniform_value(), 3) << types;
+  }
+}
+
+TEST_F(Hdf5Dialects, FieldsThatTheHeaderDoesNotCountAndNoCoordinatesAreRefused) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType3/Masses", {1, 2});
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("counts 0 particles of PartType3, which has only Masses"));
+}
+
+TEST_F(Hdf5Dialects, CoordinatesOfOtherWidthsAreRefusedWithTheirs) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", {2});
+    write_values(file, "PartType0/Coordinates", {1, 2, 3, 4}, 2);
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("only Coordinates of 2 columns"));
+}
+
+TEST_F(Hdf5Dialects, WithoutCoordinatesIsRefused) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", {2});
+    write_values(file, "PartType0/Masses", {1, 2});
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("expected a dataset Coordinates"));
+}
+
+}  // namespace
+}  // namespace splotchcl

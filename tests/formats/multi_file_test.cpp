@@ -1,0 +1,186 @@
+#include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "formats/snapshot_checks.h"
+#include "formats/snapshot_writer.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// The formats that sets come in; 3 is HDF5, as in Gadget's own parameter files.
+class MultiFile : public ::testing::TestWithParam<int> {
+ protected:
+  MultiFile() { std::filesystem::create_directories(folder_ / "set"); }
+
+  std::filesystem::path set_folder() const { return folder_ / "set"; }
+  std::filesystem::path base() const { return set_folder() / "snap_007"; }
+  std::filesystem::path member(std::size_t i) const {
+    return base().string() + "." + std::to_string(i) + (GetParam() < 3 ? "" : ".hdf5");
+  }
+  void write(const std::filesystem::path& path, const TestSnapshot& snapshot) const {
+    GetParam() < 3 ? write_gadget(path, snapshot, GetParam()) : write_hdf5(path, snapshot);
+  }
+  void write_set(const std::vector<TestSnapshot>& members) const {
+    for (std::size_t i = 0; i < members.size(); ++i)
+      write(member(i), members[i]);
+  }
+  // The same particles in one file.
+  std::unique_ptr<Snapshot> open_whole() const {
+    write(folder_ / "whole", snapshot());
+    return open_snapshot(folder_ / "whole");
+  }
+  TestSnapshot snapshot() const {
+    TestSnapshot snapshot = small_snapshot();
+    if (GetParam() == 1) snapshot.blocks.resize(7);  // those that format 1 can name
+    return snapshot;
+  }
+
+  const TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(Format, MultiFile, ::testing::Values(1, 2, 3),
+                         ::testing::PrintToStringParamName());
+
+TEST_P(MultiFile, ASplitSnapshotReadsAsTheWholeOne) {
+  write_set(split(snapshot(), 3));
+  const auto joined = open_snapshot(member(0));
+  EXPECT_EQ(joined->info().files.size(), 3U);
+  expect_same_columns(*joined, *open_whole());
+}
+
+TEST_P(MultiFile, ASplitSnapshotOfDoublesHasTheOriginOfTheWholeOne) {
+  TestSnapshot written = snapshot();
+  written.set_kind("POS", ValueKind::float64);
+  write_set(split(written, 3));
+  write(folder_ / "doubles", written);
+  const auto joined = open_snapshot(member(0));
+  const auto whole = open_snapshot(folder_ / "doubles");
+  EXPECT_NE(whole->position_origin().a[0], 0);
+  EXPECT_EQ(joined->position_origin().a[0], whole->position_origin().a[0]);
+  expect_same_columns(*joined, *whole);
+}
+
+TEST_P(MultiFile, AnyMemberTheBaseNameAndTheFolderMeanTheSet) {
+  write_set(split(snapshot(), 3));
+  const auto whole = open_whole();
+  for (const auto& path : {member(1), member(2), base(), set_folder()}) {
+    const auto joined = open_snapshot(path);
+    EXPECT_EQ(joined->info().files,
+              (std::vector<std::filesystem::path>{member(0), member(1), member(2)}));
+    expect_same_columns(*joined, *whole);
+  }
+}
+
+TEST_P(MultiFile, MembersWithoutSomeTypesAreJoined) {
+  // 37 gas, 20 halo and 11 star particles over 30 files: most have no stars.
+  write_set(split(snapshot(), 30));
+  expect_same_columns(*open_snapshot(member(0)), *open_whole());
+}
+
+TEST_P(MultiFile, AMissingMemberIsNamed) {
+  write_set(split(snapshot(), 3));
+  std::filesystem::remove(member(1));
+  EXPECT_THAT(refusal(member(2)), AllOf(HasSubstr(member(1).string()), HasSubstr("3 files")));
+}
+
+TEST_P(MultiFile, AMemberUnderAnotherNameIsRefused) {
+  write(folder_ / "renamed", split(snapshot(), 3)[0]);
+  EXPECT_THAT(refusal(folder_ / "renamed"), HasSubstr("one of 3 files"));
+}
+
+TEST_P(MultiFile, AMemberOfAnotherTimeIsRefused) {
+  auto members = split(snapshot(), 3);
+  members[1].time = 0.75;
+  write_set(members);
+  EXPECT_THAT(refusal(member(0)), AllOf(HasSubstr(member(1).string()), HasSubstr("another time")));
+}
+
+TEST_P(MultiFile, CountsThatDoNotAddUpAreRefused) {
+  const auto members = split(snapshot(), 3);
+  write_set({members[0], members[1], members[1]});
+  EXPECT_THAT(refusal(member(0)), HasSubstr("but their headers say 68"));
+}
+
+TEST_P(MultiFile, ATruncatedMemberIsNamed) {
+  write_set(split(snapshot(), 3));
+  std::filesystem::resize_file(member(2), std::filesystem::file_size(member(2)) - 7);
+  EXPECT_THAT(refusal(member(0)), AllOf(HasSubstr(member(2).string()), HasSubstr("truncated")));
+}
+
+TEST_P(MultiFile, AFieldThatAMemberLacksIsLeftOutWithANote) {
+  auto members = split(snapshot(), 2);
+  members[1].remove("HSML");
+  write_set(members);
+  const auto joined = open_snapshot(member(0));
+  EXPECT_FALSE(has_field(*joined, 0, "smoothing_length"));
+  EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("not every file")));
+}
+
+TEST_P(MultiFile, ACompleteFileWhoseHeaderSpeaksOfMoreIsRead) {
+  TestSnapshot whole = snapshot();
+  whole.files = 424242;
+  write(folder_ / "snap", whole);
+  const auto opened = open_snapshot(folder_ / "snap");
+  EXPECT_EQ(opened->info().files.size(), 1U);
+  EXPECT_THAT(opened->info().notes, ::testing::Contains(HasSubstr("424242 files")));
+}
+
+TEST(SnapshotFolder, WithSeveralSnapshotsIsRefusedWithTheirNames) {
+  const TemporaryFolder folder;
+  write_gadget(folder / "snap_001", small_snapshot(), 2);
+  write_gadget(folder / "snap_002", small_snapshot(), 2);
+  write_bytes(folder / "notes.txt", "not a snapshot");
+  EXPECT_THAT(refusal(folder.path()),
+              AllOf(HasSubstr("2 snapshots"), HasSubstr("snap_001"), HasSubstr("snap_002")));
+}
+
+TEST(SnapshotFolder, WithoutSnapshotsIsRefused) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "notes.txt", "not a snapshot");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("no snapshot in this folder"));
+}
+
+TEST(SnapshotFolder, SurplusMembersAreNotSilentlyDropped) {
+  const TemporaryFolder folder;
+  write_gadget_set(folder / "snap", split(small_snapshot(), 2), 2);
+  write_gadget(folder / "snap.2", small_snapshot(), 2);
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("holds 3 files"));
+}
+
+TEST(SnapshotName, TheEndingMayBeLeftOut) {
+  const TemporaryFolder folder;
+  write_hdf5(folder / "snap_001.hdf5", small_snapshot());
+  EXPECT_EQ(open_snapshot(folder / "snap_001")->info().files.front(), folder / "snap_001.hdf5");
+}
+
+TEST(SnapshotName, ABaseNameWithTwoMeaningsIsRefused) {
+  const TemporaryFolder folder;
+  write_hdf5(folder / "snap_001.hdf5", small_snapshot());
+  write_gadget_set(folder / "snap_001", split(small_snapshot(), 2), 2);
+  EXPECT_THAT(refusal(folder / "snap_001"),
+              AllOf(HasSubstr("could be snap_001.hdf5 or snap_001.0")));
+}
+
+TEST(SnapshotName, AMissingFileIsNamed) {
+  EXPECT_THAT(refusal("no/such/snapshot"), HasSubstr("no/such/snapshot: no such file"));
+}
+
+TEST(SnapshotName, TheNameDoesNotDecideTheFormat) {
+  const TemporaryFolder folder;
+  write_gadget(folder / "snap.hdf5", small_snapshot(), 2);
+  EXPECT_THAT(open_snapshot(folder / "snap.hdf5")->info().format, HasSubstr("Gadget format 2"));
+}
+
+TEST(SnapshotName, AFileOfAnotherKindIsRefusedWithItsFirstBytes) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "snap", "\x89PNG\r\n");
+  EXPECT_THAT(refusal(folder / "snap"), HasSubstr("it is a PNG image"));
+  write_bytes(folder / "empty", "");
+  EXPECT_THAT(refusal(folder / "empty"), HasSubstr("the file is empty"));
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "formats/numpy/numpy_writer.h"
+#include "formats/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Positions as they were written, offsets from the origin added up again.
+std::vector<double> positions(const Snapshot& snapshot) {
+  const Column offsets = snapshot.read(0, "position");
+  std::vector<double> values;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    values.push_back(static_cast<double>(offsets[i]) + snapshot.position_origin().a[i % 3]);
+  }
+  return values;
+}
+
+TEST(NumpyArray, RowsOfThreeArePositions) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6})));
+  const auto snapshot = open_snapshot(folder / "a.npy");
+  EXPECT_EQ(snapshot->info().format, "NumPy array");
+  EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f8", "(2, 5)"),
+                                            bytes_of<double>({1, 2, 3, 7, 8, 4, 5, 6, 9, 10})));
+  const auto plain = open_snapshot(folder / "a.npy");
+  EXPECT_THAT(values_of(plain->read(0, "column_4")), ElementsAre(7, 9));
+  const auto named = open_snapshot(folder / "a.npy", {{"mass", "-", "x", "y", "z"}});
+  EXPECT_THAT(values_of(named->read(0, "mass")), ElementsAre(1, 4));
+  EXPECT_THAT(positions(*named), ElementsAre(3, 7, 8, 6, 9, 10));
+  EXPECT_FALSE(has_field(*named, 0, "column_2"));
+}
+
+TEST(NumpyArray, FortranOrderAndBigEndianAreRead) {
+  const TemporaryFolder folder;
+  std::string data = bytes_of<float>({1, 4, 2, 5, 3, 6});
+  for (std::size_t i = 0; i < data.size(); i += 4)
+    std::reverse(data.begin() + static_cast<std::ptrdiff_t>(i),
+                 data.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+  write_bytes(folder / "a.npy", numpy_bytes(numpy_header(">f4", "(2, 3)", true), data));
+  EXPECT_THAT(positions(*open_snapshot(folder / "a.npy")), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(NumpyArray, RecordsWithNamesAreRead) {
+  const TemporaryFolder folder;
+  const std::string header =
+      "{'descr': [('pos', '<f8', (3,)), ('hsml', '<f4'), ('id', '<u8'), ('name', '<U2'), "
+      "('flag', '|b1')], 'fortran_order': False, 'shape': (2,)}";
+  std::string data;
+  for (std::uint64_t i = 0; i < 2; ++i) {
+    const double first = 10.0 * static_cast<double>(i);
+    data += bytes_of<double>({first, first + 1, first + 2});
+    data += bytes_of<float>({static_cast<float>(first) + 0.5F});
+    data += bytes_of<std::uint64_t>({(std::uint64_t{1} << 63) + i});
+    data += std::string(8, 'x') + static_cast<char>(i);
+  }
+  write_bytes(folder / "a.npy", numpy_bytes(header, data, 2));
+  const auto snapshot = open_snapshot(folder / "a.npy");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(0, 1, 2, 10, 11, 12));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 10.5F));
+  EXPECT_THAT(values_of(snapshot->read(0, "flag")), ElementsAre(0, 1));
+  EXPECT_THAT(snapshot->read_ids(0),
+              ElementsAre(std::uint64_t{1} << 63, (std::uint64_t{1} << 63) + 1));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("name")));
+}
+
+TEST(NumpyArray, TruncatedAtAnyByteIsRefused) {
+  const TemporaryFolder folder;
+  const std::string whole =
+      numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    write_bytes(folder / "a.npy", whole.substr(0, size));
+    ASSERT_NE(refusal(folder / "a.npy"), "") << "cut to " << size << " bytes";
+  }
+  write_bytes(folder / "a.npy", whole + "x");
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("25 bytes of values, expected 24"));
+}
+
+TEST(NumpyArray, ShapesThatOverflowAreRefused) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(4611686018427387904, 3)"), std::string(24, 'x')));
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("overflows"));
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(1000000000000, 3)"), std::string(24, 'x')));
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("24 bytes of values"));
+}
+
+TEST(NumpyArray, TwoColumnsAreNotPositions) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(3, 2)"), bytes_of<float>({1, 2, 3, 4, 5, 6})));
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("save its transpose"));
+}
+
+TEST(NumpyArray, HeadersThatAreNoPythonAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* header :
+       {"", "{'descr': '<f4'", "{'descr': '<f4', 'shape': (2, 3)}", "[[[[[[[[[[[[[[[[[[[[[[",
+        "{'descr': 'f', 'fortran_order': False, 'shape': (2, 3)}",
+        "{'descr': [('x', [('y', '<f4')])], 'fortran_order': False, 'shape': (2,)}",
+        "{'descr': '<f4', 'fortran_order': False, 'shape': (-2, 3)}"}) {
+    write_bytes(folder / "a.npy", numpy_bytes(header, std::string(24, 'x')));
+    EXPECT_NE(refusal(folder / "a.npy"), "") << header;
+  }
+}
+
+class NumpyArchive : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Packing, NumpyArchive, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "Packed" : "Stored"; });
+
+TEST_P(NumpyArchive, ArraysBecomeFields) {
+  const TemporaryFolder folder;
+  write_zip(
+      folder / "a.npz",
+      {{"pos.npy",
+        numpy_bytes(numpy_header("<f8", "(2, 3)"), bytes_of<double>({1, 2, 3, 4, 5, 6}))},
+       {"mass.npy", numpy_bytes(numpy_header("<f4", "(2,)"), bytes_of<float>({7, 8}))},
+       {"ids.npy", numpy_bytes(numpy_header("<i8", "(2,)"), bytes_of<std::int64_t>({5, 6}))},
+       {"halo_mass.npy", numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({7, 8, 9}))},
+       {"time.npy", numpy_bytes(numpy_header("<f8", "()"), bytes_of<double>({0.25}))},
+       {"BoxSize.npy", numpy_bytes(numpy_header("<f8", "()"), bytes_of<double>({64}))}},
+      GetParam());
+  const auto snapshot = open_snapshot(folder / "a.npz");
+  EXPECT_EQ(snapshot->info().format, "NumPy archive");
+  EXPECT_EQ(snapshot->info().time, 0.25);
+  EXPECT_EQ(snapshot->info().box_size, 64);
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+  EXPECT_THAT(snapshot->read_ids(0), ElementsAre(5, 6));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("halo_mass")));
+}
+
+TEST_P(NumpyArchive, AxesInArraysOfTheirOwnAreJoined) {
+  const TemporaryFolder folder;
+  const auto axis = [](const std::vector<float>& values) {
+    return numpy_bytes(numpy_header("<f4", "(2,)"), bytes_of(values));
+  };
+  write_zip(folder / "a.npz",
+            {{"z.npy", axis({3, 6})}, {"y.npy", axis({2, 5})}, {"x.npy", axis({1, 4})}},
+            GetParam());
+  EXPECT_THAT(positions(*open_snapshot(folder / "a.npz")), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_P(NumpyArchive, ADamagedArchiveIsRefused) {
+  const TemporaryFolder folder;
+  std::vector<float> values(3000);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(i * i % 977);
+  write_zip(folder / "a.npz",
+            {{"pos.npy", numpy_bytes(numpy_header("<f4", "(1000, 3)"), bytes_of(values))}},
+            GetParam());
+  const std::string whole = read_text(folder / "a.npz");
+  for (const std::size_t size : {whole.size() / 4, whole.size() / 2, whole.size() - 1}) {
+    write_bytes(folder / "a.npz", whole.substr(0, size));
+    EXPECT_NE(refusal(folder / "a.npz"), "");
+  }
+  std::string damaged = whole;  // the archive's checksum tells
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 0x55);
+  write_bytes(folder / "a.npz", damaged);
+  EXPECT_THROW(
+      {
+        const auto snapshot = open_snapshot(folder / "a.npz");
+        snapshot->read(0, "position");
+      },
+      DataError);
+}
+
+TEST(NumpyArchives, AZipWithoutArraysIsRefused) {
+  const TemporaryFolder folder;
+  write_zip(folder / "a.zip", {{"readme.txt", "nothing"}}, true);
+  EXPECT_THAT(refusal(folder / "a.zip"), HasSubstr("zip archive without NumPy arrays"));
+}
+
+}  // namespace
+}  // namespace splotchcl

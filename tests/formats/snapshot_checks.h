@@ -1,0 +1,72 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "formats/snapshot_writer.h"
+#include "splotchcl/error.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl::testing {
+
+// The values of a column as a vector, one value for a uniform one.
+inline std::vector<float> values_of(const Column& column) {
+  if (column.is_uniform()) return {column.uniform_value()};
+  return {column.data(), column.data() + column.size()};
+}
+
+inline std::vector<float> as_floats(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+inline bool has_field(const Snapshot& snapshot, int type, const std::string& name) {
+  for (const FieldInfo& field : snapshot.info().find_type(type)->fields) {
+    if (field.name == name) return true;
+  }
+  return false;
+}
+
+// Every field of `expected` reads the same, bit for bit, from both. Fields are found by
+// canonical name, so that dialects with other labels can be compared.
+inline void expect_same_columns(const Snapshot& actual, const Snapshot& expected) {
+  ASSERT_EQ(actual.info().types.size(), expected.info().types.size());
+  for (const ParticleTypeInfo& type : expected.info().types) {
+    ASSERT_NE(actual.info().find_type(type.type), nullptr);
+    EXPECT_EQ(actual.info().find_type(type.type)->count, type.count);
+    EXPECT_EQ(actual.info().find_type(type.type)->table_mass, type.table_mass);
+    EXPECT_EQ(actual.info().find_type(type.type)->fields.size(), type.fields.size());
+    for (const FieldInfo& field : type.fields) {
+      EXPECT_EQ(values_of(actual.read(type.type, field.name)),
+                values_of(expected.read(type.type, field.name)))
+          << "type " << type.type << " " << field.name;
+    }
+  }
+}
+
+// The columns hold what the test has put into the file.
+inline void expect_columns_of(const Snapshot& actual, const TestSnapshot& expected) {
+  for (const TestBlock& block : expected.blocks) {
+    for (int type = 0; type < 6; ++type) {
+      const auto& values = block.values[static_cast<std::size_t>(type)];
+      if (values.empty()) continue;
+      EXPECT_EQ(values_of(actual.read(type, block.label)), as_floats(values))
+          << "type " << type << " " << block.label;
+    }
+  }
+}
+
+// What opening says about a file that must be refused; empty when it is not refused.
+inline std::string refusal(const std::filesystem::path& path) {
+  try {
+    open_snapshot(path);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace splotchcl::testing

@@ -1,0 +1,95 @@
+#include "formats/stored_values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "formats/snapshot_writer.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::ElementsAre;
+
+std::vector<float> values_of(const Column& column) {
+  return {column.data(), column.data() + column.size()};
+}
+
+template <typename T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+class StoredValuesTest : public ::testing::Test {
+ protected:
+  std::shared_ptr<const MappedFile> map(const std::string& bytes) const {
+    write_bytes(folder_ / "values", bytes);
+    return MappedFile::open(folder_ / "values");
+  }
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+TEST_F(StoredValuesTest, AlignedNativeFloatsAreNotCopied) {
+  const auto file = map(bytes_of<float>({9, 1, 2, 3}));
+  const Column column = make_column({{file, 4, 3}});
+  EXPECT_EQ(static_cast<const void*>(column.data()), file->data() + 4);
+  EXPECT_THAT(values_of(column), ElementsAre(1, 2, 3));
+}
+
+TEST_F(StoredValuesTest, UnalignedFloatsAreCopied) {
+  const auto file = map("x" + bytes_of<float>({1, 2, 3}));
+  const Column column = make_column({{file, 1, 3}});
+  EXPECT_NE(static_cast<const void*>(column.data()), file->data() + 1);
+  EXPECT_THAT(values_of(column), ElementsAre(1, 2, 3));
+}
+
+TEST_F(StoredValuesTest, PartsAreJoinedInOrder) {
+  const auto file = map(bytes_of<float>({1, 2, 3, 4}));
+  EXPECT_THAT(values_of(make_column({{file, 8, 2}, {file, 0, 0}, {file, 0, 1}})),
+              ElementsAre(3, 4, 1));
+}
+
+TEST_F(StoredValuesTest, AnEmptyPartDoesNotForceACopy) {
+  const auto file = map(bytes_of<float>({1, 2}));
+  const Column column = make_column({{file, 0, 0}, {file, 0, 2}});
+  EXPECT_EQ(static_cast<const void*>(column.data()), file->data());
+}
+
+TEST_F(StoredValuesTest, IntegersAndDoublesBecomeFloats) {
+  EXPECT_THAT(values_of(make_column(
+                  {{map(bytes_of<double>({0.5, 1e300})), 0, 2, 1, 0, ValueKind::float64}})),
+              ElementsAre(0.5F, std::numeric_limits<float>::infinity()));
+  EXPECT_THAT(values_of(make_column({{map(bytes_of<std::uint32_t>({7, 0xffffffffU})), 0, 2, 1, 0,
+                                      ValueKind::uint32}})),
+              ElementsAre(7, 4294967296.0F));
+  EXPECT_THAT(values_of(make_column(
+                  {{map(bytes_of<std::uint64_t>({1ULL << 40})), 0, 1, 1, 0, ValueKind::uint64}})),
+              ElementsAre(1099511627776.0F));
+}
+
+TEST_F(StoredValuesTest, SwappedBytesAreTurned) {
+  std::string bytes = bytes_of<float>({1.5F});
+  std::reverse(bytes.begin(), bytes.end());
+  EXPECT_THAT(values_of(make_column({{map(bytes), 0, 1, 1, 0, ValueKind::float32, true}})),
+              ElementsAre(1.5F));
+}
+
+TEST_F(StoredValuesTest, StrideSkipsWhatLiesBetween) {
+  const auto file = map(bytes_of<float>({1, 2, 3, -1, 4, 5, 6, -1}));
+  EXPECT_THAT(values_of(make_column({{file, 0, 2, 3, 16}})), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(StoredValuesTest, OriginIsTakenFromVectorsBeforeRounding) {
+  const auto file = map(bytes_of<double>({1e9 + 0.125, 2, 3}));
+  const Vec3 origin = {{1e9, 0, 1}};
+  EXPECT_THAT(values_of(make_column({{file, 0, 1, 3, 0, ValueKind::float64}}, origin)),
+              ElementsAre(0.125F, 2, 2));
+}
+
+}  // namespace
+}  // namespace splotchcl

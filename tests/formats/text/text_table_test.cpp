@@ -1,0 +1,156 @@
+#include <cmath>
+
+#include "formats/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class TextTable : public ::testing::Test {
+ protected:
+  std::unique_ptr<Snapshot> open(const std::string& text,
+                                 const std::vector<std::string>& columns = {}) const {
+    write_bytes(path_, text);
+    return open_snapshot(path_, {columns});
+  }
+  std::string refusal_of(const std::string& text,
+                         const std::vector<std::string>& columns = {}) const {
+    try {
+      const auto snapshot = open(text, columns);
+      for (const FieldInfo& field : snapshot->info().types.front().fields)
+        snapshot->read(0, field.name);
+    } catch (const DataError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "table";
+};
+
+std::vector<double> positions(const Snapshot& snapshot) {
+  const Column offsets = snapshot.read(0, "position");
+  std::vector<double> values;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    values.push_back(static_cast<double>(offsets[i]) + snapshot.position_origin().a[i % 3]);
+  }
+  return values;
+}
+
+TEST_F(TextTable, CommasWithAHeaderAreRead) {
+  const auto snapshot = open("x,y,z,mass,U\n1,2,3,0.5,7\n4,5,6,1.5e-1,8\n");
+  EXPECT_EQ(snapshot->info().format, "text with commas between columns");
+  EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(0.5F, 0.15F));
+  EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(7, 8));
+}
+
+TEST_F(TextTable, AByteOrderMarkIsNoPartOfTheFirstName) {
+  const auto snapshot = open("\xef\xbb\xbfx,y,z\n1,2,3\n");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3));
+}
+
+TEST_F(TextTable, WhiteSpaceWithAHeaderInAnyStyleIsRead) {
+  for (const char* header : {"x y z rho\n", "# x y z rho\n", "# a comment\n#x\ty\tz\trho\n",
+                             "  x   y z\trho  \n", "// x y z rho\n", "# x, y, z, rho\n"}) {
+    const auto snapshot = open(std::string(header) + "1 2\t3   4\n\n  5 6 7 8 \r\n# the end\n");
+    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
+    EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(4, 8)) << header;
+  }
+}
+
+TEST_F(TextTable, SemicolonsQuotesAndUnitsAreRead) {
+  const auto snapshot =
+      open("\"x [kpc]\";\"y [kpc]\";\"z [kpc]\";\"m (Msun)\"\n\"1\";2;3;4\n5;6;7;8\n");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8));
+  EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc");
+  EXPECT_EQ(snapshot->info().types[0].fields[1].unit, "Msun");
+}
+
+TEST_F(TextTable, VectorsAreFoundByTheirAxes) {
+  const auto snapshot = open(
+      "vz,pos_x,pos_y,pos_z,vx,vy,Bx,By,Bz,tx\n"
+      "3,4,5,6,1,2,7,8,9,10\n");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(1, 2, 3));
+  EXPECT_THAT(values_of(snapshot->read(0, "magnetic_field")), ElementsAre(7, 8, 9));
+  EXPECT_THAT(values_of(snapshot->read(0, "tx")), ElementsAre(10));
+}
+
+TEST_F(TextTable, ColumnsMayBeNamedByTheScene) {
+  const std::string rows = "1 2 3 4 5\n6 7 8 9 10\n";
+  EXPECT_THAT(refusal_of(rows), HasSubstr("without a header that names them"));
+  const auto snapshot = open(rows, {"hsml", "-", "x", "y", "z"});
+  EXPECT_THAT(positions(*snapshot), ElementsAre(3, 4, 5, 8, 9, 10));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(1, 6));
+  EXPECT_EQ(snapshot->info().types[0].fields.size(), 2U);
+  EXPECT_THAT(positions(*open("a,b,c\n1,2,3\n", {"z", "y", "x"})), ElementsAre(3, 2, 1));
+  EXPECT_THAT(refusal_of(rows, {"x", "y", "z"}), HasSubstr("line 1 has 5 columns"));
+}
+
+TEST_F(TextTable, MissingValuesAreNotANumber) {
+  const auto snapshot = open("x,y,z,T\n1,2,3,4\n1,2,3,\n1,2,3,nan\n1,2,3,NA\n1,2,3,-inf\n");
+  const Column values = snapshot->read(0, "temperature");
+  EXPECT_EQ(values[0], 4);
+  for (const std::size_t row : {1U, 2U, 3U})
+    EXPECT_TRUE(std::isnan(values[row])) << row;
+  EXPECT_TRUE(std::isinf(values[4]));
+}
+
+TEST_F(TextTable, FortransExponentsAndSignsAreRead) {
+  const auto snapshot = open("x y z\n+1.5D+01 -2d0 5.E-1\n");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(15, -2, 0.5));
+}
+
+TEST_F(TextTable, PositionsKeepTheirDigits) {
+  const auto snapshot = open("x y z\n1000000.25 2000000.5 3e7\n1000000.375 2000000.5 3e7\n");
+  EXPECT_THAT(positions(*snapshot),
+              ElementsAre(1000000.25, 2000000.5, 3e7, 1000000.375, 2000000.5, 3e7));
+}
+
+TEST_F(TextTable, IdentifiersAreExact) {
+  const auto snapshot = open("id,x,y,z\n18446744073709551615,1,2,3\n9007199254740993,4,5,6\n");
+  EXPECT_THAT(snapshot->read_ids(0), ElementsAre(18446744073709551615U, 9007199254740993U));
+}
+
+TEST_F(TextTable, ColumnsOfWordsAreLeftOutWithANote) {
+  const auto snapshot = open("name,x,y,z\nsun,0,0,0\nearth,1,0,0\n");
+  EXPECT_EQ(snapshot->info().types[0].fields.size(), 1U);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("name")));
+}
+
+TEST_F(TextTable, ABadRowIsRefusedWithItsLine) {
+  EXPECT_THAT(refusal_of("x,y,z\n1,2,3\n\n4,5\n"), HasSubstr("line 4: found 2 values, expected 3"));
+  EXPECT_THAT(refusal_of("x,y,z\n1,2,3\n4,5,six\n"),
+              HasSubstr("line 3: found 'six', expected a number"));
+  EXPECT_THAT(refusal_of("x y z\n1 2 3\n4 5 6 7\n"),
+              HasSubstr("line 3: found 4 values, expected 3"));
+}
+
+TEST_F(TextTable, WithoutPositionsIsRefused) {
+  EXPECT_THAT(refusal_of("time,energy,mass\n1,2,3\n"),
+              HasSubstr("no positions: its columns are time, energy, mass"));
+}
+
+TEST_F(TextTable, OtherTextIsNotATable) {
+  for (const char* text : {"once upon a time\nthere was a star\n", "x,y,z\n", "snapshot = \"a\"\n",
+                           "1 2\n3 4\n", "x y z\nw\n1 2 3\n"}) {
+    EXPECT_THAT(refusal_of(text), HasSubstr("text, but no table")) << text;
+  }
+}
+
+TEST_F(TextTable, AFolderOfTablesIsNoSnapshot) {
+  open("x,y,z\n1,2,3\n");
+  EXPECT_THAT(refusal(path_.parent_path()), HasSubstr("no snapshot in this folder"));
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cstring>
+
+#include "formats/snapshot_checks.h"
+#include "formats/snapshot_writer.h"
+#include "paths.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class TipsyBytes {
+ public:
+  explicit TipsyBytes(bool is_swapped) : is_swapped_(is_swapped) {}
+  template <typename T>
+  void add(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    if (is_swapped_) std::reverse(bytes, bytes + sizeof(T));
+    bytes_.append(bytes, sizeof(T));
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+  bool is_swapped_;
+};
+
+// Two gas particles of 12 numbers, one dark of 9, two stars of 11; the numbers count up.
+std::string small_tipsy(bool is_swapped, bool is_padded = true) {
+  TipsyBytes out(is_swapped);
+  out.add(0.25);
+  for (const std::int32_t number : {5, 3, 2, 1, 2})
+    out.add(number);
+  if (is_padded) out.add(std::int32_t{0});
+  for (int i = 0; i < 2 * 12 + 9 + 2 * 11; ++i)
+    out.add(static_cast<float>(i));
+  return out.bytes();
+}
+
+class Tipsy : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Endianness, Tipsy, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "Swapped" : "Native"; });
+
+TEST_P(Tipsy, FieldsOfAllTypesAreRead) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "snap", small_tipsy(GetParam()));
+  const auto snapshot = open_snapshot(folder / "snap");
+  EXPECT_EQ(snapshot->info().time, 0.25);
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(0, 12));
+  EXPECT_THAT(values_of(snapshot->read(0, "position")), ElementsAre(1, 2, 3, 13, 14, 15));
+  EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(7, 19));
+  EXPECT_THAT(values_of(snapshot->read(0, "temperature")), ElementsAre(8, 20));
+  EXPECT_THAT(values_of(snapshot->read(0, "potential")), ElementsAre(11, 23));
+  EXPECT_THAT(values_of(snapshot->read(1, "velocity")), ElementsAre(28, 29, 30));
+  EXPECT_THAT(values_of(snapshot->read(4, "position")), ElementsAre(34, 35, 36, 45, 46, 47));
+  EXPECT_THAT(values_of(snapshot->read(4, "tform")), ElementsAre(41, 52));
+}
+
+TEST_P(Tipsy, AHeaderWithoutPaddingIsRead) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "snap", small_tipsy(GetParam(), false));
+  EXPECT_THAT(values_of(open_snapshot(folder / "snap")->read(0, "mass")), ElementsAre(0, 12));
+}
+
+TEST_P(Tipsy, TruncatedAtAnyByteIsRefused) {
+  const TemporaryFolder folder;
+  const std::string whole = small_tipsy(GetParam());
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    // Four bytes less is what a file without padding has.
+    if (size + 4 == whole.size()) continue;
+    write_bytes(folder / "snap", whole.substr(0, size));
+    ASSERT_NE(refusal(folder / "snap"), "") << "cut to " << size << " bytes";
+  }
+}
+
+TEST(TipsyFields, SofteningIsNotTakenForASmoothingLength) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "snap", small_tipsy(false));
+  const auto snapshot = open_snapshot(folder / "snap");
+  EXPECT_FALSE(has_field(*snapshot, 0, "smoothing_length"));
+  EXPECT_TRUE(has_field(*snapshot, 0, "softening"));
+  EXPECT_THAT(snapshot->info().notes, ElementsAre(HasSubstr("softening")));
+}
+
+TEST(RealTipsy, FilesOfPublicCodesAreRead) {
+  const std::filesystem::path data = test::data_folder();
+  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no real snapshots in " << data;
+  const auto tiny = open_snapshot(data / "tipsy/tiny.000640");
+  EXPECT_EQ(tiny->info().format, "Tipsy, big-endian");
+  EXPECT_EQ(tiny->info().find_type(0)->count, 171U);
+  EXPECT_EQ(tiny->info().find_type(1)->count, 3078U);
+  EXPECT_EQ(tiny->info().find_type(4)->count, 49U);
+  EXPECT_EQ(tiny->read(0, "temperature").size(), 171U);
+  EXPECT_EQ(open_snapshot(data / "tipsy/shocktube.std")->info().find_type(0)->count, 20000U);
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,250 @@
+// Fields that follow from others, and the ranges of fields.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "load/derived_fields.h"
+#include "load/particles.h"
+
+namespace splotchcl::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Component colored_by(const std::string& field) {
+  Component component = gas();
+  component.color.field = field;
+  return component;
+}
+
+std::vector<float> field(const std::string& name, const Snapshot& snapshot) {
+  return values(load(colored_by(name), snapshot).particles.color);
+}
+
+// One particle, whose internal energy is said in this unit.
+class GasWithUnit : public MemorySnapshot {
+ public:
+  GasWithUnit(const std::string& format, const std::string& unit) {
+    add(0, "position", {0, 0, 0}, 3);
+    add(0, "smoothing_length", {1});
+    add(0, "mass", {1});
+    add(0, "internal_energy", {1000});
+    changed_ = MemorySnapshot::info();
+    changed_.format = format;
+    changed_.types[0].fields.back().unit = unit;
+    changed_.hubble_parameter = 0.5;
+    changed_.cosmology = Cosmology();
+    changed_.cosmology->scale_factor = 0.25;
+  }
+  const SnapshotInfo& info() const override { return changed_; }
+
+ private:
+  SnapshotInfo changed_;
+};
+
+// (gamma - 1) u m_p / k_B of 1000 (km/s)^2, in kelvin, for a mean molecular weight of 1.
+const double kelvin_of_1000 = 2.0 / 3 * 1e13 * 1.67262192369e-24 / 1.380649e-16;
+// Hydrogen and helium, all ionised: per nucleon X * 2 + (1 - X) / 4 * 3 particles.
+const double ionised_weight = 1 / (0.76 * 2 + 0.24 / 4 * 3);
+
+TEST(Temperature, OfIonisedGasFollowsFromInternalEnergy) {
+  const GasWithUnit snapshot("Gadget format 2", "");
+  EXPECT_NEAR(field("temperature", snapshot)[0] / (kelvin_of_1000 * ionised_weight), 1, 1e-6);
+  EXPECT_THAT(notes_of(colored_by("temperature"), snapshot),
+              Contains(HasSubstr("taken to be in (km/s)^2, Gadget's unit, and all gas to be "
+                                 "ionised")));
+}
+
+TEST(Temperature, FollowsFromElectronsPerHydrogenWhereTheyAreKnown) {
+  NumberedSnapshot snapshot = gas_row(2);
+  snapshot.add(0, "electron_abundance", {0, 1.157895f});  // neutral, and fully ionised
+  const Column energy = snapshot.read(0, "internal_energy");
+  const Column kelvin = temperatures(energy, snapshot.read(0, "electron_abundance"), 1e10, 2);
+  const double neutral_weight = 1 / (0.76 + 0.24 / 4);
+  EXPECT_NEAR(kelvin[0] / (kelvin_of_1000 / 1000 * neutral_weight), 1, 1e-6);
+  EXPECT_NEAR(kelvin[1] / (kelvin_of_1000 / 100 * ionised_weight), 1, 1e-6);
+}
+
+TEST(Temperature, TakesTheUnitThatTheFileSays) {
+  const auto kelvin = [](const std::string& unit) {
+    return static_cast<double>(field("temperature", GasWithUnit("SWIFT HDF5", unit))[0]) /
+           (kelvin_of_1000 * ionised_weight);
+  };
+  EXPECT_NEAR(kelvin("(km/s)^2"), 1, 1e-6);
+  EXPECT_NEAR(kelvin("(cm/s)^2"), 1e-10, 1e-16);
+  EXPECT_NEAR(kelvin("(3e+06 cm/s)^2"), 900, 1e-3);
+  EXPECT_NEAR(kelvin("(km/s)^2 a^-2"), 16, 1e-5);
+  EXPECT_NEAR(kelvin("(km/s)^2 h a"), 0.125, 1e-6);
+}
+
+TEST(Temperature, IsRefusedWhereTheUnitIsNotKnown) {
+  EXPECT_THAT(refusal(colored_by("temperature"), GasWithUnit("Tipsy", "")),
+              HasSubstr("needs the unit of internal_energy, but memory has none"));
+  EXPECT_THAT(refusal(colored_by("temperature"), GasWithUnit("SWIFT HDF5", "erg")),
+              HasSubstr("has \"erg\""));
+}
+
+TEST(Temperature, OfTheFileGoesFirst) {
+  NumberedSnapshot snapshot = gas_row(2);
+  snapshot.add(0, "temperature", {7, 8});
+  EXPECT_THAT(field("temperature", snapshot), ElementsAre(7, 8));
+  EXPECT_THAT(notes_of(colored_by("temperature"), snapshot), IsEmpty());
+}
+
+TEST(DerivedFields, AreSpeedRadiusAndTheAxesOfVectors) {
+  NumberedSnapshot snapshot = gas_row(3);
+  snapshot.set_origin({{100, 0, 3}});
+  EXPECT_THAT(field("speed", snapshot), ElementsAre(0, 2, 4));
+  EXPECT_THAT(field("velocity_y", snapshot), ElementsAre(0, 2, 4));
+  EXPECT_THAT(field("velocity_x", snapshot), ElementsAre(0, 0, 0));
+  EXPECT_THAT(field("position_x", snapshot), ElementsAre(100, 101, 102));
+  EXPECT_THAT(field("position_z", snapshot), ElementsAre(3, 3, 3));
+  Component component = colored_by("radius");
+  component.center = {{101, 0, 0}};
+  const std::vector<float> radii = values(load(component, snapshot).particles.color);
+  EXPECT_THAT(radii, ElementsAre(std::sqrt(10.0f), 3, std::sqrt(10.0f)));
+}
+
+TEST(DerivedFields, MayBeTheSizeTheIntensityAndTheOrder) {
+  Scene scene = scene_of({gas()});
+  scene.components[0].size_field = "speed";
+  scene.components[0].intensity.field = "position_x";
+  scene.sort.by = SortOrder::By::field;
+  scene.sort.field = "radius";
+  const Particles particles = load(scene, gas_row(3)).components[0].particles;
+  EXPECT_THAT(values(particles.smoothing_length), ElementsAre(0, 2, 4));
+  EXPECT_THAT(values(particles.intensity), ElementsAre(0, 1, 2));
+  EXPECT_THAT(values(particles.sort_field), ElementsAre(0, 1, 2));
+}
+
+TEST(DerivedFields, AreMadeOnceForAllFrames) {
+  const NumberedSnapshot snapshot = gas_row();
+  const Particles first = load(colored_by("velocity_y"), snapshot).particles;
+  EXPECT_EQ(load(colored_by("velocity_y"), snapshot).particles.color.data(), first.color.data());
+}
+
+TEST(DerivedFields, AreListedForATypeUnlessTheFileHasThem) {
+  NumberedSnapshot snapshot = gas_row();
+  EXPECT_THAT(derivable_fields(snapshot.info().types[0]),
+              ElementsAre("density", "temperature", "speed", "radius", "position_x", "position_y",
+                          "position_z", "velocity_x", "velocity_y", "velocity_z"));
+  snapshot.add(0, "temperature", std::vector<float>(6, 1));
+  EXPECT_THAT(derivable_fields(snapshot.info().types[0]), Not(Contains("temperature")));
+}
+
+TEST(DerivedFields, AreForgottenWhenFramesNoLongerUseThem) {
+  const NumberedSnapshot snapshot = gas_row();
+  load(colored_by("velocity_y"), snapshot);
+  const auto velocity_reads = [&snapshot] {
+    const auto& reads = snapshot.fields_read();
+    return std::count(reads.begin(), reads.end(), "velocity");
+  };
+  for (int frame = 0; frame < 5; ++frame)
+    load(gas(), snapshot);
+  EXPECT_EQ(velocity_reads(), 1);
+  load(colored_by("velocity_y"), snapshot);
+  EXPECT_EQ(velocity_reads(), 2);
+}
+
+TEST(DerivedFields, TellWhatTheyRestOnInEveryFrame) {
+  const GasWithUnit snapshot("Gadget format 2", "");
+  const std::vector<std::string> first = notes_of(colored_by("temperature"), snapshot);
+  EXPECT_EQ(first.size(), 2u) << "the temperature, and that it is the same for all";
+  EXPECT_EQ(notes_of(colored_by("temperature"), snapshot), first);
+}
+
+ScalarMap range(std::optional<std::array<double, 2>> percentiles, Scaling scaling) {
+  MemorySnapshot many;
+  std::vector<float> position(3 * 1001, 0.0f), h(1001, 1.0f), energy;
+  for (int i = 0; i <= 1000; ++i)
+    energy.push_back(static_cast<float>(i));
+  many.add(0, "position", position, 3);
+  many.add(0, "smoothing_length", h);
+  many.add(0, "internal_energy", energy);
+  Component component = colored_by("internal_energy");
+  component.color.scaling = scaling;
+  component.color.percentiles = percentiles;
+  return load(component, many).color;
+}
+
+TEST(Percentiles, AreThoseThatTheSceneGives) {
+  const ScalarMap quarter = range({{25, 90}}, Scaling::linear);
+  EXPECT_NEAR(quarter.minimum, 250, 1e-9);
+  EXPECT_NEAR(quarter.maximum, 900, 1e-9);
+  const ScalarMap all = range({{0, 100}}, Scaling::linear);
+  EXPECT_EQ(all.minimum, 0);
+  EXPECT_EQ(all.maximum, 1000);
+  const ScalarMap usual = range(std::nullopt, Scaling::linear);
+  EXPECT_NEAR(usual.minimum, 5, 1e-9);
+  EXPECT_NEAR(usual.maximum, 995, 1e-9);
+}
+
+TEST(Percentiles, CountOnlyValuesThatTheScalingHas) {
+  EXPECT_EQ(range({{0, 100}}, Scaling::log).minimum, 0) << "of 1, not of 0";
+}
+
+TEST(Percentiles, OfTheWholeRangeSeeEveryValueOfManyMillions) {
+  std::vector<float> values(5000001, 1.0f);
+  values[3000001] = 7;  // between those that are sampled
+  values[2000003] = -7;
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", std::vector<float>(3 * values.size(), 0.0f), 3);
+  snapshot.add(0, "smoothing_length", std::vector<float>(values.size(), 1.0f));
+  snapshot.add(0, "density", values);
+  Component component = colored_by("density");
+  component.color.percentiles = {0, 100};
+  const ScalarMap map = load(component, snapshot).color;
+  EXPECT_EQ(map.minimum, -7);
+  EXPECT_EQ(map.maximum, 7);
+}
+
+TEST(ColorVector, IsReadAsItIs) {
+  Component component = gas();
+  component.color_vector = "velocity";
+  const DrawnComponent drawn = load(component, gas_row(2));
+  EXPECT_THAT(values(drawn.particles.color_vector), ElementsAre(0, 0, 0, 0, 2, 0));
+  EXPECT_TRUE(drawn.particles.color.is_absent());
+  EXPECT_FALSE(drawn.palette.has_own_absorption());
+}
+
+TEST(ColorVector, RefusesFieldsThatAreNoVectors) {
+  Component component = gas();
+  component.color_vector = "mass";
+  EXPECT_THAT(refusal(component, gas_row()),
+              HasSubstr("color.vector is \"mass\", which has 1 value per particle"));
+  component.color_vector = "Colour";
+  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("color.vector is \"Colour\", which"));
+}
+
+TEST(AbsorptionPalette, GivesTheComponentAnAbsorptionOfItsOwn) {
+  Component component = colored_by("mass");
+  component.palette = "magma";
+  component.absorption_palette = "gray";
+  const Palette palette = load(component, gas_row()).palette;
+  EXPECT_EQ(palette.absorption.front(), (Rgb{0, 0, 0}));
+  EXPECT_EQ(palette.absorption.back(), (Rgb{1, 1, 1}));
+  EXPECT_NE(palette.emission, palette.absorption);
+}
+
+TEST(AbsorptionPalette, ThatIsThePaletteKeepsEProportionalToA) {
+  Component component = colored_by("mass");
+  component.absorption_palette = component.palette;
+  EXPECT_FALSE(load(component, gas_row()).palette.has_own_absorption());
+}
+
+TEST(AbsorptionPalette, MustExist) {
+  Component component = gas();
+  component.absorption_palette = "grya";
+  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("did you mean gray?"));
+}
+
+}  // namespace
+}  // namespace splotchcl::test

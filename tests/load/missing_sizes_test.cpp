@@ -1,0 +1,117 @@
+#include <cmath>
+#include <random>
+
+#include "formats/snapshot_checks.h"
+#include "smoothing/smoothing_lengths.h"
+#include "snapshot/memory_snapshot.h"
+#include "splotchcl/load.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Positions of dark matter in a file, without smoothing lengths.
+class MissingSizes : public ::testing::Test {
+ protected:
+  void write(unsigned seed) const {
+    TestSnapshot written;
+    written.counts = {0, 500, 0, 0, 0, 0};
+    add_block(written, "POS", 2U, 3);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (double& x : written.block("POS").values[1])
+      x = uniform(random);
+    write_gadget(path_, written, 2);
+  }
+  std::vector<float> lengths(const std::vector<std::string>& settings = {}) {
+    Scene scene = parse_scene(
+        "[camera]\nposition = [0, 0, -9]\nlook_at = [0, 0, 0]\n[[component]]\ntypes = [1]\n",
+        "scene");
+    scene = apply_settings(scene, settings);
+    notes_.clear();
+    const Frame frame = load_frame(scene, *open_snapshot_for(path_, scene.read), notes_);
+    return values_of(frame.components[0].particles.smoothing_length);
+  }
+  std::vector<std::string> notes_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "snap";
+  const std::string keep_ = "read.cache_smoothing_lengths=true";
+};
+
+TEST_F(MissingSizes, ReachAsManyNeighborsAsTheSceneSays) {
+  write(1);
+  const std::vector<float> usual = lengths(), few = lengths({"read.neighbours=8"});
+  EXPECT_EQ(lengths({"read.neighbours=64"}), usual);
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(values_of(find_smoothing_lengths(snapshot->read(1, "position"), 500, 100, 8)), few);
+}
+
+TEST_F(MissingSizes, AreKeptOnlyWhenAsked) {
+  write(1);
+  lengths();
+  EXPECT_EQ(folder_.count_files(), 1U);
+  const std::vector<float> found = lengths({keep_});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "snap.type1.smoothing_lengths"));
+  EXPECT_EQ(lengths({keep_}), found);
+  EXPECT_THAT(notes_, Contains(HasSubstr("are those kept in")));
+}
+
+TEST_F(MissingSizes, AreFoundAnewForOtherPositionsOrNeighbors) {
+  write(1);
+  const std::vector<float> first = lengths({keep_});
+  EXPECT_NE(lengths({keep_, "read.neighbours=8"}), first);
+  EXPECT_THAT(notes_, Not(Contains(HasSubstr("are those kept in"))));
+  lengths({keep_});
+  write(2);
+  EXPECT_NE(lengths({keep_}), first);
+  EXPECT_THAT(notes_, Not(Contains(HasSubstr("are those kept in"))));
+}
+
+TEST_F(MissingSizes, ThatWereDamagedAreFoundAnew) {
+  write(1);
+  const std::vector<float> found = lengths({keep_});
+  const auto kept = folder_ / "snap.type1.smoothing_lengths";
+  for (const std::uintmax_t size : {0U, 10U, 100U}) {
+    std::filesystem::resize_file(kept, size);
+    EXPECT_EQ(lengths({keep_}), found);
+  }
+}
+
+TEST_F(MissingSizes, OfAPartOfTheParticlesAreNotKept) {
+  write(1);
+  lengths({keep_, "read.every=2"});
+  EXPECT_EQ(folder_.count_files(), 1U);
+  EXPECT_THAT(notes_, Contains(HasSubstr("are not kept")));
+}
+
+TEST_F(MissingSizes, KeptBesideTheSnapshotAreNoSnapshotThemselves) {
+  write(1);
+  lengths({keep_});
+  EXPECT_EQ(open_snapshot(folder_.path())->info().files.front(), path_);
+}
+
+TEST(CellSizes, FollowFromTheirVolumes) {
+  test::MemorySnapshot snapshot;
+  snapshot.add(0, "position", {0, 0, 0, 1, 1, 1}, 3);
+  snapshot.add(0, "volume", {1, 8});
+  const Scene scene = parse_scene(
+      "[camera]\nposition = [0, 0, -9]\nlook_at = [0, 0, 0]\n[[component]]\nname = 'gas'\n",
+      "scene");
+  std::vector<std::string> notes;
+  const Frame frame = load_frame(scene, snapshot, notes);
+  const Column& h = frame.components[0].particles.smoothing_length;
+  // The sphere of 64 cells.
+  const double expected = std::cbrt(3 * 64 / (4 * 3.14159265358979));
+  EXPECT_NEAR(h[0], expected, 1e-6);
+  EXPECT_NEAR(h[1], 2 * expected, 1e-6);
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,130 @@
+#include "load/periodic_wrap.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "snapshot/memory_snapshot.h"
+#include "splotchcl/error.h"
+#include "splotchcl/load.h"
+#include "splotchcl/reference.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl::test {
+namespace {
+
+double squared_distance(const std::array<double, 3>& a, const Vec3& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    sum += (a[i] - b.a[i]) * (a[i] - b.a[i]);
+  return sum;
+}
+
+// The nearest of the 125 images around.
+std::array<double, 3> nearest_image(const std::array<double, 3>& x, const Vec3& center,
+                                    double box) {
+  std::array<double, 3> nearest = x;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 125; ++i) {
+    const std::array<double, 3> image = {x[0] + box * (i % 5 - 2), x[1] + box * (i / 5 % 5 - 2),
+                                         x[2] + box * (i / 25 - 2)};
+    const double distance = squared_distance(image, center);
+    if (distance < least) {
+      least = distance;
+      nearest = image;
+    }
+  }
+  return nearest;
+}
+
+TEST(PeriodicWrap, FindsTheNearestOfAllImages) {
+  constexpr double box = 50;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(0, 50);
+  std::vector<float> position(3 * 5000);
+  for (float& x : position)
+    x = anywhere(random);
+  const Vec3 origin = {{3, -4, 0.5}};
+  for (const Vec3& center : {Vec3{{0, 0, 0}}, Vec3{{49.5, 20, 30.25}}, Vec3{{-20, 70, 25}}}) {
+    Particles particles;
+    particles.count = 5000;
+    particles.origin = origin;
+    particles.position = Column::owning(position);
+    wrap_around(center, box, particles);
+    for (std::size_t i = 0; i < 5000; ++i) {
+      std::array<double, 3> before, after;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        before[axis] = origin.a[axis] + static_cast<double>(position[3 * i + axis]);
+        after[axis] =
+            particles.origin.a[axis] + static_cast<double>(particles.position[3 * i + axis]);
+      }
+      const std::array<double, 3> expected = nearest_image(before, center, box);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        ASSERT_NEAR(after[axis], expected[axis], 4e-6) << i;
+    }
+  }
+}
+
+TEST(PeriodicWrap, LeavesWhatIsNoNumber) {
+  Particles particles;
+  particles.count = 1;
+  particles.position = Column::owning({std::numeric_limits<float>::quiet_NaN(), 1, 49});
+  wrap_around({{0, 0, 0}}, 50, particles);
+  EXPECT_TRUE(std::isnan(particles.position[0]));
+  EXPECT_EQ(particles.position[1], 1.0F);
+  EXPECT_EQ(particles.position[2], -1.0F);
+}
+
+// Two clouds on either side of the box's face, seen from close to it.
+class WrappedFrame : public ::testing::Test {
+ protected:
+  WrappedFrame() {
+    snapshot.add(0, "position", {1, 5, 5, 99, 5, 5}, 3);
+    snapshot.add(0, "mass", {1, 1});
+    snapshot.add(0, "smoothing_length", {1, 1});
+    snapshot.set_box_size(100);
+    scene.image.width = 40;
+    scene.image.height = 40;
+    scene.camera.emplace();
+    scene.camera->position = {{0, 5, -20}};
+    scene.camera->look_at = {{0, 5, 5}};
+    scene.camera->field_of_view_degrees = 30;
+    scene.components.emplace_back();
+    scene.components[0].reference_column = 0.1;
+  }
+  std::size_t clouds_in_view() {
+    std::vector<std::string> notes;
+    const Frame frame = load_frame(scene, snapshot, notes);
+    std::size_t count = 0;
+    for (const reference::Splat& splat : reference::project(frame))
+      count += splat.x > 0 && splat.x < 40 ? 1U : 0U;
+    return count;
+  }
+  MemorySnapshot snapshot;
+  Scene scene;
+};
+
+TEST_F(WrappedFrame, ShowsBothSidesOfTheBoxesFace) {
+  EXPECT_EQ(clouds_in_view(), 1U);
+  scene.periodic.wrap = true;
+  EXPECT_EQ(clouds_in_view(), 2U);
+}
+
+TEST_F(WrappedFrame, TakesTheBoxThatTheSceneSays) {
+  scene.periodic.wrap = true;
+  scene.periodic.box = 1000;
+  EXPECT_EQ(clouds_in_view(), 1U);
+}
+
+TEST(PeriodicBox, ThatNobodySaysIsRefused) {
+  MemorySnapshot snapshot;
+  EXPECT_THROW(periodic_box({true, {}}, snapshot.info()), UsageError);
+  EXPECT_EQ(periodic_box({true, 7}, snapshot.info()), 7);
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,213 @@
+// The scene that is drawn when only a snapshot is given.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "paths.h"
+#include "snapshot/memory_snapshot.h"
+#include "splotchcl/error.h"
+#include "splotchcl/load.h"
+#include "splotchcl/reference.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+namespace {
+
+using test::MemorySnapshot;
+
+std::vector<float> ball(int count, double center, double radius) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(center, radius);
+  std::vector<float> position;
+  for (int i = 0; i < 3 * count; ++i)
+    position.push_back(static_cast<float>(normal(random)));
+  return position;
+}
+
+std::vector<float> cube(int count, double side) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(0, side);
+  std::vector<float> position;
+  for (int i = 0; i < 3 * count; ++i)
+    position.push_back(static_cast<float>(place(random)));
+  return position;
+}
+
+std::vector<float> powers_of_ten(int count, double last) {
+  std::vector<float> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(static_cast<float>(std::pow(10, last * i / count)));
+  }
+  return values;
+}
+
+double distance(const Camera& camera) {
+  return boost::qvm::mag(camera.look_at - camera.position);
+}
+
+// Half the width of what the camera sees at its look-at point.
+double half_width(const Camera& camera) {
+  return distance(camera) * std::tan(field_of_view_degrees(camera) * 3.14159265358979 / 360);
+}
+
+TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  snapshot.add(4, "position", ball(100, 0, 1), 3);
+  const Scene scene = suggest_scene(snapshot);
+  ASSERT_EQ(scene.components.size(), 2u);
+  EXPECT_EQ(scene.components[0].types, (std::vector<int>{0}));
+  EXPECT_EQ(scene.components[1].types, (std::vector<int>{4}));
+}
+
+TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
+  MemorySnapshot snapshot;
+  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  snapshot.add(2, "position", ball(100, 0, 1), 3);
+  const Scene scene = suggest_scene(snapshot);
+  ASSERT_EQ(scene.components.size(), 2u);
+  EXPECT_EQ(scene.components[0].name, "halo");
+  EXPECT_EQ(scene.components[1].name, "disk");
+  EXPECT_NE(scene.components[0].palette, scene.components[1].palette);
+  EXPECT_LT(scene.components[0].brightness, scene.components[1].brightness);
+}
+
+TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  snapshot.add(0, "density", powers_of_ten(100, 3));
+  snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
+  const Component gas = suggest_scene(snapshot).components[0];
+  EXPECT_EQ(gas.color.field, "internal_energy");
+  EXPECT_EQ(gas.color.scaling, Scaling::log);
+  EXPECT_NEAR(std::log10(*gas.color.maximum), 3.94, 0.02);
+}
+
+TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatIsTheSameEverywhere) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  snapshot.add(0, "density", powers_of_ten(100, 3));
+  snapshot.add(0, "internal_energy", std::vector<float>(100, 0.05f));
+  EXPECT_EQ(suggest_scene(snapshot).components[0].color.field, "density");
+}
+
+TEST(SuggestScene, WeighsByMassOnlyWhereMassesAreKnown) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  EXPECT_EQ(suggest_scene(snapshot).components[0].weight, WeightModel::constant);
+  snapshot.set_table_mass(0, 3);
+  EXPECT_EQ(suggest_scene(snapshot).components[0].weight, WeightModel::mass);
+}
+
+TEST(SuggestCamera, LooksAtTheMiddleOfAPeriodicBox) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", cube(5000, 100), 3);
+  snapshot.set_box_size(100);
+  const Camera camera = *suggest_scene(snapshot).camera;
+  for (const double x : camera.look_at.a)
+    EXPECT_EQ(x, 50);
+  EXPECT_NEAR(half_width(camera), 50, 10);
+  EXPECT_GT(camera.position.a[2], 50);  // from above
+}
+
+TEST(SuggestCamera, TakesAFilledCubeForABoxWhereTheHeaderHasNone) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", cube(5000, 100), 3);
+  const Camera camera = *suggest_scene(snapshot).camera;
+  for (const double x : camera.look_at.a)
+    EXPECT_NEAR(x, 50, 0.5);
+  EXPECT_NEAR(half_width(camera), 50, 10);
+}
+
+TEST(SuggestCamera, FindsAnObjectInALargeBox) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(5000, 700, 2), 3);
+  snapshot.set_box_size(1000);
+  const Camera camera = *suggest_scene(snapshot).camera;
+  for (const double x : camera.look_at.a)
+    EXPECT_NEAR(x, 700, 1);
+  EXPECT_GT(half_width(camera), 2);
+  EXPECT_LT(half_width(camera), 10);
+}
+
+TEST(SuggestCamera, IsNotMovedByOutliersOrBadPositions) {
+  MemorySnapshot snapshot;
+  std::vector<float> position = ball(5000, 0, 2);
+  for (int i = 0; i < 60; ++i)
+    position[static_cast<std::size_t>(i)] = 1e6f;
+  position[100] = std::nanf("");
+  snapshot.add(0, "position", position, 3);
+  const Camera camera = *suggest_scene(snapshot).camera;
+  EXPECT_LT(half_width(camera), 10);
+  for (const double x : camera.look_at.a)
+    EXPECT_NEAR(x, 0, 1);
+}
+
+TEST(SuggestCamera, FramesTheDiskRatherThanItsHalo) {
+  MemorySnapshot snapshot;
+  snapshot.add(1, "position", ball(1000, 0, 100), 3);
+  snapshot.add(2, "position", ball(1000, 0, 5), 3);
+  EXPECT_LT(half_width(*suggest_scene(snapshot).camera), 20);
+}
+
+TEST(SuggestCamera, SeesASingleParticle) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", {5, 5, 5}, 3);
+  EXPECT_NO_THROW(make_camera_frame(*suggest_scene(snapshot).camera, 64, 64));
+}
+
+TEST(SuggestCamera, RefusesDataWithoutAFinitePosition) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", {std::nanf(""), 0, 0}, 3);
+  EXPECT_THROW(suggest_scene(snapshot), DataError);
+}
+
+// The brightest channel of every pixel, in increasing order.
+std::vector<float> brightness(const Image& image) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    values.push_back(std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]}));
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+class SuggestedPicture : public testing::TestWithParam<const char*> {};
+
+TEST_P(SuggestedPicture, IsNeitherBlackNorBurntOut) {
+  const auto path = test::data_folder() / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const auto snapshot = open_snapshot(path);
+  Scene scene = suggest_scene(*snapshot);
+  scene.image.width = scene.image.height = 48;
+  std::vector<std::string> notes;
+  const std::vector<float> pixels =
+      brightness(reference::render(load_frame(scene, *snapshot, notes)).to_float());
+  // Something is bright, half the picture is not, and hardly anything is white.
+  EXPECT_GT(pixels[pixels.size() * 99 / 100], 0.3f);
+  EXPECT_LT(pixels[pixels.size() / 2], 0.6f);
+  EXPECT_LT(pixels[pixels.size() * 90 / 100], 0.9f);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RealData, SuggestedPicture,
+    testing::Values("lcdm/fmt2_snapshot_002", "lcdm/fmt2_snapshot_006",
+                    "gassphere/fmt2_snapshot_000", "gassphere/fmt1_snapshot_004",
+                    "gassphere/fmt3_snapshot_008.hdf5", "gadget2_ics/gassphere_bigendian.dat",
+                    "gadget2_ics/galaxy_littleendian.dat", "gadget2_ics/lcdm_gas_littleendian.dat",
+                    "galaxy_collision/snapshot_000.hdf5", "galaxy_collision/snapshot_005.hdf5",
+                    "galaxy_collision/snapshot_010.hdf5"),
+    [](const auto& info) {
+      std::string name = info.param;
+      for (char& c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+      }
+      return name;
+    });
+
+}  // namespace
+}  // namespace splotchcl

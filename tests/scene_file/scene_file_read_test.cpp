@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "scene_file/scene_file_equality.h"
+#include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+using test::expect_same;
+using test::same;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+Scene parse(const std::string& text) {
+  return parse_scene(text, "scene.toml");
+}
+
+Component parse_component(const std::string& lines) {
+  return parse("[[component]]\n" + lines).components.at(0);
+}
+
+TEST(SceneFile, OfNothingIsTheDefaultScene) {
+  expect_same(parse(""), Scene());
+  expect_same(parse("# only a comment\n"), Scene());
+}
+
+TEST(SceneFile, TakesEveryKey) {
+  const Scene scene = parse(R"(
+snapshot = "snap_006"
+tolerance = 0.01
+[image]
+size = [640, 480]
+background = [0.1, 0.2, 0.3]
+gamma = 2.2
+[camera]
+position = [1, 2, 3]
+look_at = [4.5, 5, 6]
+sky = [0, 0, 1]
+field_of_view = 30
+projection = "orthographic"
+near = -1
+far = 100
+[kernel]
+width = 0.4
+cut = 1.815
+sampling = "center"
+min_radius = 1
+[sort]
+by = "temperature"
+order = "descending"
+[[component]]
+name = "gas"
+types = ["gas", 4]
+size = { field = "HSML", factor = 2 }
+color = { field = "U", scaling = "log", min = 10, max = 1e6 }
+intensity = { field = "RHO", scaling = "asinh", min = -1, max = 2 }
+weight = "density"
+reference_column = 3e-5
+palette = "magma"
+brightness = 5
+absorption = 0.5
+)");
+  Scene expected;
+  expected.snapshot = "snap_006";
+  expected.tolerance = 0.01;
+  expected.image.width = 640;
+  expected.image.height = 480;
+  expected.image.background = {0.1, 0.2, 0.3};
+  expected.image.gamma = 2.2;
+  expected.camera =
+      Camera{{{1, 2, 3}}, {{4.5, 5, 6}}, {{0, 0, 1}}, 30, Projection::orthographic, -1, 100};
+  expected.kernel = {0.4, 1.815, Sampling::center, 1};
+  expected.sort = {SortOrder::By::field, "temperature", true};
+  Component gas;
+  gas.name = "gas";
+  gas.types = {0, 4};
+  gas.size_field = "HSML";
+  gas.size_factor = 2;
+  gas.color = {"U", Scaling::log, 10, 1e6};
+  gas.intensity = {"RHO", Scaling::asinh, -1, 2};
+  gas.weight = WeightModel::density;
+  gas.reference_column = 3e-5;
+  gas.palette = "magma";
+  gas.brightness = 5;
+  gas.absorption = {Absorption::Kind::factor, 0.5};
+  expected.components = {gas};
+  expect_same(scene, expected);
+}
+
+TEST(SceneFile, TakesInnerTablesInEveryWayThatTomlHas) {
+  const std::string inline_table = "color = { field = \"U\", scaling = \"log\" }\n";
+  const std::string dotted = "color.field = \"U\"\ncolor.scaling = \"log\"\n";
+  const std::string header = "[component.color]\nfield = \"U\"\nscaling = \"log\"\n";
+  expect_same(parse_component(inline_table), parse_component(dotted));
+  expect_same(parse_component(inline_table), parse_component(header));
+}
+
+TEST(SceneFile, TakesOneSideOfThePictureAlone) {
+  const Scene scene = parse("[image]\nheight = 300\n");
+  EXPECT_EQ(scene.image.width, ImageSettings().width);
+  EXPECT_EQ(scene.image.height, 300);
+}
+
+TEST(SceneFile, TakesAParticleTypeByNumberOrNameAloneOrInAnArray) {
+  EXPECT_THAT(parse_component("types = 4").types, ElementsAre(4));
+  EXPECT_THAT(parse_component("types = \"stars\"").types, ElementsAre(4));
+  EXPECT_THAT(parse_component("types = [1, \"boundary\"]").types, ElementsAre(1, 5));
+  EXPECT_THAT(parse_component("types = 6").types, ElementsAre(6));
+}
+
+TEST(SceneFile, KnowsFourKindsOfAbsorption) {
+  using Kind = Absorption::Kind;
+  const auto kind = [](const std::string& line) { return parse_component(line).absorption.kind; };
+  EXPECT_EQ(kind(""), Kind::as_emission);
+  EXPECT_EQ(kind("absorption = \"emission\""), Kind::as_emission);
+  EXPECT_EQ(kind("absorption = \"none\""), Kind::none);
+  EXPECT_EQ(kind("absorption = 2"), Kind::factor);
+  EXPECT_EQ(kind("gray_absorption = 0.2"), Kind::gray);
+  EXPECT_EQ(parse_component("absorption = 2").absorption.factor, 2);
+  EXPECT_EQ(parse_component("gray_absorption = 0.2").absorption.factor, 0.2);
+}
+
+TEST(SceneFile, TakesAbsorptionZeroForNone) {
+  EXPECT_EQ(parse_component("absorption = 0").absorption.kind, Absorption::Kind::none);
+  EXPECT_EQ(parse_component("absorption = 0.0").absorption.kind, Absorption::Kind::none);
+}
+
+TEST(SceneFile, HasNoCameraWithoutACameraTable) {
+  EXPECT_FALSE(parse("[image]\nsize = [9, 9]\n").camera);
+}
+
+TEST(SceneFile, KeepsItsComponentsInOrder) {
+  const Scene scene = parse("[[component]]\nname = \"b\"\n[[component]]\nname = \"a\"\n");
+  ASSERT_EQ(scene.components.size(), 2u);
+  EXPECT_EQ(scene.components[0].name, "b");
+  EXPECT_EQ(scene.components[1].name, "a");
+}
+
+class SceneFileOnDisk : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / "splotchcl_scene_file_test";
+    fs::create_directories(folder_ / "deep");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path write(const std::string& text) const {
+    const fs::path path = folder_ / "deep" / "scene.toml";
+    std::ofstream(path) << text;
+    return path;
+  }
+  fs::path folder_;
+};
+
+TEST_F(SceneFileOnDisk, FindsASnapshotRelativeToItself) {
+  const Scene scene = read_scene_file(write("snapshot = \"../snap_006\""));
+  EXPECT_TRUE(fs::equivalent(fs::path(scene.snapshot).parent_path(), folder_));
+  EXPECT_EQ(fs::path(scene.snapshot).filename(), "snap_006");
+}
+
+TEST_F(SceneFileOnDisk, KeepsAnAbsoluteSnapshot) {
+  EXPECT_EQ(read_scene_file(write("snapshot = \"/data/snap_006\"")).snapshot, "/data/snap_006");
+}
+
+TEST_F(SceneFileOnDisk, FindsAPaletteFileRelativeToItself) {
+  const fs::path path = write("snapshot = \"s\"\n[[component]]\npalette = \"my.pal\"");
+  std::ofstream(folder_ / "deep" / "my.pal") << "0.5 0.5 0.5\n";
+  const Scene scene = read_scene_file(path);
+  EXPECT_EQ(load_palette(scene.components[0].palette).emission.size(), 1u);
+}
+
+TEST_F(SceneFileOnDisk, LeavesPaletteNamesAlone) {
+  const fs::path path = write("snapshot = \"s\"\n[[component]]\npalette = \"magma\"");
+  EXPECT_EQ(read_scene_file(path).components[0].palette, "magma");
+}
+
+TEST_F(SceneFileOnDisk, TakesPathsOfSettingsAsTheyAre) {
+  const fs::path path = write("snapshot = \"s\"\n[[component]]\n");
+  const Scene scene = read_scene_file(path, {"snapshot=other/snap", "component.0.palette=./p.pal"});
+  EXPECT_EQ(scene.snapshot, "other/snap");
+  EXPECT_EQ(scene.components[0].palette, "./p.pal");
+}
+
+TEST_F(SceneFileOnDisk, NeedsASnapshot) {
+  const fs::path path = write("tolerance = 0.1");
+  try {
+    read_scene_file(path);
+    FAIL() << "nothing was refused";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("key snapshot: found nothing"));
+    EXPECT_THAT(error.what(), HasSubstr(path.string()));
+  }
+}
+
+TEST_F(SceneFileOnDisk, MayLeaveTheSnapshotToASetting) {
+  EXPECT_EQ(read_scene_file(write("tolerance = 0.1"), {"snapshot=s"}).snapshot, "s");
+}
+
+TEST_F(SceneFileOnDisk, ThatIsMissingIsADataErrorThatNamesIt) {
+  const fs::path path = folder_ / "no_such.toml";
+  try {
+    read_scene_file(path);
+    FAIL() << "nothing was refused";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(path.string()));
+  }
+}
+
+TEST_F(SceneFileOnDisk, ThatIsAFolderIsADataError) {
+  EXPECT_THROW(read_scene_file(folder_), DataError);
+}
+
+}  // namespace
+}  // namespace splotchcl

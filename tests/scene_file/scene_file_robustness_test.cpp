@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+#include <string>
+
+#include "scene_file/scene_file_random.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+// Whatever the text, it is a scene or it is refused in one line; any other exception,
+// and any crash, fails the test.
+void expect_scene_or_message(const std::string& text) {
+  try {
+    parse_scene(text, "scene.toml");
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_EQ(message.rfind("scene.toml", 0), 0u) << message;
+  }
+}
+
+class DamagedSceneFiles : public ::testing::Test {
+ protected:
+  std::size_t below(std::size_t size) {
+    return std::uniform_int_distribution<std::size_t>(0, size - 1)(random_);
+  }
+  char letter() {
+    // The last of these are no UTF-8.
+    static constexpr char letters[] = "=[]{}\"'.,#\n\r\t -+_0123456789eEnaif\\u\0\x80\xc3\xff";
+    return letters[below(sizeof(letters) - 1)];
+  }
+  std::mt19937 random_{1};
+};
+
+TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenTruncated) {
+  test::RandomScenes scenes(3);
+  for (int i = 0; i < 20; ++i) {
+    const std::string text = format_scene(scenes.next());
+    for (std::size_t size = 0; size < text.size(); size += 7) {
+      expect_scene_or_message(text.substr(0, size));
+    }
+  }
+}
+
+TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenLettersChange) {
+  test::RandomScenes scenes(4);
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = format_scene(scenes.next());
+    const std::size_t changes = 1 + below(4);
+    for (std::size_t change = 0; change < changes; ++change)
+      text[below(text.size())] = letter();
+    expect_scene_or_message(text);
+  }
+}
+
+TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenPartsMove) {
+  test::RandomScenes scenes(5);
+  for (int i = 0; i < 1000; ++i) {
+    std::string text = format_scene(scenes.next());
+    const std::string part = text.substr(below(text.size()), below(60));
+    text.insert(below(text.size()), part);
+    expect_scene_or_message(text);
+  }
+}
+
+TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenTheyAreNoise) {
+  for (int i = 0; i < 2000; ++i) {
+    std::string text;
+    const std::size_t size = below(60);
+    for (std::size_t k = 0; k < size; ++k)
+      text += letter();
+    expect_scene_or_message(text);
+  }
+}
+
+TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenSettingsAreNoise) {
+  const Scene scene = test::RandomScenes(6).next();
+  for (int i = 0; i < 2000; ++i) {
+    std::string setting = "component.0.";
+    const std::size_t size = below(20);
+    for (std::size_t k = 0; k < size; ++k)
+      setting += letter();
+    EXPECT_THROW(apply_settings(scene, {setting}), UsageError) << setting;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,201 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scene_file/scene_file_equality.h"
+#include "scene_file/scene_file_messages.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl {
+namespace {
+
+using test::expect_same;
+using test::message_for;
+using test::same;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string text = R"(
+snapshot = "snap"
+[image]
+size = [100, 50]
+[camera]
+position = [0, 0, -10]
+look_at = [0, 0, 0]
+[[component]]
+name = "gas"
+palette = "gas"
+[[component]]
+types = 4
+size = { fixed = 2 }
+gray_absorption = 0.2
+[[component]]
+name = "dark.matter"
+types = 1
+)";
+
+Scene with(const std::vector<std::string>& settings) {
+  return parse_scene(text, "scene.toml", settings);
+}
+
+TEST(Settings, OfWhichThereAreNoneLeaveTheScene) {
+  expect_same(with({}), parse_scene(text, "scene.toml"));
+}
+
+TEST(Settings, OverrideTheFile) {
+  EXPECT_EQ(with({"tolerance=0.5"}).tolerance, 0.5);
+  EXPECT_EQ(with({"camera.field_of_view=30"}).camera->field_of_view_degrees, 30);
+  EXPECT_EQ(with({"snapshot=other"}).snapshot, "other");
+}
+
+TEST(Settings, ChangeNothingElse) {
+  Scene expected = with({});
+  expected.image.width = 640;
+  expected.image.height = 480;
+  expect_same(with({"image.size=[640,480]"}), expected);
+}
+
+TEST(Settings, AddressComponentsByNumberAndByName) {
+  EXPECT_EQ(with({"component.0.palette=magma"}).components[0].palette, "magma");
+  EXPECT_EQ(with({"component.gas.palette=magma"}).components[0].palette, "magma");
+  EXPECT_EQ(with({"component.1.brightness=3"}).components[1].brightness, 3);
+  EXPECT_EQ(with({"component.dark.matter.palette=halo"}).components[2].palette, "halo");
+}
+
+TEST(Settings, TakeTomlValues) {
+  EXPECT_TRUE(same(with({"camera.sky=[0, 1.5, 2]"}).camera->sky, {{0, 1.5, 2}}));
+  EXPECT_EQ(with({"snapshot=\"a = b\""}).snapshot, "a = b");
+  EXPECT_THAT(with({"component.1.types=[0, \"stars\"]"}).components[1].types, ElementsAre(0, 4));
+}
+
+TEST(Settings, TakeBareWordsForStrings) {
+  EXPECT_EQ(with({"sort.order=descending"}).sort.descending, true);
+  EXPECT_EQ(with({"snapshot=data/snap_092.0.hdf5"}).snapshot, "data/snap_092.0.hdf5");
+  EXPECT_EQ(with({"snapshot=a=b"}).snapshot, "a=b");
+}
+
+TEST(Settings, TakeWhatLooksLikeANumberForAStringWhereOneIsExpected) {
+  EXPECT_EQ(with({"snapshot=092"}).snapshot, "092");
+  EXPECT_EQ(with({"snapshot=92"}).snapshot, "92");
+  EXPECT_EQ(with({"component.gas.name=2024-01-01"}).components[0].name, "2024-01-01");
+  EXPECT_EQ(with({"component.gas.color.field=true"}).components[0].color.field, "true");
+}
+
+TEST(Settings, MayHaveSpacesAroundKeyAndValue) {
+  EXPECT_EQ(with({" tolerance = 0.5 "}).tolerance, 0.5);
+  EXPECT_EQ(with({" snapshot = a file "}).snapshot, "a file");
+}
+
+TEST(Settings, TakeTables) {
+  const Scene scene = with({"component.gas.color={field=\"U\", min=1}"});
+  EXPECT_EQ(scene.components[0].color.field, "U");
+  EXPECT_EQ(scene.components[0].color.minimum, 1);
+}
+
+TEST(Settings, MayDependOnEachOtherInAnyOrder) {
+  expect_same(with({"component.0.color.min=1", "component.0.color.field=U"}),
+              with({"component.0.color.field=U", "component.0.color.min=1"}));
+}
+
+TEST(Settings, ReplaceWhatExcludesThem) {
+  EXPECT_FALSE(with({"component.1.size.field=HSML"}).components[1].size_fixed);
+  EXPECT_EQ(with({"component.0.size.fixed=3"}).components[0].size_fixed, 3);
+  EXPECT_EQ(with({"component.1.absorption=none"}).components[1].absorption.kind,
+            Absorption::Kind::none);
+  EXPECT_EQ(with({"image.width=7"}).image.width, 7);
+}
+
+TEST(Settings, MayBringTheCamera) {
+  const Scene scene =
+      parse_scene("", "scene.toml", {"camera.position=[0,0,1]", "camera.look_at=[0,0,2]"});
+  ASSERT_TRUE(scene.camera);
+  EXPECT_TRUE(same(scene.camera->look_at, {{0, 0, 2}}));
+}
+
+TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
+  Scene scene;
+  scene.components.resize(2);
+  scene.components[1].name = "stars";
+  const Scene changed = apply_settings(scene, {"component.stars.brightness=2", "image.gamma=2.2"});
+  EXPECT_EQ(changed.components[1].brightness, 2);
+  EXPECT_EQ(changed.image.gamma, 2.2);
+  EXPECT_EQ(scene.components[1].brightness, 1);
+}
+
+struct Refused {
+  std::string setting, message;
+};
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.setting;
+}
+class SettingsRefuse : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(SettingsRefuse, InOneLineThatNamesTheSetting) {
+  const std::string message = message_for(text, {GetParam().setting});
+  EXPECT_THAT(message, StartsWith("setting \""));
+  EXPECT_THAT(message, HasSubstr(GetParam().message));
+  EXPECT_THAT(message, HasSubstr("expected"));
+  EXPECT_THAT(message, Not(HasSubstr("\n")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    WhatIsWrong, SettingsRefuse,
+    ::testing::Values(
+        Refused{"", "found no key with a value"},
+        Refused{"tolerance", "setting \"tolerance\": found no key with a value"},
+        Refused{"=3", "found no key with a value"},
+        Refused{"tolerance=", "key tolerance: found string \"\""},
+        Refused{"tolerance=-1", "setting \"tolerance=-1\": key tolerance: found integer -1"},
+        Refused{"tolerance=low", "key tolerance: found string \"low\""},
+        Refused{"tolerance=1e999", "key tolerance: found"},
+        Refused{"tolerence=1", "did you mean tolerance?"},
+        Refused{"camera.fov=30", "key camera.fov: found an unknown key, expected one of position"},
+        Refused{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
+        Refused{"camera.near.x=30", "key camera.near.x: found an unknown key"},
+        Refused{"camera.=30", "key camera.: found an unknown key"},
+        Refused{"camera=30", "key camera: found integer 30, expected a table"},
+        Refused{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
+        Refused{"image.size=[640,480", "key image.size: found string \"[640,480\""},
+        Refused{"image.size=640x480", "key image.size: found string \"640x480\""},
+        Refused{"component=1", "key component: found integer 1"},
+        Refused{"component.palette=magma", "key component.palette: found no such component"},
+        Refused{"component.3.palette=magma", "expected a number from 0 to 2 or a name (gas, dark"},
+        Refused{"component.00.palette=magma", "key component.00: found no such component"},
+        Refused{"component.-1.palette=magma", "key component.-1: found no such component"},
+        Refused{"component.gass.palette=magma", "did you mean gas?"},
+        Refused{"component.gas.pallette=magma", "did you mean component.0.palette?"},
+        Refused{"component.gas=3", "key component.0: found integer 3, expected a table"},
+        Refused{"component.gas.color.min=1", "found a value without a field"},
+        Refused{"component.1.name=gas", "which another component has"},
+        Refused{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
+        Refused{"to\nler=1", "key to ler: found an unknown key"}));
+
+TEST(Settings, AreRefusedWhenGivenTwice) {
+  EXPECT_THAT(message_for(text, {"image.width=1", "image.width=2"}),
+              HasSubstr("key image.width: found it for the second time"));
+  EXPECT_THAT(message_for(text, {"component.0.palette=a", "component.gas.palette=b"}),
+              HasSubstr("for the second time"));
+}
+
+TEST(Settings, AreRefusedWhenTheyExcludeEachOther) {
+  EXPECT_THAT(message_for(text, {"component.0.absorption=1", "component.0.gray_absorption=1"}),
+              HasSubstr("found it beside component.0.absorption"));
+}
+
+TEST(Settings, FindNoComponentInASceneWithoutAny) {
+  EXPECT_THAT(message_for("", {"component.0.palette=magma"}),
+              HasSubstr("expected a scene that has components"));
+}
+
+TEST(Settings, AreRefusedInsideACameraThatIsNotThere) {
+  EXPECT_THAT(message_for("", {"camera.field_of_view=30"}),
+              HasSubstr("key camera.position: found nothing"));
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,265 @@
+// Which particles a component draws.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "load/particles.h"
+#include "select/condition.h"
+#include "temporary_folder.h"
+
+namespace splotchcl::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Masses of gas_row are 1, 2, 3, ...: they tell which particles were drawn.
+std::vector<float> drawn(const Component& component, const Snapshot& snapshot = gas_row()) {
+  return values(load(component, snapshot).particles.weight);
+}
+
+Component selecting(const std::vector<std::string>& where) {
+  Component component = gas();
+  component.select.where = where;
+  return component;
+}
+
+TEST(Selection, TakesWhatFulfilsACondition) {
+  EXPECT_THAT(drawn(selecting({"internal_energy > 100"})), ElementsAre(4, 5, 6));
+  EXPECT_THAT(drawn(selecting({"internal_energy >= 100"})), ElementsAre(3, 4, 5, 6));
+  EXPECT_THAT(drawn(selecting({"mass < 2.5"})), ElementsAre(1, 2));
+  EXPECT_THAT(drawn(selecting({"mass<=3"})), ElementsAre(1, 2, 3));
+  EXPECT_THAT(drawn(selecting({"U == 1e3"})), ElementsAre(4));
+  EXPECT_THAT(drawn(selecting({"mass != 2"})), ElementsAre(1, 3, 4, 5, 6));
+}
+
+TEST(Selection, TakesWhatFulfilsAllOfSeveralAndAnyWithOr) {
+  EXPECT_THAT(drawn(selecting({"mass > 1", "mass < 4"})), ElementsAre(2, 3));
+  EXPECT_THAT(drawn(selecting({"mass < 2 or mass > 5"})), ElementsAre(1, 6));
+  EXPECT_THAT(drawn(selecting({"mass < 3 or mass > 4", "internal_energy != 1"})),
+              ElementsAre(2, 5, 6));
+}
+
+TEST(Selection, ComparesDerivedFieldsAndLengthsOfVectorsToo) {
+  EXPECT_THAT(drawn(selecting({"position_x > 3.5"})), ElementsAre(5, 6));
+  EXPECT_THAT(drawn(selecting({"velocity > 7"})), ElementsAre(5, 6));
+  Component component = selecting({"radius < 1.5"});
+  component.center = {{5, 0, 0}};
+  EXPECT_THAT(drawn(component), ElementsAre(5, 6));
+}
+
+TEST(Selection, LeavesOutValuesThatAreNoNumbersWhateverIsAsked) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", std::vector<float>(9, 1), 3);
+  snapshot.add(0, "smoothing_length", {1, 1, 1});
+  snapshot.add(0, "mass", {1, 2, 3});
+  snapshot.add(0, "density", {5, std::numeric_limits<float>::quiet_NaN(), 7});
+  EXPECT_THAT(drawn(selecting({"density != 5"}), snapshot), ElementsAre(3));
+  EXPECT_THAT(drawn(selecting({"density < 6 or density >= 6"}), snapshot), ElementsAre(1, 3));
+}
+
+TEST(Selection, TakesABoxWithItsFaces) {
+  Component component = gas();
+  component.select.box_minimum = Vec3{{1, -1, 0}};
+  component.select.box_maximum = Vec3{{3, 1, 0}};
+  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
+}
+
+TEST(Selection, TakesASphereWithItsSurface) {
+  Component component = gas();
+  component.select.sphere_center = Vec3{{2, 0, 0}};
+  component.select.sphere_radius = 1;
+  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
+}
+
+TEST(Selection, KnowsPlacesInDoublePrecision) {
+  NumberedSnapshot snapshot = gas_row();
+  snapshot.set_origin({{1e9, 0, 0}});  // where single precision has steps of 64
+  Component component = gas();
+  component.select.sphere_center = Vec3{{1e9 + 2, 0, 0}};
+  component.select.sphere_radius = 0.5;
+  EXPECT_THAT(drawn(component, snapshot), ElementsAre(3));
+}
+
+TEST(Selection, LeavesOutWhatFulfilsAllThatExcludeGives) {
+  Component component = gas();
+  component.exclude.where = {"mass > 2"};
+  component.exclude.sphere_center = Vec3{{5, 0, 0}};
+  component.exclude.sphere_radius = 1.5;
+  EXPECT_THAT(drawn(component), ElementsAre(1, 2, 3, 4));
+  component.select.where = {"internal_energy > 1"};
+  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
+}
+
+TEST(Selection, WithTheSameConditionsExcludedIsTheOtherHalf) {
+  Component rest = gas();
+  rest.exclude.where = {"mass > 1", "mass < 4"};
+  EXPECT_THAT(drawn(rest), ElementsAre(1, 4, 5, 6));
+}
+
+TEST(Selection, GathersEveryColumnAlike) {
+  Component component = selecting({"mass == 2 or mass == 5"});
+  component.color.field = "internal_energy";
+  component.color_vector = "";
+  const Particles particles = load(component, gas_row()).particles;
+  EXPECT_EQ(particles.count, 2u);
+  EXPECT_THAT(values(particles.position), ElementsAre(1, 0, 0, 4, 0, 0));
+  EXPECT_THAT(values(particles.smoothing_length), ElementsAre(0.25f, 0.625f));
+  EXPECT_THAT(values(particles.color), ElementsAre(10, 10000));
+}
+
+TEST(Selection, OfSeveralTypesTakesFromEach) {
+  NumberedSnapshot snapshot = gas_row();
+  snapshot.add(4, "position", {0, 0, 0, 1, 0, 0}, 3);
+  snapshot.add(4, "smoothing_length", {1, 1});
+  snapshot.add(4, "mass", {20, 3});
+  Component component = selecting({"mass > 5"});
+  component.types = {4, 0};
+  EXPECT_THAT(drawn(component, snapshot), ElementsAre(20, 6));
+}
+
+TEST(Selection, TakesRangesFromTheSelectedParticlesAlone) {
+  Component component = selecting({"internal_energy > 500"});
+  component.color = {"internal_energy", Scaling::log, {}, {}};
+  component.color.percentiles = {0, 100};
+  const ScalarMap map = load(component, gas_row()).color;
+  EXPECT_NEAR(map.minimum, 3, 1e-6);
+  EXPECT_NEAR(map.maximum, 5, 1e-6);
+}
+
+TEST(Selection, FindsSizesAmongAllParticlesNotOnlyTheSelected) {
+  MemorySnapshot snapshot;
+  std::vector<float> position, mass;
+  for (int i = 0; i < 1000; ++i) {
+    position.insert(position.end(), {static_cast<float>(i % 10), static_cast<float>(i / 10 % 10),
+                                     static_cast<float>(i / 100)});
+    mass.push_back(static_cast<float>(i));
+  }
+  snapshot.add(0, "position", position, 3);
+  snapshot.add(0, "mass", mass);
+  const Particles particles = load(selecting({"mass == 555"}), snapshot).particles;
+  ASSERT_EQ(particles.count, 1u);
+  // On a unit grid: see LoadFrameSize.
+  EXPECT_NEAR(particles.smoothing_length[0], std::sqrt(6.0f), 1e-6);
+}
+
+TEST(Selection, OfNothingIsToldAndDrawsNothing) {
+  const Component component = selecting({"mass > 100"});
+  EXPECT_EQ(load(component, gas_row()).particles.count, 0u);
+  EXPECT_THAT(notes_of(component, gas_row()),
+              ElementsAre(HasSubstr("component gas: select and exclude leave none of its 6")));
+}
+
+TEST(Selection, IsMadeOnceForAllFrames) {
+  const NumberedSnapshot snapshot = gas_row();
+  const Component component = selecting({"mass > 3"});
+  const Particles first = load(component, snapshot).particles;
+  const std::size_t reads = snapshot.fields_read().size();
+  EXPECT_EQ(load(component, snapshot).particles.position.data(), first.position.data());
+  EXPECT_EQ(snapshot.fields_read().size(), reads);
+}
+
+TEST(Selection, ThatChangesIsMadeAnew) {
+  const NumberedSnapshot snapshot = gas_row();
+  EXPECT_THAT(drawn(selecting({"mass > 3"}), snapshot), ElementsAre(4, 5, 6));
+  EXPECT_THAT(drawn(selecting({"mass > 4"}), snapshot), ElementsAre(5, 6));
+  Component component = gas();
+  component.exclude.where = {"mass > 3"};
+  EXPECT_THAT(drawn(component, snapshot), ElementsAre(1, 2, 3));
+}
+
+TEST(Selection, NamesAFieldThatIsNotThereAndTheDerivedOnes) {
+  const std::string message = refusal(selecting({"internal_enrgy > 1"}), gas_row());
+  EXPECT_THAT(message, HasSubstr("component gas: select.where is \"internal_enrgy\""));
+  EXPECT_THAT(message, HasSubstr("derived, density, temperature, speed, radius"));
+  EXPECT_THAT(message, HasSubstr("did you mean internal_energy?"));
+}
+
+TEST(Components, AreRefusedBeforeAnythingIsRead) {
+  const NumberedSnapshot snapshot = gas_row();
+  std::vector<Component> wrong(7, gas());
+  wrong[0].exclude.where = {"rank > 1"};
+  wrong[1].color.field = "rank";
+  wrong[2].intensity.field = "rank";
+  wrong[3].size_field = "rank";
+  wrong[4].color_vector = "mass";
+  wrong[5].palette = "rank";
+  wrong[6].absorption_palette = "rank";
+  for (Component& component : wrong) {
+    component.name = "wrong";
+    EXPECT_THROW(load(scene_of({gas(), component}), snapshot), UsageError);
+    EXPECT_THAT(snapshot.fields_read(), IsEmpty());
+  }
+}
+
+TEST(Selection, RefusesConditionsOnIds) {
+  EXPECT_THAT(refusal(selecting({"id == 3"}), gas_row()), HasSubstr("select.ids"));
+}
+
+class SelectionByIds : public ::testing::Test {
+ protected:
+  Component listing(const std::string& text) {
+    const std::string path = (folder_ / "ids.txt").string();
+    std::ofstream(path) << text;
+    Component component = gas();
+    component.select.id_file = path;
+    return component;
+  }
+  const splotchcl::testing::TemporaryFolder folder_;
+};
+
+TEST_F(SelectionByIds, TellsApartWhatSinglePrecisionCannot) {
+  EXPECT_THAT(drawn(listing("1152921504606846977\n1152921504606846980\n")), ElementsAre(2, 5));
+}
+
+TEST_F(SelectionByIds, AllowsCommentsBlankLinesAndAnyOrder) {
+  EXPECT_THAT(drawn(listing("# bound to halo 3\r\n1152921504606846980  # the last\n\n"
+                            "\t1152921504606846976\n1152921504606846980")),
+              ElementsAre(1, 5));
+}
+
+TEST_F(SelectionByIds, MayBeExcluded) {
+  Component component = listing("1152921504606846976\n");
+  component.exclude.id_file = component.select.id_file;
+  component.select.id_file = "";
+  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4, 5, 6));
+}
+
+TEST_F(SelectionByIds, RefusesWhatIsNoIdWithItsLine) {
+  for (const char* text : {"12\nhalo\n", "12\n-3\n", "12\n1.5\n", "12\n18446744073709551616\n",
+                           "12\n1 2\n", "12\n0x1f\n"}) {
+    EXPECT_THAT(refusal(listing(text), gas_row()), HasSubstr("ids.txt:2: found")) << text;
+  }
+}
+
+TEST_F(SelectionByIds, RefusesAnEmptyListAndAMissingOne) {
+  EXPECT_THAT(refusal(listing("# none\n"), gas_row()), HasSubstr("found no identifier"));
+  Component component = gas();
+  component.select.id_file = (folder_ / "lost.txt").string();
+  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("lost.txt: cannot be read"));
+}
+
+TEST(Conditions, AreRefusedWhereTheyAreNone) {
+  for (const char* text : {"", "mass", "mass >", "> 3", "mass > heavy", "mass = 3", "mass => 3",
+                           "mass > 3 and u < 2", "mass > 3 or", "or mass > 3", "mass > inf",
+                           "mass > nan", "3 < mass < 4", "mass > 1e999", "mass > 3 or mass"}) {
+    EXPECT_FALSE(parse_condition(text)) << text;
+  }
+}
+
+TEST(Conditions, MayHaveBlanksAndNamesWithThem) {
+  const auto condition = parse_condition("  mass table>=  -1.5e-3 or\tz != 0");
+  EXPECT_FALSE(condition) << "a tab is no blank around or";
+  const auto other = parse_condition("  mass table>=  -1.5e-3 or z != 0 ");
+  ASSERT_TRUE(other);
+  EXPECT_EQ((*other)[0].field, "mass table");
+  EXPECT_EQ((*other)[0].number, -1.5e-3);
+  EXPECT_EQ((*other)[1].op, Comparison::Operator::not_equal);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
