@@ -1,6 +1,7 @@
+#include "common/mapped_file.h"
+
 #include <gtest/gtest.h>
 
-#include "common/mapped_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -1,9 +1,9 @@
+#include "formats/position_origin.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <set>
-
-#include "formats/position_origin.h"
 
 namespace splotchcl {
 namespace {

@@ -1,3 +1,5 @@
+#include "smoothing/smoothing_lengths.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <random>
 
-#include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

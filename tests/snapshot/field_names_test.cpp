@@ -1,3 +1,5 @@
+#include "snapshot/field_names.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -6,7 +8,6 @@
 
 #include "formats/unit_names.h"
 #include "paths.h"
-#include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 
 namespace splotchcl {

@@ -1,8 +1,8 @@
+#include "snapshot/field_statistics.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "snapshot/field_statistics.h"
 
 namespace splotchcl {
 namespace {
