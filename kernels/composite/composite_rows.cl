@@ -2,7 +2,8 @@
 // tile's list and updates rows of eight pixels in a private copy of the tile.
 // Rows are padded on the right: a row of eight may start at any column.
 #define ROW (TILE_WIDTH + 8)
-#define TILE_PIXELS (TILE_HEIGHT * ROW)
+// Planes at distances of 4096 bytes would share lines of the cache.
+#define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
 // Eight floats at any address in one access: vstore8 may become two, and a processor cannot
 // forward two stores to the load of the next splat's row.
 #ifdef __clang__
@@ -82,13 +83,35 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
     store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
   }
 
-#define LAYER_ROWS(PHI, PASSED)                                                          \
+// The same with two terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2, and
+// every line is one multiplication and addition.
+#define THIN_CHANNEL(c)                                                      \
+  {                                                                          \
+    float* const source = pixel + c * TILE_PIXELS;                           \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
+    const float8 o = load_eight(opacity);                                    \
+    const float8 covered = shape - (shape * shape) * (0.5f * absorption##c); \
+    const float8 u = covered - o * covered;                                  \
+    store_eight(load_eight(source) + u * emission##c, source);               \
+    store_eight(o + u * absorption##c, opacity);                             \
+  }
+
+#define LAYER_ROWS(CHANNELS)                                                             \
   for (int k = 0; k < window.rows; ++k, pixel += ROW) {                                  \
     const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    LAYER_CHANNEL(0, PHI, PASSED)                                                        \
-    LAYER_CHANNEL(1, PHI, PASSED)                                                        \
-    LAYER_CHANNEL(2, PHI, PASSED)                                                        \
+    CHANNELS                                                                             \
   }
+
+#define LAYER_CHANNELS(PHI, PASSED) \
+  LAYER_CHANNEL(0, PHI, PASSED)     \
+  LAYER_CHANNEL(1, PHI, PASSED)     \
+  LAYER_CHANNEL(2, PHI, PASSED)
+
+#ifdef KEEP_TRANSMITTANCE
+#define THIN_CHANNELS LAYER_CHANNELS(phi_short, passed_by_series)
+#else
+#define THIN_CHANNELS THIN_CHANNEL(0) THIN_CHANNEL(1) THIN_CHANNEL(2)
+#endif
 #endif
 
 // One axis of the separable shape at `count` pixels, the first one's centre at distance
@@ -143,11 +166,11 @@ inline void update_window(float* tile, Window window, float8 across, const float
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
   if (deepest <= p.phi_short) {
-    LAYER_ROWS(phi_short, passed_by_series)
+    LAYER_ROWS(THIN_CHANNELS)
   } else if (deepest <= p.phi_series) {
-    LAYER_ROWS(phi_series, passed_by_series)
+    LAYER_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
   } else {
-    LAYER_ROWS(phi_full, passed_in_full)
+    LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
   }
 #else
   const float8 summed0 = across * splat->summed[0];
