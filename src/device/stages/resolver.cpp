@@ -141,10 +141,33 @@ Buffer<float> Resolver::upload_background(std::size_t stride) const {
 
 Image Resolver::resolve(Planes light) const {
   const Planes planes = collect(std::move(light));
-  DeviceContext& device = context_.device;
   Image image(parameters_.width, parameters_.height);
-  const std::size_t width_strips = strips(static_cast<std::size_t>(image.width), 8);
-  const auto pixels = device.pool.get<float>(image.pixels.size(), "image");
+  if (context_.device.traits.shares_host_memory) {
+    resolve_in_place(planes, image);
+  } else {
+    const auto pixels = context_.device.pool.get<float>(image.pixels.size(), "image");
+    write_pixels(planes, pixels.memory());
+    context_.device.queue.enqueue_read_buffer(
+        pixels.memory(), 0, image.pixels.size() * sizeof(float), image.pixels.data());
+  }
+  return image;
+}
+
+// A device in the host's own memory writes the picture where it is wanted; mapping it makes
+// what was written visible.
+void Resolver::resolve_in_place(const Planes& planes, Image& image) const {
+  compute::command_queue& queue = context_.device.queue;
+  const std::size_t bytes = image.pixels.size() * sizeof(float);
+  const compute::buffer pixels(context_.device.context, bytes,
+                               CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR, image.pixels.data());
+  write_pixels(planes, pixels);
+  void* const mapped = queue.enqueue_map_buffer(pixels, CL_MAP_READ, 0, bytes);
+  queue.enqueue_unmap_buffer(pixels, mapped).wait();
+}
+
+void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels) const {
+  DeviceContext& device = context_.device;
+  const std::size_t width_strips = strips(static_cast<std::size_t>(parameters_.width), 8);
   shared::ResolveParameters parameters = parameters_;
   Buffer<float> background;
   if (context_.specialization.has_background_image()) {
@@ -154,10 +177,7 @@ Image Resolver::resolve(Planes light) const {
   Launch launch(device, "resolve", program_.create_kernel("resolve"));
   launch.value(parameters).arg(context_.grids).arg(planes.light);
   if (context_.specialization.has_background_image()) launch.arg(background);
-  launch.arg(pixels).run_grid(width_strips, static_cast<std::size_t>(image.height), 1);
-  device.queue.enqueue_read_buffer(pixels.memory(), 0, image.pixels.size() * sizeof(float),
-                                   image.pixels.data());
-  return image;
+  launch.arg(pixels).run_grid(width_strips, static_cast<std::size_t>(parameters_.height), 1);
 }
 
 }  // namespace splotchcl

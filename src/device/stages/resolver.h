@@ -21,6 +21,8 @@ class Resolver {
             bool add) const;
   void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine, bool add) const;
   Buffer<float> upload_background(std::size_t stride) const;
+  void resolve_in_place(const Planes& planes, Image& image) const;
+  void write_pixels(const Planes& planes, const compute::buffer& pixels) const;
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
