@@ -47,13 +47,22 @@ struct Splat {
 #endif
 };
 
-// A splat of extended precision, in pixels of the crop, with its amplitudes at the center.
+struct ExtendedAlongX {
+  struct FloatPair sigma;
+  float radius;  // pixels
+};
+
+// A splat of extended precision, with its amplitudes at the center. In pixels of the whole
+// picture, so that a crop has the same bits.
 struct ExtendedSplat {
   struct FloatPair x, y, sigma;
   struct FloatPair summed[3];    // A w, optical depth; where nothing absorbs, E w
   struct FloatPair emission[3];  // E w
   struct FloatPair cut;          // radius of the cut disc
   float radius;                  // drawn up to here
+#ifdef ELLIPSES
+  struct ExtendedAlongX along_x;
+#endif
 };
 
 #define ABSORPTION_AS_EMISSION 0
@@ -78,6 +87,7 @@ typedef struct Grid Grid;
 typedef struct WidthAlongX WidthAlongX;
 typedef struct OwnColor OwnColor;
 typedef struct Splat Splat;
+typedef struct ExtendedAlongX ExtendedAlongX;
 typedef struct ExtendedSplat ExtendedSplat;
 typedef struct ComponentColors ComponentColors;
 #endif

@@ -152,16 +152,27 @@ typedef struct Batch {
 // `place` of the tile's columns and rows, whose pixel centre lies at `centre`.
 inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
   const __local ExtendedSplat* splat = batch->splats + k;
-  const FloatPair splat_center = place < TILE_WIDTH ? splat->x : splat->y;
+  const int is_column = place < TILE_WIDTH;
+  const FloatPair splat_center = is_column ? splat->x : splat->y;
+  const FloatPair sigma = is_column ? SIGMA_X(*splat) : splat->sigma;
+  const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
   const Extended d = extended_difference(extended_of(center), extended_pair(splat_center));
   Extended value = extended_of(0.0f);
-  if (fabs(high_part(d)) <= splat->radius) {
-    value = extended_axis(extended_magnitude(d), extended_pair(splat->sigma));
+  if (fabs(high_part(d)) <= radius) {
+    value = extended_axis(extended_magnitude(d), extended_pair(sigma));
   }
   batch->high[k * AXES + place] = high_part(value);
   batch->low[k * AXES + place] = low_part(value);
 #ifdef KERNEL_CUT
-  const Extended square = extended_product(d, d);
+  Extended round = d;
+#ifdef ELLIPSES
+  // As far from the center as in the disc that the ellipse is made of.
+  if (is_column) {
+    round =
+        extended_quotient(extended_product(d, extended_pair(splat->sigma)), extended_pair(sigma));
+  }
+#endif
+  const Extended square = extended_product(round, round);
   batch->square_high[k * AXES + place] = high_part(square);
   batch->square_low[k * AXES + place] = low_part(square);
   // The pixel that holds the centre: a pixel begins at its own edge.
@@ -205,8 +216,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const Segment segment = segments[get_group_id(0)];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
-  const float corner_x = (float)(in_grid % (uint)grid.tiles_x * TILE_WIDTH);
-  const float corner_y = (float)(in_grid / (uint)grid.tiles_x * TILE_HEIGHT);
+  const float corner_x = p.crop_x + (float)(in_grid % (uint)grid.tiles_x * TILE_WIDTH);
+  const float corner_y = p.crop_y + (float)(in_grid / (uint)grid.tiles_x * TILE_HEIGHT);
   __global float* own = own_planes(planes, grid, segment.tile, item);
   Pixels pixels = segment.partial == NO_PARTIAL ? load_pixels(own, grid.plane_size) : no_pixels();
   for (uint first = segment.begin; first < segment.end; first += BATCH) {

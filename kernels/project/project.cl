@@ -122,22 +122,33 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
     spread(lanes, &found);
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
+#ifdef EXTENDED_NUMBERS
+      Splat rounded;
+      ExtendedSplat extended;
+      if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
+                          &extended)) {
+        continue;
+      }
+      rounded.component_and_grid = p.component;
+#endif
 #ifdef ELLIPSES
-      const int2 copies =
-          copies_in_picture(found.x[k], found.radius_x[k], (float)grids[0].width, p.period);
+#ifdef EXTENDED_NUMBERS
+      const float x = rounded.x, radius_x = rounded.along_x.radius;
+#else
+      const float x = found.x[k], radius_x = found.radius_x[k];
+#endif
+      const int2 copies = copies_in_picture(x, radius_x, (float)grids[0].width, p.period);
       for (int copy = copies.x; copy <= copies.y; ++copy) {
 #endif
 #ifdef EXTENDED_NUMBERS
-        Splat rounded;
-        ExtendedSplat extended;
-        if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
-                            &extended)) {
-          continue;
-        }
 #ifdef OUTPUT_SPLATS
-        rounded.component_and_grid = p.component;
         splats[slot] = rounded;
         extended_splats[slot] = extended;
+#ifdef ELLIPSES
+        const Extended copied_x = copy_of(copy, extended, e);
+        splats[slot].x = high_part(extended_difference(copied_x, extended_of(e.crop_x)));
+        extended_splats[slot].x = pair_of(copied_x);
+#endif
 #endif
 #elif defined(OUTPUT_SPLATS)
       write_splat(splats + slot, &found, k, p.component);

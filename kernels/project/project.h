@@ -91,7 +91,10 @@ struct BlockCounts {
 struct ExtendedParameters {
   float position[3][3];  // of the camera, relative to the component's origin: a sum of three
   struct FloatPair right[3], down[3], forward[3];
-  struct FloatPair pixels_per_length, center_x, center_y;
+  struct FloatPair pixels_per_length;
+  struct FloatPair center_x, center_y;                // of the whole picture
+  float crop_x, crop_y;                               // the crop's corner in it
+  struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
   struct FloatPair near_limit, far_limit, near_factor;
   int has_near_limit, has_far_limit;
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;

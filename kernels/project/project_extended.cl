@@ -1,9 +1,16 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
 // those of project.cl, which finds the bad particles and the sort keys.
 
-typedef struct ExtendedView {
-  Extended x, y, z;
-} ExtendedView;
+// Where the camera sees a particle.
+typedef struct ExtendedPlace {
+  Extended x, y;   // pixels of the whole picture
+  Extended depth;  // z, or the distance
+  Extended scale;  // pixels per length of a width
+  int seen;
+#ifdef ELLIPSES
+  Extended cos_latitude;
+#endif
+} ExtendedPlace;
 
 inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
   return extended_sum(extended_sum(extended_product(d[0], extended_pair(axis[0])),
@@ -11,19 +18,66 @@ inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
                       extended_product(d[2], extended_pair(axis[2])));
 }
 
-inline ExtendedView extended_view(__global const float* position, const ExtendedParameters e) {
-  Extended d[3];
+inline void extended_offset(__global const float* position, const ExtendedParameters e,
+                            Extended* d) {
   for (int axis = 0; axis < 3; ++axis) {
     d[axis] = extended_difference(extended_of(position[axis]), extended_of(e.position[axis][0]));
     d[axis] = extended_difference(d[axis], extended_of(e.position[axis][1]));
     d[axis] = extended_difference(d[axis], extended_of(e.position[axis][2]));
   }
-  ExtendedView view;
-  view.x = extended_dot(d, e.right);
-  view.y = extended_dot(d, e.down);
-  view.z = extended_dot(d, e.forward);
-  return view;
 }
+
+#ifdef WIDE_ANGLE
+// n with 2^n <= the largest of the three < 2^(n + 1), in the range of extended_power_of_two().
+inline int exponent_of_largest(const Extended* d) {
+  const float largest =
+      max(fabs(high_part(d[0])), max(fabs(high_part(d[1])), fabs(high_part(d[2]))));
+  return clamp((as_int(largest) >> 23) - 127, -126, 126);
+}
+
+// In units of a power of two near the distance, so that no length's unit matters.
+inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
+                                    const ExtendedParameters e) {
+  Extended d[3], v[3];
+  extended_offset(position, e, d);
+  const int exponent = exponent_of_largest(d);
+  const float unit = extended_power_of_two(exponent);
+  const float per_unit = extended_power_of_two(-exponent);
+  for (int axis = 0; axis < 3; ++axis)
+    d[axis] = extended_scaled(d[axis], per_unit);
+  v[0] = extended_dot(d, e.right);
+  v[1] = extended_dot(d, e.down);
+  v[2] = extended_dot(d, e.forward);
+  const ExtendedWideAngle seen =
+      extended_wide_angle(v, extended_scaled(extended_pair(e.eye_offset), per_unit), e);
+  ExtendedPlace place;
+  place.x = extended_sum(extended_pair(e.center_x), seen.x);
+  place.y = extended_sum(extended_pair(e.center_y), seen.y);
+  place.depth = extended_scaled(seen.distance, unit);
+  place.scale = extended_scaled(seen.scale, per_unit);
+  place.seen = seen.seen;
+#ifdef ELLIPSES
+  place.cos_latitude = seen.cos_latitude;
+#endif
+  return place;
+}
+#else
+inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
+                                    const ExtendedParameters e) {
+  Extended d[3];
+  extended_offset(position, e, d);
+  ExtendedPlace place;
+  place.depth = extended_dot(d, e.forward);
+  place.seen = !p.perspective || high_part(place.depth) > 0.0f;
+  place.scale = extended_pair(e.pixels_per_length);
+  if (p.perspective) place.scale = extended_quotient(place.scale, place.depth);
+  place.x = extended_sum(extended_pair(e.center_x),
+                         extended_product(extended_dot(d, e.right), place.scale));
+  place.y = extended_sum(extended_pair(e.center_y),
+                         extended_product(extended_dot(d, e.down), place.scale));
+  return place;
+}
+#endif
 
 inline int is_within_limits(Extended z, Extended h, const ProjectParameters p,
                             const ExtendedParameters e) {
@@ -126,23 +180,71 @@ inline float extended_extent(float peak, const ExtendedParameters e) {
   return sqrt(log(max(peak * e.inverse_share, 1.0f))) + 1e-3f;
 }
 
+// Tiles are chosen by rounded numbers: with room for that, `far` pixels from the crop's corner.
+inline float rounded_radius(float radius, float far) {
+  return radius * 1.000001f + 2e-7f * far;
+}
+
+// How far a splat of this width is drawn along one axis.
+inline float radius_of(Extended sigma, float extent, const ExtendedParameters e) {
+#ifdef KERNEL_CUT
+  const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
+  const float radius = min(extent * high_part(sigma), high_part(cut) * 1.000001f);
+#else
+  const float radius = extent * high_part(sigma);
+#endif
+#ifdef SAMPLING_MEAN
+  return radius + 0.5f;
+#else
+  return radius;
+#endif
+}
+
+// Places and widths; `peak` is the largest of E w and A w.
+inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak,
+                           const ProjectParameters p, const ExtendedParameters e, Splat* splat,
+                           ExtendedSplat* extended) {
+#ifdef ELLIPSES
+  const Extended sigma_x = extended_sigma_along_x(sigma, place.cos_latitude, e);
+  const float area = high_part(sigma) * high_part(sigma_x);
+#else
+  const float area = high_part(sigma) * high_part(sigma);
+#endif
+  // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
+  const float extent = extended_extent(peak * min(1.0f, 3.2f * area), e);
+  extended->x = pair_of(place.x);
+  extended->y = pair_of(place.y);
+  extended->sigma = pair_of(sigma);
+  extended->cut = pair_of(extended_product(extended_pair(e.kernel_cut), sigma));
+  extended->radius = radius_of(sigma, extent, e);
+  splat->x = high_part(extended_difference(place.x, extended_of(e.crop_x)));
+  splat->y = high_part(extended_difference(place.y, extended_of(e.crop_y)));
+  splat->sigma = high_part(sigma);
+  const float far = fabs(splat->x) + fabs(splat->y);
+  splat->radius = rounded_radius(extended->radius, far);
+#ifdef ELLIPSES
+  extended->along_x.sigma = pair_of(sigma_x);
+  extended->along_x.radius = radius_of(sigma_x, extent, e);
+  splat->along_x.sigma = high_part(sigma_x);
+  // Copies lie up to four periods farther.
+  splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
+#endif
+}
+
 // False if the particle is not in the picture.
 inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParameters e,
                           __global const Grid* grids, const Columns columns,
                           __global const ComponentColors* component_colors,
                           __global const float* knots, Splat* splat, ExtendedSplat* extended) {
-  const ExtendedView view = extended_view(columns.positions + (size_t)i * 3, e);
+  const ExtendedPlace place = extended_place(columns.positions + (size_t)i * 3, p, e);
+  if (!place.seen) return 0;
   const Extended raw_h =
       extended_of(columns.smoothing_lengths[(size_t)i * p.smoothing_length_stride]);
   const Extended h = extended_product(raw_h, extended_pair(e.size_factor));
-  if (!is_within_limits(view.z, h, p, e)) return 0;
+  if (!is_within_limits(place.depth, h, p, e)) return 0;
 
-  Extended scale = extended_pair(e.pixels_per_length);
-  if (p.perspective) scale = extended_quotient(scale, view.z);
-  const Extended x = extended_sum(extended_pair(e.center_x), extended_product(view.x, scale));
-  const Extended y = extended_sum(extended_pair(e.center_y), extended_product(view.y, scale));
   const Extended width = extended_pair(e.kernel_width);
-  const Extended h_pixels = extended_product(h, scale);
+  const Extended h_pixels = extended_product(h, place.scale);
   Extended h_drawn = h_pixels;
   Extended weight = extended_column(columns.weights[(size_t)i * p.weight_stride], h, p, e);
   if (p.min_radius > 0.0f) {
@@ -182,32 +284,22 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
 #endif
     extended->emission[c] = pair_of(emission[c]);
   }
-  const float sigma_high = high_part(sigma);
-  // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
-  const float extent = extended_extent(peak * min(1.0f, 3.2f * sigma_high * sigma_high), e);
-#ifdef KERNEL_CUT
-  const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
-  extended->cut = pair_of(cut);
-  extended->radius = min(extent * sigma_high, high_part(cut) * 1.000001f);
-#else
-  extended->cut = pair_of(extended_of(0.0f));
-  extended->radius = extent * sigma_high;
-#endif
-#ifdef SAMPLING_MEAN
-  extended->radius += 0.5f;
-#endif
-  extended->x = pair_of(x);
-  extended->y = pair_of(y);
-  extended->sigma = pair_of(sigma);
-
   splat->weight = high_part(weight);
   splat->color = high_part(position);
-  splat->x = high_part(x);
-  splat->y = high_part(y);
-  splat->sigma = sigma_high;
-  // Tiles are chosen by rounded numbers: with room for that.
-  splat->radius = extended->radius * 1.000001f + 2e-7f * (fabs(splat->x) + fabs(splat->y));
-  const float picture_width = (float)grids[0].width, picture_height = (float)grids[0].height;
-  return splat->x + splat->radius >= 0.0f && splat->x - splat->radius <= picture_width &&
-         splat->y + splat->radius >= 0.0f && splat->y - splat->radius <= picture_height;
+  extended_shape(place, sigma, peak, p, e, splat, extended);
+  const float picture_height = (float)grids[0].height;
+  int in_picture = splat->y + splat->radius >= 0.0f && splat->y - splat->radius <= picture_height;
+#ifndef ELLIPSES  // of these, copies beside the picture may reach it
+  const float picture_width = (float)grids[0].width;
+  in_picture &= splat->x + splat->radius >= 0.0f && splat->x - splat->radius <= picture_width;
+#endif
+  return in_picture;
 }
+
+#ifdef ELLIPSES
+// The place along x of the splat's copy so many periods to the right.
+inline Extended copy_of(int copy, const ExtendedSplat splat, const ExtendedParameters e) {
+  const Extended moved = extended_product(extended_of((float)copy), extended_pair(e.period));
+  return extended_sum(extended_pair(splat.x), moved);
+}
+#endif

@@ -178,8 +178,31 @@ INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER b
 #ifdef EXTENDED_NUMBERS
 // Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
 // reach beyond the truncation of any amplitude that single precision holds.
+#ifdef WIDE_ANGLE
+// Directions in single precision are known to 1e-6, beside an eye that is nearly as far away as
+// the particle to 5e-4; near a pole, or behind a fisheye, that is as wide as it magnifies.
 INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
-                                     float height) {
+                                     float height, const ProjectParameters p) {
+  const float focal = p.pixels_per_length;
+  const VALUE reach =
+      10.0f * fabs(widths.sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
+  INTEGER off = view.y + reach<0.0f | view.y - reach> height;
+#ifdef ELLIPSES
+  const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
+                        1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
+  off |= ceil((-reach_x - view.x) / p.period) > floor((width + reach_x - view.x) / p.period);
+#else
+  off |= view.x + reach<0.0f | view.x - reach> width;
+#endif
+#ifdef PROJECTION_FISHEYE
+  const VALUE x = view.x - p.center_x, y = view.y - p.center_y;
+  off &= x * x + y * y < 9.6f * focal * focal;
+#endif
+  return off == 0;
+}
+#else
+INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
+                                     float height, const ProjectParameters p) {
   const Vectors d = view.offset;
   const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
   const VALUE reach =
@@ -188,6 +211,7 @@ INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widt
       view.x + reach<0.0f | view.x - reach> width | view.y + reach<0.0f | view.y - reach> height;
   return off == 0;
 }
+#endif
 #endif
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
@@ -202,7 +226,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const WidthLanes widths = find_widths(particles.h, view, p);
   const float width = (float)grids[0].width, height = (float)grids[0].height;
 #ifdef EXTENDED_NUMBERS
-  s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height);
+  s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height, p);
   return s;
 #else
   s.visible = particles.exists & good & may_be_seen(view, widths, width, height, p);

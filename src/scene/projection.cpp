@@ -26,9 +26,7 @@ std::optional<Projected> project_straight(const Vec3& v, const CameraFrame& came
 // The direction `u` as an eye beside the camera sees it, turned about the head's axis.
 Vec3 turned(const Vec3& u, double sine, const CameraFrame& camera) {
   using namespace boost::qvm;
-  const Vec3 axis = {{dot(camera.turn_axis, camera.right), dot(camera.turn_axis, camera.down),
-                      dot(camera.turn_axis, camera.forward)}};
-  return rot_quat(axis, std::asin(sine)) * u;
+  return rot_quat(turn_axis_in_view(camera), std::asin(sine)) * u;
 }
 
 Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& camera) {
@@ -110,6 +108,12 @@ double stretch_along_x(const Projected& place, double sigma, const CameraFrame& 
   const double u = place.cos_latitude / s;
   const double g = std::exp(-u * u) / (2 * std::sqrt(pi)) + 0.5 * u * (1 + std::erf(u));
   return 1 / (s * g);
+}
+
+Vec3 turn_axis_in_view(const CameraFrame& camera) {
+  using boost::qvm::dot;
+  return {{dot(camera.turn_axis, camera.right), dot(camera.turn_axis, camera.down),
+           dot(camera.turn_axis, camera.forward)}};
 }
 
 double period_along_x(const CameraFrame& camera, Projection projection) {

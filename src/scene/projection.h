@@ -27,6 +27,9 @@ std::optional<Projected> project_point(const Vec3& from_camera, const CameraFram
 double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
                        Projection projection);
 
+// Of an eye's head (CameraFrame), along the camera's right, down and forward axes.
+Vec3 turn_axis_in_view(const CameraFrame& camera);
+
 // The pixels after which an equirectangular picture repeats itself, 0 for others.
 double period_along_x(const CameraFrame& camera, Projection projection);
 

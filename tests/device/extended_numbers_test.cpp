@@ -9,6 +9,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "reference/frames.h"
 
 namespace splotchcl::test {
 namespace {
@@ -35,10 +36,13 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
  protected:
   std::vector<double> evaluate(const std::string& function, const char* kernel,
                                const std::vector<float>& x) {
-    std::string defines = "#define FUNCTION " + function + "\n";
+    std::string defines = "#define FUNCTION " + function + "\n#define ELLIPSES\n";
     if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
-    const compute::program program = device().programs.get(
-        {defines, {"splat.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl"}, kernel});
+    const compute::program program =
+        device().programs.get({defines,
+                               {"splat.h", "project.h", "common.cl", "lanes.cl", "precise.cl",
+                                "extended.cl", "extended_angle.cl", "wide_angle_extended.cl"},
+                               kernel});
     const auto results = device().pool.get<float>(2 * x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))
@@ -128,6 +132,47 @@ TEST_P(ExtendedNumbers, Arithmetic) {
             0x1p-44);
   EXPECT_LE(near("extended_root(" + third + ")", [](double v) { return std::sqrt(v / 3); }),
             0x1p-44);
+}
+
+// A third of x[i] over 1, and the other way round, in all quadrants.
+TEST_P(ExtendedNumbers, Atan2) {
+  const std::string third = "extended_quotient(extended_of(x[i]), extended_of(3.0f))";
+  for (const double sign : {-1.0, 1.0}) {
+    const std::string one = sign < 0 ? "extended_of(-1.0f)" : "extended_of(1.0f)";
+    for (std::vector<float> x : {logarithmically(1e-30, 1e30, 3000), evenly(-6, 6, 5000)}) {
+      EXPECT_LE(largest_error(
+                    "extended_atan2(" + third + ", " + one + ")", x,
+                    [&](double v) { return std::atan2(v / 3, sign); }, 1e-300),
+                0x1p-42);
+      EXPECT_LE(largest_error(
+                    "extended_atan2(" + one + ", " + third + ")", x,
+                    [&](double v) { return std::atan2(sign, v / 3); }, 1e-300),
+                0x1p-42);
+    }
+  }
+  EXPECT_EQ(evaluate("extended_atan2(extended_of(x[i]), extended_of(x[i]))", extended_kernel, {0}),
+            std::vector<double>{0});
+}
+
+TEST_P(ExtendedNumbers, Hypotenuse) {
+  const std::string third = "extended_quotient(extended_of(x[i]), extended_of(3.0f))";
+  const auto f = [](double v) { return std::hypot(v / 3, 1.0); };
+  EXPECT_LE(largest_error("extended_hypotenuse(" + third + ", extended_of(1.0f))",
+                          logarithmically(1e-30, 1e30, 3000), f, 1e-300),
+            0x1p-42);
+  EXPECT_LE(largest_error("extended_hypotenuse(extended_of(-1.0f), " + third + ")",
+                          evenly(-6, 6, 3000), f, 1e-300),
+            0x1p-42);
+}
+
+// The lengths of the rows that an equirectangular picture shows a cloud in.
+TEST_P(ExtendedNumbers, RowLength) {
+  const auto f = [](double u) {
+    return std::exp(-u * u) / (2 * std::sqrt(pi)) + 0.5 * u * (1 + std::erf(u));
+  };
+  EXPECT_LE(largest_error("extended_row_length(extended_of(x[i]))", evenly(0, 9, 5000), f, 1e-300),
+            4e-9);
+  EXPECT_NEAR(f(9), 9, 1e-14) << "where the projection goes over to u";
 }
 
 TEST_P(ExtendedNumbers, PreciseExpAndPhi) {

@@ -98,6 +98,9 @@ class Sizes : public StageTest {
     const Specialization variant(frame, plan, device().traits);
     EXPECT_EQ(size_on_device(variant.bin(), "Splat"), variant.splat_bytes());
     EXPECT_EQ(size_on_device(variant.bin(), "TileSplat"), variant.tile_splat_bytes());
+    if (variant.is_extended()) {
+      EXPECT_EQ(size_on_device(variant.bin(), "ExtendedSplat"), variant.extended_splat_bytes());
+    }
   }
 
   static Frame small_frame() {

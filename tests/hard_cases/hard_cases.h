@@ -33,12 +33,13 @@ struct HardCase {
   Drawn most_exactly = Drawn::always;  // at tolerance 0
 };
 
-std::vector<HardCase> light_cases();    // absorption, depth, dynamic range
-std::vector<HardCase> layer_cases();    // very many layers in one pixel
-std::vector<HardCase> order_cases();    // depths, keys, coincident particles
-std::vector<HardCase> size_cases();     // widths of clouds, ends of discs
-std::vector<HardCase> camera_cases();   // positions, units and fields of view
-std::vector<HardCase> picture_cases();  // sizes of pictures, crops
-std::vector<HardCase> data_cases();     // numbers of particles, bad values
+std::vector<HardCase> light_cases();       // absorption, depth, dynamic range
+std::vector<HardCase> layer_cases();       // very many layers in one pixel
+std::vector<HardCase> order_cases();       // depths, keys, coincident particles
+std::vector<HardCase> size_cases();        // widths of clouds, ends of discs
+std::vector<HardCase> camera_cases();      // positions, units and fields of view
+std::vector<HardCase> picture_cases();     // sizes of pictures, crops
+std::vector<HardCase> data_cases();        // numbers of particles, bad values
+std::vector<HardCase> wide_angle_cases();  // pictures in all directions, small tolerances
 
 }  // namespace splotchcl::test

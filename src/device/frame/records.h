@@ -13,7 +13,8 @@ namespace splotchcl {
 // Splats in memory, Specialization::splat_bytes() each.
 struct SplatMemory {
   Buffer<std::byte> splats;
-  Buffer<shared::ExtendedSplat> extended;  // the same splats in extended precision only
+  // The same splats in extended precision only, Specialization::extended_splat_bytes() each.
+  Buffer<std::byte> extended;
 };
 
 // One chunk of particles, projected: block b begins at slot b * stride and holds as many

@@ -46,6 +46,11 @@ std::size_t Specialization::splat_bytes() const {
          (vector_colors_ ? sizeof(shared::OwnColor) : 0);
 }
 
+std::size_t Specialization::extended_splat_bytes() const {
+  if (!extended_) return 0;
+  return sizeof(shared::ExtendedSplat) + (ellipses_ ? sizeof(shared::ExtendedAlongX) : 0);
+}
+
 // TileSplat, bin.h.
 std::size_t Specialization::tile_splat_bytes() const {
   if (extended_) return sizeof(cl_uint);
@@ -75,22 +80,31 @@ ProgramSource Specialization::project(ProjectOutput output) const {
             {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "view.cl", "limits.cl",
              "splat_lanes.cl", "project.cl"}};
   }
-  defines += define("WIDE_ANGLE") + define_if(eye_offset_, "EYE_OFFSET");
-  defines += define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE");
-  defines += define_if(projection_ == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR");
-  defines += define_if(ellipses_, "ELLIPSES");
-  return {defines,
+  return {defines + wide_angle_defines(),
           {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "wide_angle.cl", "view.cl",
            "limits.cl", "splat_lanes.cl", "project.cl"}};
+}
+
+std::string Specialization::wide_angle_defines() const {
+  return define("WIDE_ANGLE") + define_if(eye_offset_, "EYE_OFFSET") +
+         define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
+         define_if(projection_ == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
+         define_if(ellipses_, "ELLIPSES");
 }
 
 ProgramSource Specialization::project_extended(std::string defines) const {
   defines += define("EXTENDED_NUMBERS") + define_if(double_numbers_, "DOUBLE_NUMBERS");
   defines += define_if(light_ == LightPlan::emission, "LIGHT_EMISSION");
   defines += define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
-  return {defines,
-          {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "load.cl", "view.cl",
-           "limits.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
+  if (!is_wide_angle(projection_)) {
+    return {defines,
+            {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "load.cl", "view.cl",
+             "limits.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
+  }
+  return {defines + wide_angle_defines(),
+          {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "extended_angle.cl",
+           "load.cl", "wide_angle.cl", "view.cl", "limits.cl", "splat_lanes.cl",
+           "wide_angle_extended.cl", "project_extended.cl", "project.cl"}};
 }
 
 ProgramSource Specialization::scan_blocks() {

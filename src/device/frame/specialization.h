@@ -40,6 +40,7 @@ class Specialization {
   std::uint32_t planes() const;
   // Bytes of the structures that kernels make larger or smaller (shared.h).
   std::size_t splat_bytes() const;
+  std::size_t extended_splat_bytes() const;  // 0 where there are none
   std::size_t tile_splat_bytes() const;
 
   ProgramSource project(ProjectOutput output) const;
@@ -53,6 +54,7 @@ class Specialization {
   static ProgramSource coarse_grids();
 
  private:
+  std::string wide_angle_defines() const;
   ProgramSource project_extended(std::string defines) const;
   std::string tile_defines() const;
   std::string number_defines() const;

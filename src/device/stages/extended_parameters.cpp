@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "scene/particle_rules.h"
+#include "scene/projection.h"
 
 namespace splotchcl {
 namespace {
@@ -41,10 +42,16 @@ void set_camera(const Frame& frame, const DrawnComponent& component,
   copy(camera.right, e.right);
   copy(camera.down, e.down);
   copy(camera.forward, e.forward);
-  e.pixels_per_length = pair_of(
-      frame.projection == Projection::perspective ? camera.focal_pixels : camera.pixels_per_length);
-  e.center_x = pair_of(camera.center_x - frame.crop.x);
-  e.center_y = pair_of(camera.center_y - frame.crop.y);
+  e.pixels_per_length =
+      pair_of(frame.projection == Projection::orthographic ? camera.pixels_per_length
+                                                           : camera.focal_pixels);
+  e.center_x = pair_of(camera.center_x);
+  e.center_y = pair_of(camera.center_y);
+  e.crop_x = static_cast<float>(frame.crop.x);
+  e.crop_y = static_cast<float>(frame.crop.y);
+  e.period = pair_of(period_along_x(camera, frame.projection));
+  e.eye_offset = pair_of(camera.eye_offset);
+  copy(turn_axis_in_view(camera), e.turn_axis);
   e.has_near_limit = frame.near_limit.has_value();
   e.near_limit = pair_of(frame.near_limit.value_or(0));
   e.near_factor = pair_of(near_smoothing_lengths);
@@ -76,7 +83,8 @@ shared::ExtendedParameters make_extended_parameters(const Frame& frame, const Fr
           e.intensity_inverse_range);
   e.brightness = pair_of(component.brightness);
   e.absorption_factor = pair_of(component.absorption.factor);
-  const auto count = static_cast<double>(std::max<std::uint64_t>(1, particle_count(frame)));
+  const auto count = static_cast<double>(std::max<std::uint64_t>(1, particle_count(frame))) *
+                     plan.splats_per_particle;
   e.inverse_share = static_cast<float>(count / plan.shares.truncation);
   return e;
 }

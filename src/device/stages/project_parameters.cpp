@@ -1,7 +1,6 @@
 #include "device/stages/project_parameters.h"
 
 #include <algorithm>
-#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <limits>
 
@@ -62,11 +61,6 @@ CameraFrame at_look_at(CameraFrame camera) {
   return camera;
 }
 
-Vec3 along_axes(const Vec3& v, const CameraFrame& camera) {
-  using boost::qvm::dot;
-  return {{dot(v, camera.right), dot(v, camera.down), dot(v, camera.forward)}};
-}
-
 void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameters& p) {
   const CameraFrame& camera = frame.camera;
   const DepthChain chain = make_depth_chain(camera, origin);
@@ -84,7 +78,7 @@ void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameter
       static_cast<float>(p.perspective ? camera.focal_pixels : camera.pixels_per_length);
   p.period = static_cast<float>(period_along_x(camera, frame.projection));
   p.eye_offset = static_cast<float>(camera.eye_offset);
-  copy(along_axes(camera.turn_axis, camera), p.turn_axis);
+  copy(turn_axis_in_view(camera), p.turn_axis);
   p.center_x = static_cast<float>(camera.center_x - frame.crop.x);
   p.center_y = static_cast<float>(camera.center_y - frame.crop.y);
 }

@@ -67,8 +67,8 @@ SplatMemory Projector::splat_memory(std::uint64_t splats) const {
   BufferPool& pool = context_.device.pool;
   SplatMemory memory;
   memory.splats = pool.get<std::byte>(splats * context_.specialization.splat_bytes(), "splat");
-  const bool extended = context_.specialization.is_extended();
-  memory.extended = pool.get<shared::ExtendedSplat>(extended ? splats : 0, "extended splat");
+  memory.extended = pool.get<std::byte>(splats * context_.specialization.extended_splat_bytes(),
+                                        "extended splat");
   return memory;
 }
 

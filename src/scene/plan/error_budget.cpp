@@ -13,16 +13,11 @@ constexpr double fast_tolerance = 3e-4;
 // the peak at sigma 6.
 constexpr double polynomial_erf_tolerance = 3e-5;
 
-// Projections that the extended projection knows; others take single precision.
-bool has_extended_projection(Projection projection) {
-  return !is_wide_angle(projection);
-}
-
 // Roundings have either sign and few clouds are as sharp as the sharpest: errors were an eighth
 // of what the sharpest could do (docs/accuracy.md).
 bool places_exceed_tolerance(const Frame& frame) {
   constexpr double part_of_sharpest = 0.15;
-  if (frame.tolerance >= fast_tolerance || !has_extended_projection(frame.projection)) return false;
+  if (frame.tolerance >= fast_tolerance) return false;
   const double place_error = 0x1p-23 * std::max(frame.crop.width, frame.crop.height);
   return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;
 }
@@ -56,19 +51,16 @@ ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& 
 
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options) {
   ErrorBudget budget;
-  const bool may_extend = has_extended_projection(frame.projection);
   budget.has_sharp_clouds = frame.tolerance > 0 && places_exceed_tolerance(frame);
-  if ((frame.tolerance == 0 && may_extend) || budget.has_sharp_clouds) {
+  if (frame.tolerance == 0 || budget.has_sharp_clouds) {
     budget.precision = Precision::extended;
     budget.uses_device_erf = true;
     budget.shares = extended_shares();
     return budget;
   }
-  // Wide angles have single precision only, and at tolerance 0 do what that can.
   budget.precision = frame.tolerance < fast_tolerance ? Precision::full : Precision::fast;
   budget.uses_device_erf = frame.tolerance < polynomial_erf_tolerance;
-  budget.shares =
-      share_out(frame.tolerance > 0 ? frame.tolerance : extended_tolerance, light, options);
+  budget.shares = share_out(frame.tolerance, light, options);
   return budget;
 }
 

@@ -127,7 +127,7 @@ TEST(Plan, TakesThePrecisionThatTheToleranceNeeds) {
   EXPECT_EQ(precision_at(1e-4), Precision::full);
   EXPECT_EQ(precision_at(0), Precision::extended);
   frame.projection = Projection::fisheye;
-  EXPECT_EQ(precision_at(0), Precision::full) << "wide angles have single precision only";
+  EXPECT_EQ(precision_at(0), Precision::extended);
 }
 
 TEST(Plan, ExplainsItselfByName) {

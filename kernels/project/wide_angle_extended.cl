@@ -1,0 +1,115 @@
+// Where the projections that look in all directions put a particle, in extended numbers
+// (docs/projections.md); wide_angle.cl has the same in single precision.
+
+typedef struct ExtendedWideAngle {
+  Extended x, y;          // pixels from the middle of the picture
+  Extended distance;      // in the lengths of the direction
+  Extended scale;         // pixels per such a length
+  Extended cos_latitude;  // equirectangular
+  int seen;
+} ExtendedWideAngle;
+
+#ifdef EYE_OFFSET
+inline Extended extended_turned(Extended value, Extended across, Extended along, Extended sine,
+                                Extended cosine) {
+  return extended_sum(extended_sum(extended_product(value, cosine), extended_product(across, sine)),
+                      along);
+}
+
+inline Extended extended_minor(Extended a, Extended b, Extended c, Extended d) {
+  return extended_difference(extended_product(a, d), extended_product(b, c));
+}
+
+// Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
+inline void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis) {
+  const Extended one = extended_of(1.0f);
+  const Extended cosine =
+      extended_root(extended_product(extended_difference(one, sine), extended_sum(one, sine)));
+  Extended axis[3], turned[3];
+  for (int i = 0; i < 3; ++i)
+    axis[i] = extended_pair(turn_axis[i]);
+  const Extended projected =
+      extended_sum(extended_sum(extended_product(v[0], axis[0]), extended_product(v[1], axis[1])),
+                   extended_product(v[2], axis[2]));
+  const Extended along = extended_product(projected, extended_difference(one, cosine));
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    turned[i] = extended_turned(v[i], extended_minor(axis[j], axis[k], v[j], v[k]),
+                                extended_product(axis[i], along), sine, cosine);
+  }
+  for (int i = 0; i < 3; ++i)
+    v[i] = turned[i];
+}
+#endif
+
+#if defined(PROJECTION_FISHEYE)
+inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+  const Extended across = extended_hypotenuse(v[0], v[1]);
+  const Extended angle = extended_atan2(across, v[2]);
+  const Extended radius = extended_product(focal, angle);
+  const int off_axis = high_part(across) > 0.0f;
+  place->x = off_axis ? extended_product(extended_quotient(v[0], across), radius) : radius;
+  place->y =
+      off_axis ? extended_product(extended_quotient(v[1], across), radius) : extended_of(0.0f);
+  // A cloud keeps its solid angle; right behind the camera it grows no wider.
+  Extended sine = extended_quotient(across, place->distance);
+  const Extended least_sine = extended_constant(0.1f, -1.49011612e-09f);
+  if (!(high_part(v[2]) > 0.0f) && extended_less(sine, least_sine)) sine = least_sine;
+  if (high_part(sine) > 0.0f) {
+    place->scale = extended_product(place->scale, extended_root(extended_quotient(angle, sine)));
+  }
+}
+#elif defined(PROJECTION_EQUIRECTANGULAR)
+inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+  const Extended level = extended_hypotenuse(v[0], v[2]);
+  place->cos_latitude = extended_quotient(level, place->distance);
+  place->x = extended_product(focal, extended_atan2(v[0], v[2]));
+  place->y = extended_product(focal, extended_atan2(v[1], level));
+}
+#else
+inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+  place->seen &= high_part(v[2]) > 0.0f;
+  place->x = extended_quotient(extended_product(focal, v[0]), v[2]);
+  place->y = extended_quotient(extended_product(focal, v[1]), v[2]);
+  // A cloud keeps its solid angle; beyond the face it grows no wider.
+  Extended cosine = extended_quotient(v[2], place->distance);
+  if (high_part(cosine) < 0.5f) cosine = extended_of(0.5f);
+  place->scale = extended_quotient(place->scale, extended_product(cosine, extended_root(cosine)));
+}
+#endif
+
+// The direction v is right, down, forward; `eye_offset` in the same lengths.
+inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
+                                             const ExtendedParameters e) {
+  ExtendedWideAngle place;
+  place.distance = extended_hypotenuse(extended_hypotenuse(v[0], v[2]), v[1]);
+  place.seen = high_part(place.distance) > 0.0f && high_part(place.distance) <= FLT_MAX;
+#ifdef EYE_OFFSET
+  place.seen &= extended_less(extended_magnitude(eye_offset), place.distance);
+  if (place.seen) extended_turn(v, extended_quotient(eye_offset, place.distance), e.turn_axis);
+#endif
+  const Extended focal = extended_pair(e.pixels_per_length);
+  place.scale = extended_quotient(focal, place.distance);
+  place.cos_latitude = extended_of(1.0f);
+  place_extended(v, focal, &place);
+  return place;
+}
+
+#ifdef ELLIPSES
+// g(u) of sigma_along_x() in wide_angle.cl, relative error 4e-9, for 0 <= u <= 9.
+inline Extended extended_row_length(Extended u) {
+  const Extended gauss = extended_exp(extended_negative(extended_product(u, u)));
+  const Extended tail = extended_product(gauss, extended_constant(0.282094806f, -1.46588457e-08f));
+  const Extended below = extended_scaled(extended_erfc(u), 0.5f);
+  return extended_sum(tail, extended_product(u, extended_difference(extended_of(1.0f), below)));
+}
+
+// The width along x; from u = 9 on g(u) is u.
+inline Extended extended_sigma_along_x(Extended sigma, Extended cos_latitude,
+                                       const ExtendedParameters e) {
+  const Extended focal = extended_pair(e.pixels_per_length);
+  const Extended u = extended_quotient(extended_product(cos_latitude, focal), sigma);
+  if (high_part(u) > 9.0f) return extended_quotient(sigma, cos_latitude);
+  return extended_quotient(focal, extended_row_length(u));
+}
+#endif
