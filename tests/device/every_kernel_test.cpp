@@ -29,8 +29,8 @@ class EveryKernel : public PictureTest, public testing::WithParamInterface<Compo
   }
 
   // The camera among the clouds looks in all directions.
-  static Frame wide_frame(Projection projection) {
-    Frame frame = small_frame(LightPlan::ordered);
+  static Frame wide_frame(Projection projection, int count = 12) {
+    Frame frame = small_frame(LightPlan::ordered, count);
     Camera camera;
     camera.look_at = {{0, 0, 1}};
     camera.projection = projection;
@@ -129,6 +129,19 @@ TEST_P(EveryKernel, LooksInAllDirections) {
     frame.camera.eye_offset = 0.01;
     frame.camera.turn_axis = {{0, 1, 0}};
     expect_within_tolerance(frame, "an eye beside the camera");
+  }
+}
+
+TEST_P(EveryKernel, LooksInAllDirectionsAtToleranceZero) {
+  Renderer pairs({"", GetParam(), false});
+  for (const Projection projection :
+       {Projection::fisheye, Projection::equirectangular, Projection::cube}) {
+    Frame frame = wide_frame(projection, 4);
+    frame.tolerance = 0;
+    expect_within_tolerance(frame, "wide angle");
+    frame.camera.eye_offset = 0.01;
+    frame.camera.turn_axis = {{0, 1, 0}};
+    EXPECT_LE(largest_error(pairs.render(frame), reference::render(frame)), extended_tolerance);
   }
 }
 

@@ -1,0 +1,218 @@
+// How well places and widths in wide angles are known, in single precision and in extended
+// numbers: the bounds of docs/accuracy.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "device/stages.h"
+#include "projections/wide_frames.h"
+#include "splotchcl/stereo.h"
+
+namespace splotchcl::test {
+namespace {
+
+// What the device made of a particle; widths along x are 0 but in panoramas.
+struct Placed {
+  std::uint64_t particle = 0;
+  double x = 0, y = 0, sigma = 0, sigma_x = 0;
+};
+
+// Errors in pixels, those of widths relative.
+struct Errors {
+  double x = 0, y = 0, sigma = 0, sigma_x = 0;
+};
+
+Errors largest(const Errors& a, const Errors& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.sigma, b.sigma),
+          std::max(a.sigma_x, b.sigma_x)};
+}
+
+double number(const float* pair) {
+  return static_cast<double>(pair[0]) + static_cast<double>(pair[1]);
+}
+
+class WideAnglePlaces : public StageTest,
+                        public testing::WithParamInterface<std::tuple<Projection, double>> {
+ protected:
+  void TearDown() override { device().traits.double_numbers = had_doubles_; }
+
+  // Clouds all around the camera, for one eye beside it where the angle is not 0. Lengths are
+  // some of this unit.
+  static Frame clouds_around(int width, double unit) {
+    const auto [projection, eye_angle] = GetParam();
+    Random random(83);
+    std::vector<float> positions;
+    while (positions.size() < 3 * 20000) {
+      const Vec3 at = {{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)}};
+      if (std::hypot(at.a[0], at.a[1], at.a[2]) < 1) continue;
+      for (const double coordinate : at.a)
+        positions.push_back(static_cast<float>(unit * coordinate));
+    }
+    DrawnComponent component;
+    component.particles.count = positions.size() / 3;
+    component.particles.position = Column::owning(positions);
+    component.particles.smoothing_length = Column::uniform(static_cast<float>(0.03 * unit));
+    component.weight = WeightModel::constant;
+    component.reference_column = 1 / unit;
+    // Sums have coarse grids.
+    component.absorption = {Absorption::Kind::gray, 0.2};
+    Camera camera;
+    camera.position = Vec3{{0.1, 0.03, -0.2}} * unit;
+    camera.look_at = Vec3{{0.5, -0.27, 0.6}} * unit;
+    camera.projection = projection;
+    if (projection == Projection::fisheye) camera.field_of_view_degrees = 360;
+    const int height = projection == Projection::equirectangular ? width / 2 : width;
+    Frame frame = frame_of(width, height, {component});
+    frame.projection = projection;
+    frame.camera = make_camera_frame(camera, width, height);
+    Stereo stereo;
+    stereo.angle_degrees = eye_angle;
+    if (eye_angle > 0) frame.camera = eye_camera(frame.camera, projection, stereo, Eye::right);
+    return with_identities(frame);
+  }
+
+  static std::vector<Placed> single_places(Stages& stages) {
+    const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
+    const std::size_t count = stages.keyed().count;
+    const auto values = stages.read_as<float>(stages.keyed().splats.splats, count * words);
+    const double widening = static_cast<double>(stages.plan().splats.widening);
+    std::vector<Placed> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      shared::Splat splat;
+      std::memcpy(&splat, &values[i * words], sizeof(splat));
+      const auto unwidened = [&](float sigma) {
+        const double s = static_cast<double>(sigma);
+        return s < static_cast<double>(stages.plan().splats.mean_sigma)
+                   ? std::abs(s)
+                   : std::sqrt(s * s - widening);
+      };
+      places.push_back({identity_of(splat), static_cast<double>(splat.x),
+                        static_cast<double>(splat.y), unwidened(splat.sigma), 0});
+      const std::size_t after = sizeof(splat) / sizeof(float);
+      if (words > after) places.back().sigma_x = unwidened(values[i * words + after]);
+    }
+    return places;
+  }
+
+  static std::vector<Placed> extended_places(Stages& stages) {
+    const Specialization& variant = stages.context().specialization;
+    const std::size_t words = variant.extended_splat_bytes() / sizeof(float);
+    const std::size_t plain = variant.splat_bytes() / sizeof(float);
+    const std::size_t count = stages.keyed().count;
+    const auto values = stages.read_as<float>(stages.keyed().splats.extended, count * words);
+    const auto rounded = stages.read_as<float>(stages.keyed().splats.splats, count * plain);
+    std::vector<Placed> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      shared::Splat splat;
+      std::memcpy(&splat, &rounded[i * plain], sizeof(splat));
+      const float* own = &values[i * words];
+      places.push_back({identity_of(splat), number(own), number(own + 2), number(own + 4), 0});
+      const std::size_t after = sizeof(shared::ExtendedSplat) / sizeof(float);
+      if (words > after) places.back().sigma_x = number(own + after);
+    }
+    return places;
+  }
+
+  // The largest errors, each as a part of what known_to() allows where a direction errs by
+  // `direction`.
+  static Errors largest_errors(const Frame& frame, const std::vector<Placed>& places,
+                               double direction) {
+    std::multimap<std::uint64_t, reference::Splat> expected;
+    for (const reference::Splat& splat : reference::project(frame))
+      expected.emplace(splat.particle, splat);
+    Errors worst;
+    EXPECT_GT(places.size(), 2000u);
+    for (const Placed& place : places) {
+      const auto [first, last] = expected.equal_range(place.particle);
+      if (first == last) continue;
+      const auto nearest = std::min_element(first, last, [&](const auto& a, const auto& b) {
+        return std::abs(a.second.x - place.x) < std::abs(b.second.x - place.x);
+      });
+      worst = largest(
+          worst, parts_of(known_to(frame, nearest->second, direction), place, nearest->second));
+    }
+    return worst;
+  }
+
+  // The errors of a splat as parts of what they may be.
+  static Errors parts_of(const Errors& may, const Placed& place, const reference::Splat& exact) {
+    Errors parts;
+    parts.x = std::abs(place.x - exact.x) / may.x;
+    parts.y = std::abs(place.y - exact.y) / may.y;
+    parts.sigma = std::abs(place.sigma / exact.sigma - 1) / may.sigma;
+    const double sigma_x = exact.sigma * exact.stretch;
+    if (place.sigma_x > 0) parts.sigma_x = std::abs(place.sigma_x / sigma_x - 1) / may.sigma_x;
+    return parts;
+  }
+
+  // The bounds of docs/accuracy.md, "Wide angles".
+  static Errors known_to(const Frame& frame, const reference::Splat& splat, double direction) {
+    const CameraFrame& camera = frame.camera;
+    const double f = camera.focal_pixels;
+    const double x = splat.x - camera.center_x, y = splat.y - camera.center_y;
+    double along_x = 1, along_y = 1;
+    Errors known;
+    known.sigma = known.sigma_x = direction;
+    if (frame.projection == Projection::equirectangular) {
+      along_x = 1 / std::cos(y / f);
+      known.sigma_x *= along_x;
+    } else if (frame.projection == Projection::fisheye) {
+      const double angle = std::hypot(x, y) / f, sine = std::max(std::sin(angle), 1e-9);
+      along_x = along_y = std::max(1.0, angle / sine);
+      known.sigma /= std::max(sine, 0.1);
+    } else {
+      along_x = along_y = 1 + (x * x + y * y) / (f * f);
+      known.sigma *= 2;
+    }
+    const double rounding = 0.1 * direction;
+    known.x = direction * f * along_x + rounding * (4 * std::abs(x) + std::abs(splat.x));
+    known.y = direction * f * along_y + rounding * (4 * std::abs(y) + std::abs(splat.y));
+    return known;
+  }
+
+ private:
+  bool had_doubles_ = device().traits.double_numbers;
+};
+
+TEST_P(WideAnglePlaces, AreKnownToTheBoundOfSinglePrecision) {
+  for (const int width : {256, 4096}) {
+    const Frame frame = clouds_around(width, 1);
+    Stages stages(device(), frame);
+    stages.project();
+    const Errors e = largest_errors(frame, single_places(stages), 10 * 0x1p-24);
+    EXPECT_LE(std::max({e.x, e.y, e.sigma, e.sigma_x}), 1)
+        << e.x << ", " << e.y << ", widths " << e.sigma << ", " << e.sigma_x;
+  }
+}
+
+TEST_P(WideAnglePlaces, AreKnownToFortyBitsInExtendedNumbers) {
+  for (const bool doubles : {true, false}) {
+    device().traits.double_numbers = doubles;
+    for (const double unit : {1.0, 3e24, 3e-24}) {
+      Frame frame = clouds_around(4096, unit);
+      frame.tolerance = 0;
+      Stages stages(device(), frame);
+      stages.project();
+      const Errors e = largest_errors(frame, extended_places(stages), 0x1p-41);
+      EXPECT_LE(std::max({e.x, e.y, e.sigma}), 1)
+          << e.x << ", " << e.y << ", widths " << e.sigma << ", unit " << unit;
+      // Near the poles exp and erfc count.
+      EXPECT_LE(e.sigma_x * 0x1p-41, 4e-9);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, WideAnglePlaces,
+                         testing::Combine(testing::Values(Projection::fisheye,
+                                                          Projection::equirectangular,
+                                                          Projection::cube),
+                                          testing::Values(0.0, 10.0)));
+
+}  // namespace
+}  // namespace splotchcl::test
