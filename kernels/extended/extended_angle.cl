@@ -11,9 +11,11 @@ inline Extended extended_hypotenuse(Extended a, Extended b) {
   return extended_product(longer, extended_root(extended_sum(extended_of(1.0f), square)));
 }
 
+// Below, extended_atan2(): the angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
 #ifdef DOUBLE_NUMBERS
 inline Extended extended_atan2(Extended y, Extended x) {
-  return atan2(y, x);
+  // Zeros without signs, which would turn a pole by half a turn.
+  return atan2(y + 0.0, x + 0.0);
 }
 #else
 // atan(k / 16), the floats next to it and what they leave.
@@ -56,7 +58,6 @@ inline Extended extended_arctangent(Extended v) {
   return extended_sum(extended_constant(arctangent_high[(int)k], arctangent_low[(int)k]), series);
 }
 
-// The angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
 inline Extended extended_atan2(Extended y, Extended x) {
   const Extended along = extended_magnitude(x), across = extended_magnitude(y);
   const int steep = extended_less(along, across);

@@ -150,8 +150,10 @@ TEST_P(ExtendedNumbers, Atan2) {
                 0x1p-42);
     }
   }
-  EXPECT_EQ(evaluate("extended_atan2(extended_of(x[i]), extended_of(x[i]))", extended_kernel, {0}),
-            std::vector<double>{0});
+  const std::vector<double> both = {0, 0};
+  EXPECT_EQ(evaluate("extended_atan2(extended_of(x[i]), extended_of(x[i]))", extended_kernel,
+                     {0.0f, -0.0f}),
+            both);
 }
 
 TEST_P(ExtendedNumbers, Hypotenuse) {
