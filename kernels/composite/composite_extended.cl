@@ -164,15 +164,15 @@ inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
   batch->high[k * AXES + place] = high_part(value);
   batch->low[k * AXES + place] = low_part(value);
 #ifdef KERNEL_CUT
-  Extended round = d;
+  Extended offset = d;
 #ifdef ELLIPSES
   // As far from the center as in the disc that the ellipse is made of.
   if (is_column) {
-    round =
+    offset =
         extended_quotient(extended_product(d, extended_pair(splat->sigma)), extended_pair(sigma));
   }
 #endif
-  const Extended square = extended_product(round, round);
+  const Extended square = extended_product(offset, offset);
   batch->square_high[k * AXES + place] = high_part(square);
   batch->square_low[k * AXES + place] = low_part(square);
   // The pixel that holds the centre: a pixel begins at its own edge.
