@@ -70,6 +70,7 @@ void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t ta
   parameters.target = target;
   parameters.half_width = static_cast<int>(weights.size() / 2);
   parameters.add = add;
+  static_assert(most_blur_weights == MOST_BLUR_WEIGHTS);
   std::copy(weights.begin(), weights.end(), parameters.weights);
 
   const shared::Grid& from = context_.layout.grids[source];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <vector>
 
 namespace splotchcl {
@@ -16,6 +16,10 @@ double largest_blur(double smallest_sigma, double error);
 
 // The smallest sigma for which a blur gains anything within the error.
 double smallest_blurred_sigma(double error);
+
+// More weights than this no blur has (kernels/resolve): a wider one would cost more than the
+// splats' width that it saves.
+constexpr std::size_t most_blur_weights = 64;
 
 // Weights of one axis for the pixels -n .. n, adding up to 1. What lies beyond n is less
 // than `error` of the light.

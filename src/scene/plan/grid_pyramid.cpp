@@ -44,6 +44,17 @@ double brightest_coarse_peak(const KernelSettings& kernel, double error) {
   return std::min(root * root, error / step);
 }
 
+// Splats of sigma >= smallest_sigma are drawn narrower, where the blur that makes up for it has not
+// too many weights, as it has for tolerances of some 1e-6.
+void choose_blur(double smallest_sigma, GridPyramid& pyramid) {
+  pyramid.blur[0] = largest_blur(smallest_sigma, pyramid.blur_error);
+  pyramid.blur[1] = largest_blur(std::sqrt(2.0) * smallest_sigma, pyramid.blur_error);
+  for (const double sigma2 : {pyramid.blur[0], pyramid.blur[1] - pyramid.blur[0]}) {
+    if (blur_weights(sigma2, pyramid.blur_error).size() > most_blur_weights)
+      pyramid.is_blurred = false;
+  }
+}
+
 // How a relative error of the splats on coarse grids is spent: a fifth on the blur, which
 // needs the least of it, the rest on the interpolation.
 void choose_filters(const KernelSettings& kernel, float mean_sigma, double error,
@@ -58,8 +69,7 @@ void choose_filters(const KernelSettings& kernel, float mean_sigma, double error
   if (pyramid.is_blurred) {
     pyramid.blur_error = blur_part * error;
     smallest_sigma = std::max(smallest_sigma, smallest_blurred_sigma(pyramid.blur_error));
-    pyramid.blur[0] = largest_blur(smallest_sigma, pyramid.blur_error);
-    pyramid.blur[1] = largest_blur(std::sqrt(2.0) * smallest_sigma, pyramid.blur_error);
+    choose_blur(smallest_sigma, pyramid);
   }
   pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
 }

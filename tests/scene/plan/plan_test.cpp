@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "scene/plan/blur_filter.h"
+
 namespace splotchcl {
 namespace {
 
@@ -109,6 +111,21 @@ TEST(Plan, SharesOutTheWholeTolerance) {
                   promise, 1e-15 * promise);
     }
   }
+}
+
+// Smaller tolerances need wider blurs, and the kernels' arguments hold so many weights only.
+TEST(Plan, BlursByNoMoreWeightsThanKernelsTake) {
+  bool blurs = false;
+  for (double tolerance = 1; tolerance > 1e-9; tolerance *= 0.8) {
+    Frame frame = frame_of({component(Kind::none)});
+    frame.tolerance = tolerance;
+    const GridPyramid pyramid = make_plan(frame).pyramid;
+    if (!pyramid.is_blurred) continue;
+    blurs = true;
+    for (const double sigma2 : {pyramid.blur[0], pyramid.blur[1] - pyramid.blur[0]})
+      EXPECT_LE(blur_weights(sigma2, pyramid.blur_error).size(), most_blur_weights) << tolerance;
+  }
+  EXPECT_TRUE(blurs);
 }
 
 TEST(Plan, HasNoCoarseGridsWhereOrderMatters) {
