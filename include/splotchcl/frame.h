@@ -76,21 +76,4 @@ inline std::uint64_t particle_count(const Frame& frame) {
   return count;
 }
 
-// The depth key's constants in binary32, the same for kernel and reference:
-//   d = (p - position_high) - position_low   per axis, p the stored offset
-//   z = (d.x * forward.x + d.y * forward.y) + d.z * forward.z
-// or, for wide angles, the squared distance, in units of a power of two that is near the
-// look-at distance, so that no square leaves binary32:
-//   q = d * inverse_unit                     per axis
-//   z = (q.x * q.x + q.y * q.y) + q.z * q.z
-// every operation rounded to binary32, none contracted. Equal bits are a test.
-struct DepthChain {
-  float position_high[3];
-  float position_low[3];
-  float forward[3];
-  float inverse_unit;
-};
-// For particles whose positions are relative to `origin`.
-DepthChain make_depth_chain(const CameraFrame& camera, const Vec3& origin);
-
 }  // namespace splotchcl

@@ -17,12 +17,14 @@ namespace splotchcl::reference {
 // Positions and widths are in pixels of the whole picture.
 struct Splat {
   double x = 0, y = 0;
-  double sigma = 0;            // after kernel.min_radius, before any pixel averaging
-  double stretch = 1;          // along x the width is stretch * sigma
-  double weight = 0;           // w, divided by the reference column, times intensity
-  double emission[3] = {};     // E of the light model: brightness * palette etc., without w
-  double absorption[3] = {};   // A likewise; E X and A X with X = weight * shape
-  float key = 0;               // the sort key in binary32 (DepthChain, or the field)
+  double sigma = 0;           // after kernel.min_radius, before any pixel averaging
+  double stretch = 1;         // along x the width is stretch * sigma
+  double weight = 0;          // w, divided by the reference column, times intensity
+  double emission[3] = {};    // E of the light model: brightness * palette etc., without w
+  double absorption[3] = {};  // A likewise; E X and A X with X = weight * shape
+  // By which splats are sorted: the depth as 48 bits (docs/accuracy.md), or the bits of the field's
+  // binary32 value, turned so that integers have the order of the values and -0 is +0.
+  std::uint64_t key = 0;
   std::uint64_t particle = 0;  // index over all components, in component and file order
 };
 
@@ -36,7 +38,7 @@ std::vector<Splat> project(const Frame& frame);
 // color of its own < 0.
 std::uint64_t count_bad(const Frame& frame);
 
-// Nearest first as frame.sort says; stable; -0 equals +0.
+// By key, nearest first as frame.sort says; stable.
 void sort(std::vector<Splat>& splats, const SortOrder& order);
 
 // X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two

@@ -11,15 +11,17 @@ typedef struct SplatArrays {
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
 #endif
-  float sort_value[LANES];
+  int unclear[LANES];
+  float sort_field[LANES];
 } SplatArrays;
 
 INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.visible, a->visible);
 #ifdef OUTPUT_KEYS
-  STORE(s.sort_value, a->sort_value);
+  STORE(s.sort_field, a->sort_field);
 #endif
 #ifndef EXTENDED_NUMBERS
+  STORE(s.unclear, a->unclear);
 #ifdef ELLIPSES
   STORE(s.x, a->x);
   STORE(s.radius_x, a->radius_x);
@@ -74,6 +76,20 @@ inline uint count_true(INTEGER mask) {
   return count;
 }
 
+#ifdef OUTPUT_KEYS
+// Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
+inline uint field_key(float value) {
+  const uint bits = as_uint(value == 0.0f ? 0.0f : value);
+  return bits ^ ((bits >> 31) ? 0xffffffffu : 0x80000000u);
+}
+
+// A field has no more than the upper 32 bits.
+inline ulong sort_key(float field, ulong depth_key, const ProjectParameters p) {
+  const ulong key = p.sort_by_field ? (ulong)field_key(field) << 16 : depth_key;
+  return p.sort_descending ? ~key : key;
+}
+#endif
+
 #ifdef VECTOR_COLORS
 #define OWN_COLORS_PARAMETER , __global const float* own_colors
 #else
@@ -88,15 +104,24 @@ inline uint count_true(INTEGER mask) {
 #define EXTENDED_PARAMETERS
 #endif
 
+// Depths are computed as integers only where they order or where they decide.
+#ifdef EXTENDED_NUMBERS
+#define DEPTH_IS_NEEDED(found, k, p) 1
+#elif defined(OUTPUT_KEYS)
+#define DEPTH_IS_NEEDED(found, k, p) (!(p).sort_by_field || (found).unclear[k])
+#else
+#define DEPTH_IS_NEEDED(found, k, p) ((found).unclear[k])
+#endif
+
 // counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
-// splats are written from offsets[b] on; with OUTPUT_KEYS their sort keys and identity
-// permutation, too.
+// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
+// the 16 bits below them where depths are keys, and the identity permutation, too.
 __kernel void project(const ProjectParameters p, __global const Grid* grids,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const uint* offsets, __global BlockCounts* counts,
-                      __global Splat* splats, __global uint* keys,
+                      __global Splat* splats, __global uint* keys, __global ushort* key_ends,
                       __global uint* order OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
   Columns columns;
   columns.positions = positions;
@@ -122,6 +147,12 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
     spread(lanes, &found);
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
+      Depth depth = {0, 1};
+      if (DEPTH_IS_NEEDED(found, k, p)) {
+        depth = depth_of(positions + (size_t)(i + k) * 3, p.depth_key);
+        const float h = smoothing_lengths[(size_t)(i + k) * p.smoothing_length_stride];
+        if (!is_within_limits(depth, h, p.depth_key)) continue;
+      }
 #ifdef EXTENDED_NUMBERS
       Splat rounded;
       ExtendedSplat extended;
@@ -157,7 +188,9 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-        keys[slot] = sort_key(found.sort_value[k], p.sort_descending);
+        const ulong key = sort_key(found.sort_field[k], depth.key, p);
+        keys[slot] = (uint)(key >> 16);
+        if (!p.sort_by_field) key_ends[slot] = (ushort)key;
         order[slot] = slot;
 #endif
         ++slot;

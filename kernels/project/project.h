@@ -17,9 +17,25 @@ struct FieldScaling {
   float inverse_range;         // 0 where the range is empty
 };
 
+// An integer of 64 bits.
+struct WideInteger {
+  unsigned int low, high;
+};
+
+// What depth keys are made from (src/scene/depth_key.h, DepthKeyScale).
+struct DepthKeyParameters {
+  struct WideInteger origin_from_camera[3];
+  struct WideInteger forward[3];
+  int finest_unit, unit;
+  int perspective;
+  struct WideInteger near_key, far_key;
+  struct WideInteger near_factor;  // 0: near_key holds
+  int near_exponent;
+};
+
 // Constants of the projection of one component.
 struct ProjectParameters {
-  // The depth chain (frame.h).
+  // The camera relative to the component's origin, as a sum of two.
   float position_high[3];
   float position_low[3];
   float forward[3];
@@ -35,9 +51,13 @@ struct ProjectParameters {
   float eye_offset;    // of an eye beside the camera, in wide angles
   float turn_axis[3];  // of its head: right, down, forward
 
+  // In single precision; where that cannot tell, keys decide.
   float near_limit;   // z below is left out
   float near_factor;  // z below near_factor * h is left out
   float far_limit;
+  float least_depth;     // in perspective all that is drawn is at least that far away
+  float depth_rounding;  // of z, beside what follows from the particle's own place
+  struct DepthKeyParameters depth_key;
 
   float size_factor;
   float kernel_width;  // sigma = kernel_width * h
@@ -95,8 +115,6 @@ struct ExtendedParameters {
   struct FloatPair center_x, center_y;                // of the whole picture
   float crop_x, crop_y;                               // the crop's corner in it
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
-  struct FloatPair near_limit, far_limit, near_factor;
-  int has_near_limit, has_far_limit;
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
   struct FloatPair weight_scale;  // as in ProjectParameters
   struct FloatPair color_minimum, color_inverse_range;
@@ -107,6 +125,8 @@ struct ExtendedParameters {
 
 #ifdef __OPENCL_VERSION__
 typedef struct FieldScaling FieldScaling;
+typedef struct WideInteger WideInteger;
+typedef struct DepthKeyParameters DepthKeyParameters;
 typedef struct ProjectParameters ProjectParameters;
 typedef struct BlockCounts BlockCounts;
 typedef struct ExtendedParameters ExtendedParameters;

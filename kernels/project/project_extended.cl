@@ -1,10 +1,9 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
-// those of project.cl, which finds the bad particles and the sort keys.
+// those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
 
 // Where the camera sees a particle.
 typedef struct ExtendedPlace {
   Extended x, y;   // pixels of the whole picture
-  Extended depth;  // z, or the distance
   Extended scale;  // pixels per length of a width
   int seen;
 #ifdef ELLIPSES
@@ -41,7 +40,6 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   Extended d[3], v[3];
   extended_offset(position, e, d);
   const int exponent = exponent_of_largest(d);
-  const float unit = extended_power_of_two(exponent);
   const float per_unit = extended_power_of_two(-exponent);
   for (int axis = 0; axis < 3; ++axis)
     d[axis] = extended_scaled(d[axis], per_unit);
@@ -53,7 +51,6 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   ExtendedPlace place;
   place.x = extended_sum(extended_pair(e.center_x), seen.x);
   place.y = extended_sum(extended_pair(e.center_y), seen.y);
-  place.depth = extended_scaled(seen.distance, unit);
   place.scale = extended_scaled(seen.scale, per_unit);
   place.seen = seen.seen;
 #ifdef ELLIPSES
@@ -67,10 +64,14 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   Extended d[3];
   extended_offset(position, e, d);
   ExtendedPlace place;
-  place.depth = extended_dot(d, e.forward);
-  place.seen = !p.perspective || high_part(place.depth) > 0.0f;
+  place.seen = 1;
   place.scale = extended_pair(e.pixels_per_length);
-  if (p.perspective) place.scale = extended_quotient(place.scale, place.depth);
+  if (p.perspective) {
+    // Depths have been compared with the limits as keys, and may be 0 here.
+    Extended depth = extended_dot(d, e.forward);
+    if (high_part(depth) < p.least_depth) depth = extended_of(p.least_depth);
+    place.scale = extended_quotient(place.scale, depth);
+  }
   place.x = extended_sum(extended_pair(e.center_x),
                          extended_product(extended_dot(d, e.right), place.scale));
   place.y = extended_sum(extended_pair(e.center_y),
@@ -78,18 +79,6 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   return place;
 }
 #endif
-
-inline int is_within_limits(Extended z, Extended h, const ProjectParameters p,
-                            const ExtendedParameters e) {
-  if (p.perspective && !(high_part(z) > 0.0f)) return 0;
-  if (e.has_near_limit) {
-    if (extended_less(z, extended_pair(e.near_limit))) return 0;
-  } else if (extended_less(z, p.perspective ? extended_product(extended_pair(e.near_factor), h)
-                                            : extended_of(0.0f))) {
-    return 0;
-  }
-  return !e.has_far_limit || !extended_less(extended_pair(e.far_limit), z);
-}
 
 // In [0, 1] (frame.h, ScalarMap).
 inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
@@ -241,8 +230,6 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
   const Extended raw_h =
       extended_of(columns.smoothing_lengths[(size_t)i * p.smoothing_length_stride]);
   const Extended h = extended_product(raw_h, extended_pair(e.size_factor));
-  if (!is_within_limits(place.depth, h, p, e)) return 0;
-
   const Extended width = extended_pair(e.kernel_width);
   const Extended h_pixels = extended_product(h, place.scale);
   Extended h_drawn = h_pixels;

@@ -3,6 +3,7 @@
 
 typedef struct SplatLanes {
   INTEGER visible, bad;
+  INTEGER unclear;  // of the visible: those whose depth key decides
   INTEGER grid;
   VALUE x, y, sigma, radius, weight, color;
 #ifdef ELLIPSES
@@ -11,7 +12,7 @@ typedef struct SplatLanes {
 #ifdef VECTOR_COLORS
   Vectors own_color;
 #endif
-  VALUE sort_value;
+  VALUE sort_field;
 } SplatLanes;
 
 // Widths in the picture's pixels, before any pixel mean is taken.
@@ -40,10 +41,9 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
 // Rejection before fields are scaled: seven sigma reach beyond the truncation of any
 // amplitude that single precision can hold against the smallest tolerance.
 INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
-                            float height, const ProjectParameters p) {
+                            float height) {
   const VALUE reach = 7.0f * widths.sigma + 2.0f;
-  INTEGER seen = is_within_depth(view.depth, widths.h, p) & (view.y + reach >= 0.0f) &
-                 (view.y - reach <= height);
+  INTEGER seen = (view.y + reach >= 0.0f) & (view.y - reach <= height);
 #ifdef WIDE_ANGLE
   seen &= view.seen;
 #endif
@@ -221,7 +221,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const ParticleLanes particles = load_particles(columns, i, end, p);
   const ViewLanes view = view_particles(particles, p);
   const INTEGER good = are_good(particles, view.offset);
-  s.sort_value = view.sort_value;
+  s.sort_field = particles.sort_field;
   s.bad = particles.exists & (good == 0);
   const WidthLanes widths = find_widths(particles.h, view, p);
   const float width = (float)grids[0].width, height = (float)grids[0].height;
@@ -229,7 +229,10 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height, p);
   return s;
 #else
-  s.visible = particles.exists & good & may_be_seen(view, widths, width, height, p);
+  const LimitLanes limits = compare_with_limits(view, widths.h, p);
+  s.unclear = limits.unclear;
+  s.visible =
+      particles.exists & good & limits.may_be_within & may_be_seen(view, widths, width, height);
   if (!ANY(s.visible)) return s;
 
   VALUE weight =

@@ -52,3 +52,91 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
     sorted_values[place] = values[i];
   }
 }
+
+// Keys of 48 bits come as 32 upper bits, which are sorted as above, and as ends: the 16 bits below
+// them, of which most keys need none. ends[v] belongs to value v, wherever that is.
+
+// The bits that are set in some and in all of a block's keys.
+__kernel void sort_bits(const SortParameters p, __global const uint* keys, __global KeyBits* bits) {
+  const uint block = get_global_id(0);
+  const uint begin = block * p.block_length;
+  const uint end = min(begin + p.block_length, p.count);
+  uint some = 0, all = ~0u;
+  for (uint i = begin; i < end; ++i) {
+    some |= keys[i];
+    all &= keys[i];
+  }
+  bits[block].some = some;
+  bits[block].all = all;
+}
+
+// Where all keys share their upper bits, as many of their ends' take their place: all but the
+// lowest `shift`. Values are still in their first order.
+__kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
+                                __global uint* keys) {
+  const uint block = get_global_id(0);
+  const uint begin = block * p.block_length;
+  const uint end = min(begin + p.block_length, p.count);
+  for (uint i = begin; i < end; ++i)
+    keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[i] >> p.shift);
+}
+
+inline int run_is_in_order(__global const ushort* ends, __global const uint* values, uint length) {
+  for (uint i = 1; i < length; ++i) {
+    if (ends[values[i]] < ends[values[i - 1]]) return 0;
+  }
+  return 1;
+}
+
+inline void sort_short_run(__global const ushort* ends, __global uint* values, uint length) {
+  for (uint i = 1; i < length; ++i) {
+    const uint value = values[i];
+    const ushort key_end = ends[value];
+    uint place = i;
+    for (; place > 0 && ends[values[place - 1]] > key_end; --place)
+      values[place] = values[place - 1];
+    values[place] = value;
+  }
+}
+
+// One pass of a stable radix sort.
+inline void sort_run_by_digit(__global const ushort* ends, __global const uint* from,
+                              __global uint* to, uint length, uint shift) {
+  uint next[SORT_DIGITS];
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    next[d] = 0;
+  for (uint i = 0; i < length; ++i)
+    ++next[(ends[from[i]] >> shift) & (SORT_DIGITS - 1)];
+  uint running = 0;
+  for (uint d = 0; d < SORT_DIGITS; ++d) {
+    const uint count = next[d];
+    next[d] = running;
+    running += count;
+  }
+  for (uint i = 0; i < length; ++i)
+    to[next[(ends[from[i]] >> shift) & (SORT_DIGITS - 1)]++] = from[i];
+}
+
+// Puts each run of equal sorted keys into the order of their ends. The block in which a run begins
+// has all of it. `scratch` is as long as `values`.
+__kernel void sort_runs(const SortParameters p, __global const uint* keys,
+                        __global const ushort* ends, __global uint* values,
+                        __global uint* scratch) {
+  const uint block = get_global_id(0);
+  const uint begin = block * p.block_length;
+  const uint end = min(begin + p.block_length, p.count);
+  for (uint i = begin; i < end; ++i) {
+    const uint key = keys[i];
+    if (i + 1 == p.count || keys[i + 1] != key || (i > 0 && keys[i - 1] == key)) continue;
+    uint length = 2;
+    while (i + length < p.count && keys[i + length] == key)
+      ++length;
+    if (run_is_in_order(ends, values + i, length)) continue;
+    if (length <= SORT_SHORT_RUN) {
+      sort_short_run(ends, values + i, length);
+    } else {
+      sort_run_by_digit(ends, values + i, scratch + i, length, 0);
+      sort_run_by_digit(ends, scratch + i, values + i, length, SORT_DIGIT_BITS);
+    }
+  }
+}

@@ -5,12 +5,15 @@
 #define SORT_DIGIT_BITS 8
 #define SORT_DIGITS (1 << SORT_DIGIT_BITS)
 
+// Runs of equal keys up to this length are ordered by comparing.
+#define SORT_SHORT_RUN 32
+
 // One pass over one digit.
 struct SortParameters {
   unsigned int count;         // pairs
   unsigned int block_length;  // pairs per work-item
   unsigned int block_count;
-  unsigned int shift;  // of the digit, in bits
+  unsigned int shift;  // of the digit, in bits; of the ends' bits that a key takes in
 };
 
 // The bits that are set in some keys of a block, and in all of them.

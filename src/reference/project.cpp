@@ -1,11 +1,13 @@
 // The rules for particles are written out here once more, on purpose: what src/scene and the
-// kernels say of bad particles, the near limit and weights is tested against this file.
+// kernels say of bad particles and weights is tested against this file.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <optional>
 
+#include "reference/depth_key.h"
 #include "scene/projection.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/reference.h"
@@ -67,12 +69,6 @@ Vec3 from_camera(const Particle& p, const Vec3& origin, const CameraFrame& camer
   return {{along(camera.right), along(camera.down), along(camera.forward)}};
 }
 
-bool is_within_limits(double depth, double h, const Frame& frame) {
-  const bool flat = frame.projection == Projection::orthographic;
-  if (depth < frame.near_limit.value_or(flat ? 0.0 : 0.1 * h)) return false;
-  return !frame.far_limit || depth <= *frame.far_limit;
-}
-
 // w as WeightModel defines it, for a particle of this mass or density (constant: a factor).
 double column_through_center(WeightModel model, double value, double h, double sigma) {
   constexpr double pi = 3.14159265358979323846;
@@ -124,19 +120,12 @@ void color_splat(Splat& splat, const Particle& p, const DrawnComponent& componen
   }
 }
 
-// The same operations in the same order as the kernel's, each rounded to binary32:
-// this file is compiled without contraction.
-float depth_key(const float position[3], const DepthChain& chain, bool by_distance) {
-  float d[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    d[axis] = (position[axis] - chain.position_high[axis]) - chain.position_low[axis];
-  }
-  if (!by_distance) {
-    return (d[0] * chain.forward[0] + d[1] * chain.forward[1]) + d[2] * chain.forward[2];
-  }
-  for (float& axis : d)
-    axis *= chain.inverse_unit;
-  return (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
+// The bits of a field's value, turned so that unsigned integers have the order of the values.
+std::uint64_t field_key(float value) {
+  if (value == 0) value = 0;  // -0 as well
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
 Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnComponent& component,
@@ -178,19 +167,19 @@ void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
 void project_component(const DrawnComponent& component, const Frame& frame,
                        std::uint64_t first_particle, std::vector<Splat>& splats) {
   const Particles& particles = component.particles;
-  const DepthChain chain = make_depth_chain(frame.camera, particles.origin);
+  const DepthKeyScale depths = make_depth_key_scale(frame, component);
   for (std::size_t i = 0; i < particles.count; ++i) {
     const Particle p = particle_at(particles, i);
     if (is_bad(p)) continue;
-    const double h = component.size_factor * static_cast<double>(p.smoothing_length);
+    const Depth depth = depth_of(p.position, depths);
+    if (!is_within_limits(depth, p.smoothing_length, depths)) continue;
     const std::optional<Projected> place = project_point(
         from_camera(p, particles.origin, frame.camera), frame.camera, frame.projection);
-    if (!place || !is_within_limits(place->depth, h, frame)) continue;
+    if (!place) continue;
 
+    const double h = component.size_factor * static_cast<double>(p.smoothing_length);
     Splat splat = splat_of(p, *place, h, component, frame);
-    splat.key = frame.sort.by == SortOrder::By::depth
-                    ? depth_key(p.position, chain, is_wide_angle(frame.projection))
-                    : p.sort_field;
+    splat.key = frame.sort.by == SortOrder::By::depth ? depth.key : field_key(p.sort_field);
     splat.particle = first_particle + i;
     if (frame.projection == Projection::equirectangular) {
       push_copies(splat, frame, splats);

@@ -4,7 +4,6 @@
 
 namespace splotchcl::reference {
 
-// Comparing floats makes -0 equal to +0; bad keys never get here (project).
 void sort(std::vector<Splat>& splats, const SortOrder& order) {
   if (order.descending) {
     std::stable_sort(splats.begin(), splats.end(),

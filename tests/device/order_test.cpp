@@ -1,6 +1,7 @@
 // Project and sort together give the oracle's order, index for index.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "device/stages.h"
@@ -74,6 +75,65 @@ TEST_F(Order, IsTheOraclesByAField) {
     Frame frame = frame_of(50, 50, {component});
     frame.sort = {SortOrder::By::field, "key", descending};
     expect_order_of_the_oracle(device(), frame);
+  }
+}
+
+// Two clouds on the view axis, the farther one first in the file, `step` behind the nearer one.
+// `origin` is where their component's positions start.
+Frame two_clouds(Projection projection, double distance, double step, const Vec3& origin) {
+  DrawnComponent clouds = component_of({{0, 0, step}, {0, 0, 0}}, two_colors());
+  clouds.particles.origin = origin;
+  clouds.particles.smoothing_length = Column::uniform(static_cast<float>(0.01 * distance));
+  Camera camera;
+  camera.look_at = origin;
+  camera.position = origin - Vec3{{0, 0, 1}} * distance;
+  camera.projection = projection;
+  Frame frame = frame_of(50, 50, {clouds});
+  frame.projection = projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  return frame;
+}
+
+TEST_F(Order, IsRightForDepthsThatSinglePrecisionCannotTell) {
+  for (const Projection projection :
+       {Projection::perspective, Projection::orthographic, Projection::fisheye, Projection::cube}) {
+    for (const double scale : {1e-18, 1.0, 1e18}) {
+      const Frame frame =
+          two_clouds(projection, 1e5 * scale, 1e-3 * scale, Vec3{{1e4, 1e4, 1e4}} * scale);
+      Stages stages(device(), with_identities(frame));
+      EXPECT_EQ(stages.sorted_particles(), (std::vector<std::uint64_t>{1, 0}))
+          << static_cast<int>(projection) << ", " << scale;
+    }
+  }
+}
+
+TEST_F(Order, IsRightFarFromTheCoordinatesZero) {
+  for (const Projection projection : {Projection::perspective, Projection::fisheye}) {
+    const Frame frame = two_clouds(projection, 1e5, 1e-3, {{1e9, -1e9, 1e9}});
+    Stages stages(device(), with_identities(frame));
+    EXPECT_EQ(stages.sorted_particles(), (std::vector<std::uint64_t>{1, 0}));
+  }
+}
+
+// Whatever else there is in the scene.
+TEST_F(Order, IsRightBesideACloudFarAway) {
+  Frame frame = two_clouds(Projection::perspective, 1e5, 1e-3, {{1e4, 1e4, 1e4}});
+  frame.components.push_back(component_of({{0, 0, 1e30}}, two_colors()));
+  Stages stages(device(), with_identities(frame));
+  EXPECT_EQ(stages.sorted_particles().front(), 1u);
+}
+
+TEST_F(Order, OfACropIsThePictures) {
+  Frame frame = with_identities(frame_of(50, 50, {clouds_at(any_depth, 3001, 8)}));
+  const std::vector<std::uint64_t> all = Stages(device(), frame).sorted_particles();
+  frame.crop = {20, 10, 7, 9};
+  const std::vector<std::uint64_t> crop = Stages(device(), frame).sorted_particles();
+  ASSERT_GT(crop.size(), 10u);
+  ASSERT_LT(crop.size(), all.size());
+  auto next = all.begin();
+  for (const std::uint64_t particle : crop) {
+    next = std::find(next, all.end(), particle);
+    ASSERT_NE(next, all.end()) << "particle " << particle << " comes too early";
   }
 }
 

@@ -1,7 +1,7 @@
 // The sort keys of the stage `project` are the oracle's, bit for bit.
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,13 +11,11 @@
 namespace splotchcl::test {
 namespace {
 
-// The rule for keys: unsigned integers in the order of the floats, with -0 as +0.
-std::uint32_t ordered_bits(float value, bool descending) {
-  if (value == 0) value = 0;
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  const std::uint32_t ordered = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
-  return descending ? ~ordered : ordered;
+// The oracle's key as the device sorts it: smaller ones in front.
+std::uint64_t ascending(std::uint64_t key, const SortOrder& sort) {
+  const int bits = sort.by == SortOrder::By::depth ? 48 : 32;
+  const std::uint64_t largest = (std::uint64_t{1} << bits) - 1;
+  return sort.descending ? largest - key : key;
 }
 
 // Positions within `radius` of `centre`, stored relative to `origin`.
@@ -59,11 +57,11 @@ void expect_keys_of_the_oracle(DeviceContext& device, const Frame& frame, bool l
   stages.project();
   const std::vector<reference::Splat> expected = reference::project(stages.frame());
   const std::vector<shared::Splat> splats = stages.splats();
-  const std::vector<std::uint32_t> keys = stages.keys();
+  const std::vector<std::uint64_t> keys = stages.keys();
   ASSERT_EQ(splats.size(), expected.size()) << "every particle should be in view";
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(identity_of(splats[i]), expected[i].particle);
-    ASSERT_EQ(keys[i], ordered_bits(expected[i].key, frame.sort.descending))
+    ASSERT_EQ(keys[i], ascending(expected[i].key, frame.sort))
         << "particle " << expected[i].particle << ", key " << expected[i].key;
   }
 }
@@ -124,10 +122,49 @@ TEST_P(ProjectKeys, AreOneKeyForDepthsOfMinusAndPlusZero) {
   frame = with_identities(frame);
   Stages stages(device(), frame, GetParam());
   stages.project();
-  const std::vector<std::uint32_t> keys = stages.keys();
+  const std::vector<std::uint64_t> keys = stages.keys();
   ASSERT_EQ(keys.size(), 2u);
   EXPECT_EQ(keys[0], keys[1]);
   expect(frame);
+}
+
+// Components with origins of their own, in a camera's box of any size, seen from anywhere.
+Frame random_scene(Random& random, Projection projection, double size, double distance) {
+  const Vec3 center = Vec3{{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}} *
+                      (size * random.logarithmic(1e-3, 1e6));
+  std::vector<DrawnComponent> components;
+  for (const double origin : {0.0, 1.0, random.uniform(0, 2)}) {
+    const auto seed = static_cast<std::uint64_t>(random.uniform(0, 1e6));
+    components.push_back(ball(center, size, center * origin, 203, seed));
+  }
+  Frame frame = seen_from(center, distance * size, projection, components);
+  frame.sort.descending = random.uniform() < 0.5;
+  return frame;
+}
+
+TEST_P(ProjectKeys, EqualTheOraclesInScenesOfAnySize) {
+  Random random(12);
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    for (const double size : {1e-18, 1e-9, 1e-3, 1.0, 3e5, 1e12, 3e18})
+      expect(random_scene(random, projection, size, 3));
+  }
+}
+
+// A cloud so far away that positions relative to it would have no digits left for the others.
+TEST_P(ProjectKeys, EqualTheOraclesBesideACloudFarAway) {
+  for (const float distance : {1e6f, 1e12f, 1e19f, 1e30f, 3e38f}) {
+    DrawnComponent component = ball({{0, 0, 0}}, 1, {{0, 0, 0}}, 1000, 8);
+    std::vector<float> positions(component.particles.position.data(),
+                                 component.particles.position.data() + 3000);
+    positions.insert(positions.begin(), {0, 0, distance});
+    component.particles.position = Column::owning(positions);
+    component.particles.count = 1001;
+    Frame frame = frame_of(200, 200, {component});
+    frame.camera.position = {{0.1, 0.2, -3}};
+    frame.camera.focal_pixels = 50;
+    frame.projection = Projection::perspective;
+    expect(with_identities(frame));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lanes, ProjectKeys, testing::Bool(), [](const auto& info) {

@@ -1,7 +1,9 @@
 // Which particles the near and far limits leave out: those that the oracle leaves out.
 #include <gtest/gtest.h>
 
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -11,6 +13,8 @@
 
 namespace splotchcl::test {
 namespace {
+
+using namespace boost::qvm;
 
 // Particles on the view axis at these depths.
 Frame frame_at_depths(const std::vector<float>& depths, Projection projection, float h) {
@@ -89,6 +93,95 @@ TEST_P(ProjectLimits, HoldWhereSinglePrecisionCannotStoreThem) {
     frame.near_limit.reset();
     frame.far_limit = limit;
     expect_particles_of_the_oracle(frame);
+  }
+}
+
+// Clouds around the camera, all of which lie at its near limit or its far limit to within what
+// positions in single precision can tell.
+Frame shell_at_limits(Projection projection, std::uint64_t seed) {
+  Random random(seed);
+  const Vec3 origin = Vec3{{1, -2, 3}} * random.logarithmic(1e-6, 1e6);
+  const double distance = random.logarithmic(1e-3, 1e3);
+  Camera camera;
+  camera.position = origin + Vec3{{0.3, 0.2, -0.1}} * distance;
+  camera.look_at = camera.position + Vec3{{0.4, -0.3, 0.8}} * (2 * distance);
+  camera.projection = projection;
+  const CameraFrame axes = make_camera_frame(camera, 40, 40);
+  std::vector<float> positions;
+  for (int i = 0; i < 400; ++i) {
+    const double far_away = i % 2 == 0 ? 1 : 1.5;
+    const double x = random.uniform(-0.2, 0.2), y = random.uniform(-0.2, 0.2);
+    Vec3 place = axes.right * x + axes.down * y + axes.forward * far_away;
+    if (is_wide_angle(projection))
+      place *= far_away / std::sqrt(x * x + y * y + far_away * far_away);
+    place = camera.position + place * (distance * (1 + random.uniform(-2e-7, 2e-7)));
+    for (int axis = 0; axis < 3; ++axis)
+      positions.push_back(static_cast<float>(place.a[axis] - origin.a[axis]));
+  }
+  DrawnComponent component;
+  component.particles.count = positions.size() / 3;
+  component.particles.origin = origin;
+  component.particles.position = Column::owning(positions);
+  component.particles.smoothing_length = Column::uniform(static_cast<float>(0.1 * distance));
+  Frame frame = frame_of(40, 40, {component});
+  frame.projection = projection;
+  frame.camera = axes;
+  frame.near_limit = distance;
+  frame.far_limit = 1.5 * distance;
+  return with_identities(frame);
+}
+
+constexpr Projection projections[] = {Projection::perspective, Projection::orthographic,
+                                      Projection::fisheye, Projection::cube};
+
+TEST_P(ProjectLimits, HoldWhereSinglePrecisionCannotTell) {
+  for (const Projection projection : projections) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+      expect_particles_of_the_oracle(shell_at_limits(projection, seed));
+  }
+}
+
+TEST_P(ProjectLimits, HoldInExtendedPrecision) {
+  for (const Projection projection : projections) {
+    Frame frame = shell_at_limits(projection, 11);
+    frame.tolerance = 0;
+    expect_particles_of_the_oracle(frame);
+  }
+}
+
+// The nearest that a cloud may be follows from its own width.
+TEST_P(ProjectLimits, HoldForSmoothingLengthsThatReachTheCamera) {
+  for (const Projection projection : projections) {
+    Frame frame = shell_at_limits(projection, 12);
+    DrawnComponent& component = frame.components.front();
+    Random random(13);
+    std::vector<float> lengths;
+    for (std::size_t i = 0; i < component.particles.count; ++i) {
+      lengths.push_back(static_cast<float>(*frame.near_limit * (i % 2 == 0 ? 1 : 1.5) *
+                                           (1 + random.uniform(-2e-7, 2e-7))));
+    }
+    component.particles.smoothing_length = Column::owning(lengths);
+    component.size_factor = 10;
+    frame.near_limit.reset();
+    frame.far_limit.reset();
+    expect_particles_of_the_oracle(frame);
+  }
+}
+
+// A cloud exactly at a limit is drawn, one that is the least bit beyond it is not.
+TEST_P(ProjectLimits, TellOneFloatFromTheNext) {
+  for (const Projection projection : projections) {
+    for (const float limit : {0.1f, 0.7f, 3e5f}) {
+      Frame frame = frame_at_depths(around(limit), projection, 0.01f * limit);
+      frame.camera.look_at_distance = 2.0 * static_cast<double>(limit);
+      frame.near_limit = limit;
+      expect_particles_of_the_oracle(frame);
+      EXPECT_EQ(reference::project(frame).size(), 3u) << limit;
+      frame.near_limit.reset();
+      frame.far_limit = limit;
+      expect_particles_of_the_oracle(frame);
+      EXPECT_EQ(reference::project(frame).size(), 3u) << limit;
+    }
   }
 }
 

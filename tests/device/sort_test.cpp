@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -84,6 +85,76 @@ TEST(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
     EXPECT_EQ(device_order(keys), stable_order(keys)) << "but for one key, " << shared;
   }
   EXPECT_EQ(device_order(Keys(5000, 77u)), stable_order(Keys(5000, 77u)));
+}
+
+// Keys of 48 bits: 32 upper ones, and the ends below them.
+using LongKeys = std::vector<std::uint64_t>;
+
+Keys stable_order(const LongKeys& keys) {
+  Keys order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+Keys device_order(const LongKeys& keys) {
+  DeviceContext device(choose_device(""));
+  const auto count = static_cast<std::uint32_t>(keys.size());
+  Keys upper(keys.size()), order(keys.size());
+  std::vector<std::uint16_t> ends(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    upper[i] = static_cast<std::uint32_t>(keys[i] >> 16);
+    ends[i] = static_cast<std::uint16_t>(keys[i] & 0xffffu);
+  }
+  std::iota(order.begin(), order.end(), 0u);
+  const Buffer<std::uint32_t> sorted =
+      Sorter(device).sort(device.pool.upload(upper, "keys"), device.pool.upload(ends, "ends"),
+                          device.pool.upload(order, "order"), count);
+  return device.pool.download(sorted, count);
+}
+
+// Numbers below 2^bits.
+LongKeys random_long_keys(std::size_t count, int bits) {
+  Random random(8);
+  LongKeys keys(count);
+  for (std::uint64_t& key : keys)
+    key = static_cast<std::uint64_t>(random.uniform(0, std::ldexp(1.0, bits)));
+  return keys;
+}
+
+TEST(SortOfLongKeys, GivesTheStableOrderIndexForIndex) {
+  for (const std::size_t count : {0ul, 1ul, 2ul, 1025ul, 300007ul}) {
+    const LongKeys keys = random_long_keys(count, 48);
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << count;
+  }
+}
+
+// The fewer upper bits differ, the more of the ends take their place.
+TEST(SortOfLongKeys, DoesWithAnyUpperBitsThatAllKeysShare) {
+  for (int bits = 1; bits < 48; ++bits) {
+    LongKeys keys = random_long_keys(3000, bits);
+    for (std::uint64_t& key : keys)
+      key += std::uint64_t{1} << bits;
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << bits;
+  }
+  EXPECT_EQ(device_order(LongKeys(5000, 77u)), stable_order(LongKeys(5000, 77u)));
+}
+
+// Runs of equal upper bits of any length, some of them across the blocks of the sort.
+TEST(SortOfLongKeys, OrdersRunsOfEqualUpperBits) {
+  for (const double runs : {1.0, 2.0, 50.0, 1000.0, 20000.0}) {
+    for (const double ends : {1.0, 3.0, 65536.0}) {
+      Random random(9);
+      LongKeys keys(40000);
+      for (std::uint64_t& key : keys) {
+        const auto upper = static_cast<std::uint64_t>(random.uniform(0, runs));
+        key = upper << 16 | static_cast<std::uint64_t>(random.uniform(0, ends));
+      }
+      keys.front() = std::uint64_t{1} << 47;  // so that no end takes part in the radix sort
+      EXPECT_EQ(device_order(keys), stable_order(keys)) << runs << " runs, " << ends << " ends";
+    }
+  }
 }
 
 }  // namespace

@@ -70,7 +70,16 @@ class Stages {
   void project() { keyed_ = pipeline_->project_all(); }
   // After project().
   std::vector<shared::Splat> splats() { return splats(keyed_.splats, keyed_.count); }
-  std::vector<std::uint32_t> keys() { return read(keyed_.keys, keyed_.count); }
+  // As the sort has them: of 48 bits, or of 32 where a field is the key.
+  std::vector<std::uint64_t> keys() {
+    const std::vector<std::uint32_t> upper = read(keyed_.keys, keyed_.count);
+    std::vector<std::uint64_t> keys(upper.begin(), upper.end());
+    if (frame_.sort.by == SortOrder::By::field) return keys;
+    const std::vector<std::uint16_t> ends = read(keyed_.key_ends, keyed_.count);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      keys[i] = keys[i] << 16 | ends[i];
+    return keys;
+  }
   const KeyedSplats& keyed() const { return keyed_; }
 
   // The particles in the device's order, nearest first.

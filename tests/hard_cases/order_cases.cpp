@@ -100,6 +100,59 @@ Frame shuffled_ties(LightPlan plan) {
   return frame_of_clouds(clouds, plan);
 }
 
+// A camera that looks along +z at `origin` from this distance; widths and positions are relative.
+Frame seen_from_afar(const Vec3& origin, double distance, DrawnComponent clouds, LightPlan plan) {
+  Camera camera;
+  camera.look_at = origin;
+  camera.position = {{origin.a[0], origin.a[1], origin.a[2] - distance}};
+  camera.sky = {{0, -1, 0}};
+  // A length of 1 at the look-at point is a pixel.
+  camera.field_of_view_degrees = 2 * std::atan(0.5 * side / distance) * 180 / pi;
+  clouds.particles.origin = origin;
+  return lit(seen_by(camera, side, side, {clouds}), plan);
+}
+
+// Clouds 1e-8 of their distance apart, the farthest first in the file.
+Frame depths_beyond_floats(LightPlan plan) {
+  std::vector<Cloud> clouds = overlapping_clouds(600);
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+    clouds[i].z = 1e-3 * static_cast<double>(clouds.size() - i);
+  return seen_from_afar({{3e4, 2e4, 1e4}}, 1e5,
+                        in_random_colors(component_of(clouds, two_colors())), plan);
+}
+
+// The same picture, ordered by places in the file.
+ReferenceImage last_in_front(Frame frame) {
+  Particles& particles = frame.components.front().particles;
+  std::vector<float> places;
+  for (std::size_t i = 0; i < particles.count; ++i)
+    places.push_back(static_cast<float>(i));
+  particles.sort_field = Column::owning(places);
+  frame.sort = {SortOrder::By::field, "place", true};
+  return reference::render(frame);
+}
+
+HardCase depths_beyond_floats() {
+  HardCase hard;
+  hard.name = "DepthsBeyondFloats";
+  hard.why = "single precision takes clouds 0.001 apart, 1e5 away, for equally far";
+  hard.frame = [](LightPlan plan) { return depths_beyond_floats(plan); };
+  hard.exact = last_in_front;
+  return hard;
+}
+
+// Clouds at the near limit, some of them a rounding nearer.
+Frame depths_at_the_near_limit(LightPlan plan) {
+  std::vector<Cloud> clouds = overlapping_clouds(600);
+  Random random(6);
+  for (Cloud& cloud : clouds)
+    cloud.z = 300 * (1 + 1e-7 * std::floor(random.uniform(-3, 4)));
+  Frame frame = seen_from_afar({{3e4, 2e4, 1e4}}, 1e3,
+                               in_random_colors(component_of(clouds, two_colors())), plan);
+  frame.near_limit = 1300;
+  return frame;
+}
+
 }  // namespace
 
 std::vector<HardCase> order_cases() {
@@ -124,6 +177,9 @@ std::vector<HardCase> order_cases() {
        [](LightPlan) { return awkward_keys(true); }, ordered},
       {"AwkwardDepths", "depths of -0, +0 and denormals are in front of the camera",
        awkward_depths},
+      depths_beyond_floats(),
+      {"DepthsAtTheNearLimit", "single precision cannot tell on which side of the limit clouds are",
+       depths_at_the_near_limit},
   };
 }
 

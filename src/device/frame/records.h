@@ -34,8 +34,9 @@ struct ParticleCounts {
 // All splats of a frame, without gaps, in component and file order, with their sort keys.
 struct KeyedSplats {
   SplatMemory splats;
-  Buffer<std::uint32_t> keys;
-  Buffer<std::uint32_t> order;  // 0, 1, 2, ...
+  Buffer<std::uint32_t> keys;      // their upper 32 bits
+  Buffer<std::uint16_t> key_ends;  // the 16 bits below them; none where a field is the key
+  Buffer<std::uint32_t> order;     // 0, 1, 2, ...
   std::uint32_t count = 0;
   ParticleCounts particles;
 };

@@ -78,11 +78,11 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   if (!is_wide_angle(projection_)) {
     return {defines,
             {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "view.cl", "limits.cl",
-             "splat_lanes.cl", "project.cl"}};
+             "depth_key.cl", "splat_lanes.cl", "project.cl"}};
   }
   return {defines + wide_angle_defines(),
           {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "wide_angle.cl", "view.cl",
-           "limits.cl", "splat_lanes.cl", "project.cl"}};
+           "limits.cl", "depth_key.cl", "splat_lanes.cl", "project.cl"}};
 }
 
 std::string Specialization::wide_angle_defines() const {
@@ -99,11 +99,11 @@ ProgramSource Specialization::project_extended(std::string defines) const {
   if (!is_wide_angle(projection_)) {
     return {defines,
             {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "load.cl", "view.cl",
-             "limits.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
+             "limits.cl", "depth_key.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
   }
   return {defines + wide_angle_defines(),
           {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "extended_angle.cl",
-           "load.cl", "wide_angle.cl", "view.cl", "limits.cl", "splat_lanes.cl",
+           "load.cl", "wide_angle.cl", "view.cl", "limits.cl", "depth_key.cl", "splat_lanes.cl",
            "wide_angle_extended.cl", "project_extended.cl", "project.cl"}};
 }
 

@@ -10,7 +10,7 @@
 namespace splotchcl {
 namespace {
 
-// Volatile as in make_depth_chain: GCC 12 takes the way to float and back for nothing.
+// Volatile, since GCC 12 at -O3 takes the way to float and back for nothing.
 float nearest_float(double value) {
   const volatile float nearest = static_cast<float>(value);
   return nearest;
@@ -52,11 +52,6 @@ void set_camera(const Frame& frame, const DrawnComponent& component,
   e.period = pair_of(period_along_x(camera, frame.projection));
   e.eye_offset = pair_of(camera.eye_offset);
   copy(turn_axis_in_view(camera), e.turn_axis);
-  e.has_near_limit = frame.near_limit.has_value();
-  e.near_limit = pair_of(frame.near_limit.value_or(0));
-  e.near_factor = pair_of(near_smoothing_lengths);
-  e.has_far_limit = frame.far_limit.has_value();
-  e.far_limit = pair_of(frame.far_limit.value_or(0));
 }
 
 void set_map(const Column& column, const ScalarMap& map, double inverse_if_absent,

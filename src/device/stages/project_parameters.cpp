@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
 #include "scene/projection.h"
@@ -53,23 +54,23 @@ float smallest_float_from(double limit) {
              : nearest;
 }
 
-// The same axes with the look-at point for a position.
-CameraFrame at_look_at(CameraFrame camera) {
+void split_in_two(const Vec3& from, float (&high)[3], float (&low)[3]) {
   for (int axis = 0; axis < 3; ++axis) {
-    camera.position.a[axis] += camera.look_at_distance * camera.forward.a[axis];
+    // Volatile, since GCC 12 at -O3 takes a vectorised double -> float -> double for the
+    // identity, and so finds that nothing is left for the low part.
+    const volatile float nearest = static_cast<float>(from.a[axis]);
+    high[axis] = nearest;
+    low[axis] = static_cast<float>(from.a[axis] - static_cast<double>(nearest));
   }
-  return camera;
 }
 
 void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameters& p) {
   const CameraFrame& camera = frame.camera;
-  const DepthChain chain = make_depth_chain(camera, origin);
-  std::copy(std::begin(chain.position_high), std::end(chain.position_high), p.position_high);
-  std::copy(std::begin(chain.position_low), std::end(chain.position_low), p.position_low);
-  std::copy(std::begin(chain.forward), std::end(chain.forward), p.forward);
-  const DepthChain look_at = make_depth_chain(at_look_at(camera), origin);
-  std::copy(std::begin(look_at.position_high), std::end(look_at.position_high), p.look_at_high);
-  std::copy(std::begin(look_at.position_low), std::end(look_at.position_low), p.look_at_low);
+  using namespace boost::qvm;
+  const Vec3 look_at = camera.position + camera.forward * camera.look_at_distance;
+  split_in_two(camera.position - origin, p.position_high, p.position_low);
+  split_in_two(look_at - origin, p.look_at_high, p.look_at_low);
+  copy(camera.forward, p.forward);
   p.far_away = static_cast<float>(0.5 * camera.look_at_distance);
   copy(camera.right, p.right);
   copy(camera.down, p.down);
@@ -84,7 +85,7 @@ void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameter
 }
 
 void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
-  // z <= 0 never projects in perspective; the smallest float stands for "above 0".
+  // Depth keys decide about depths that are close to these limits (view.cl).
   const float lowest = p.perspective ? std::numeric_limits<float>::min() : 0.0f;
   p.near_limit = lowest;
   p.near_factor = 0;
@@ -96,6 +97,45 @@ void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
   }
   p.far_limit = frame.far_limit ? -smallest_float_from(-*frame.far_limit)
                                 : std::numeric_limits<float>::infinity();
+}
+
+shared::WideInteger wide(std::uint64_t value) {
+  return {static_cast<unsigned>(value & 0xffffffffu), static_cast<unsigned>(value >> 32)};
+}
+
+shared::WideInteger wide(std::int64_t value) {
+  return wide(static_cast<std::uint64_t>(value));
+}
+
+shared::DepthKeyParameters parameters_of(const DepthKeyScale& scale) {
+  shared::DepthKeyParameters p{};
+  for (int axis = 0; axis < 3; ++axis) {
+    p.origin_from_camera[axis] = wide(scale.origin_from_camera[axis]);
+    p.forward[axis] = wide(scale.forward[axis]);
+  }
+  p.finest_unit = scale.finest_unit;
+  p.unit = scale.unit;
+  p.perspective = scale.is_perspective;
+  p.near_key = wide(scale.near_key);
+  p.far_key = wide(scale.far_key);
+  p.near_factor = wide(scale.near_factor);
+  p.near_exponent = scale.near_exponent;
+  return p;
+}
+
+void set_depth_key(const Frame& frame, const DrawnComponent& component,
+                   shared::ProjectParameters& p) {
+  const DepthKeyScale scale = make_depth_key_scale(frame, component);
+  p.depth_key = parameters_of(scale);
+  const double least = std::ldexp(static_cast<double>(least_perspective_depth), scale.unit + 2);
+  p.least_depth = std::max(static_cast<float>(least), std::numeric_limits<float>::min());
+  // The camera is held to 2^-48 of its coordinates, and keys are exact to less than the least
+  // depth of a perspective camera.
+  double from_origin = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    from_origin += std::abs(frame.camera.position.a[axis] - component.particles.origin.a[axis]);
+  }
+  p.depth_rounding = static_cast<float>(std::ldexp(from_origin, -46) + 2 * least);
 }
 
 void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
@@ -152,6 +192,7 @@ shared::ProjectParameters make_project_parameters(const Frame& frame, const Fram
   shared::ProjectParameters p{};
   set_camera(frame, frame.components[component].particles.origin, p);
   set_depth_limits(frame, p);
+  set_depth_key(frame, frame.components[component], p);
   p.kernel_width = static_cast<float>(frame.kernel.width);
   p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);

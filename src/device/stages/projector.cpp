@@ -32,11 +32,15 @@ struct Projector::Targets {
   const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
   const Buffer<shared::BlockCounts>& counts;
   const SplatMemory& splats;
-  const Buffer<std::uint32_t>&keys, &order;
+  const Buffer<std::uint32_t>& keys;
+  const Buffer<std::uint16_t>& key_ends;
+  const Buffer<std::uint32_t>& order;
 };
 
 Projector::Projector(const StageContext& context)
-    : context_(context), unused_(context.device.pool.get<std::uint32_t>(0, "unused")) {
+    : context_(context),
+      unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
+      unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
   // Compiled, or found compiled, before the device has work to do.
   ProgramCache& programs = context.device.programs;
   if (context.plan.needs_sort()) {
@@ -89,6 +93,7 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
       .arg(targets.counts)
       .arg(targets.splats.splats)
       .arg(targets.keys)
+      .arg(targets.key_ends)
       .arg(targets.order);
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   if (context_.specialization.is_extended()) {
@@ -114,7 +119,8 @@ SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers
   for (std::uint32_t b = 0; b < blocks.block_count; ++b)
     offsets[b] = b * blocks.stride;
   launch(ProjectOutput::splats, parameters, particles,
-         {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_, unused_});
+         {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_,
+          unused_ends_, unused_});
   return blocks;
 }
 
@@ -140,7 +146,7 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
     for (std::size_t c = 0; c < components.size(); ++c)
       launch(output, components[c], particles[c], targets);
   };
-  pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_});
+  pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
   Launch(device, "project",
          device.programs.get(Specialization::scan_blocks()).create_kernel("scan_blocks"))
       .value(blocks)
@@ -150,8 +156,11 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   keyed.count = device.pool.download(offsets, blocks + 1).back();
   keyed.splats = splat_memory(keyed.count);
   keyed.keys = device.pool.get<std::uint32_t>(keyed.count, "sort keys");
+  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
+  keyed.key_ends = device.pool.get<std::uint16_t>(by_depth ? keyed.count : 0, "ends of sort keys");
   keyed.order = device.pool.get<std::uint32_t>(keyed.count, "order");
-  pass(ProjectOutput::splats_and_keys, {offsets, counts, keyed.splats, keyed.keys, keyed.order});
+  pass(ProjectOutput::splats_and_keys,
+       {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
   keyed.particles = sum_of(device.pool.download(counts, blocks));
   return keyed;
 }

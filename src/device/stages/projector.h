@@ -32,7 +32,9 @@ class Projector {
               const ParticleBuffers& particles, const Targets& targets) const;
 
   const StageContext& context_;
-  Buffer<std::uint32_t> unused_;  // stands for what a variant of the kernel does not write
+  // Stand for what a variant of the kernel does not write.
+  Buffer<std::uint32_t> unused_;
+  Buffer<std::uint16_t> unused_ends_;
 };
 
 }  // namespace splotchcl

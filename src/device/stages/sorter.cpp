@@ -28,22 +28,18 @@ shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted
   return parameters;
 }
 
-struct Pairs {
-  Buffer<std::uint32_t> keys, values;
-};
-
 }  // namespace
 
-Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                                   std::uint32_t count) const {
-  if (count < 2) return values;
+Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
+                                 std::uint32_t count) const {
   BufferPool& pool = device_.pool;
   shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
   const auto histograms = pool.get<std::uint32_t>(
       std::uint64_t{SORT_DIGITS} * parameters.block_count, "sort histogram");
   const auto bits = pool.get<shared::KeyBits>(parameters.block_count, "key bits");
-  Pairs from = {std::move(keys), std::move(values)};
-  Pairs to = {pool.get<std::uint32_t>(count, "sort keys"), pool.get<std::uint32_t>(count, "order")};
+  auto from = std::make_pair(std::move(keys), std::move(values));
+  auto to = std::make_pair(pool.get<std::uint32_t>(count, "sort keys"),
+                           pool.get<std::uint32_t>(count, "order"));
   const compute::program program = device_.programs.get(Specialization::sort());
   std::uint32_t differing = ~0u;  // until the first pass has seen the keys
   for (std::uint32_t shift = 0; shift < 32; shift += SORT_DIGIT_BITS) {
@@ -52,7 +48,7 @@ Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint3
     parameters.shift = shift;
     Launch(device_, "sort", program.create_kernel("sort_histogram"))
         .value(parameters)
-        .arg(from.keys)
+        .arg(from.first)
         .arg(histograms)
         .arg(bits)
         .run_items(parameters.block_count);
@@ -66,22 +62,75 @@ Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint3
         .run_items(1);
     Launch(device_, "sort", program.create_kernel("sort_scatter"))
         .value(parameters)
-        .arg(from.keys)
-        .arg(from.values)
+        .arg(from.first)
+        .arg(from.second)
         .arg(histograms)
-        .arg(to.keys)
-        .arg(to.values)
+        .arg(to.first)
+        .arg(to.second)
         .run_items(parameters.block_count);
     std::swap(from, to);
   }
-  return std::move(from.values);
+  return {std::move(from.first), std::move(from.second), std::move(to.second)};
+}
+
+Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
+                                   std::uint32_t count) const {
+  if (count < 2) return values;
+  return sort_pairs(std::move(keys), std::move(values), count).values;
+}
+
+// Upper bits that all keys share make room for ends. How many bits of the ends are left.
+std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
+                                   const Buffer<std::uint16_t>& ends, std::uint32_t count) const {
+  shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
+  const auto bits = device_.pool.get<shared::KeyBits>(parameters.block_count, "key bits");
+  const compute::program program = device_.programs.get(Specialization::sort());
+  Launch(device_, "sort", program.create_kernel("sort_bits"))
+      .value(parameters)
+      .arg(keys)
+      .arg(bits)
+      .run_items(parameters.block_count);
+  const std::uint32_t differing =
+      differing_bits(device_.pool.download(bits, parameters.block_count));
+  parameters.shift = 16;
+  while (parameters.shift > 0 && differing >> (16 + parameters.shift - 1) == 0)
+    --parameters.shift;
+  if (parameters.shift == 16) return 16;
+  Launch(device_, "sort", program.create_kernel("sort_take_in_ends"))
+      .value(parameters)
+      .arg(ends)
+      .arg(keys)
+      .run_items(parameters.block_count);
+  return parameters.shift;
+}
+
+// Hardly any keys agree in their upper 32 bits, and those that do lie side by side once these
+// are sorted: so their ends are neither moved nor digits of the radix sort.
+Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
+                                   Buffer<std::uint32_t> values, std::uint32_t count) const {
+  if (count < 2) return values;
+  const std::uint32_t bits_left = take_in_ends(keys, ends, count);
+  Pairs sorted = sort_pairs(std::move(keys), std::move(values), count);
+  if (bits_left == 0) return std::move(sorted.values);
+  const shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
+  Launch(device_, "sort", device_.programs.get(Specialization::sort()).create_kernel("sort_runs"))
+      .value(parameters)
+      .arg(sorted.keys)
+      .arg(ends)
+      .arg(sorted.values)
+      .arg(sorted.scratch)
+      .run_items(parameters.block_count);
+  return std::move(sorted.values);
 }
 
 SortedSplats Sorter::sort(KeyedSplats keyed) const {
   SortedSplats sorted;
   sorted.splats = std::move(keyed.splats);
   sorted.count = keyed.count;
-  sorted.order = sort(std::move(keyed.keys), std::move(keyed.order), keyed.count);
+  const bool has_ends = keyed.key_ends.size() > 0;
+  sorted.order =
+      has_ends ? sort(std::move(keyed.keys), keyed.key_ends, std::move(keyed.order), keyed.count)
+               : sort(std::move(keyed.keys), std::move(keyed.order), keyed.count);
   return sorted;
 }
 

@@ -17,8 +17,21 @@ class Sorter {
   // The first `count` values in the order of their ascending keys.
   Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                              std::uint32_t count) const;
+  // The numbers 0, 1, 2, ... in `values` in the order of their keys of 48 bits: the upper 32 of
+  // number i are keys[i], the others ends[i].
+  Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
+                             Buffer<std::uint32_t> values, std::uint32_t count) const;
 
  private:
+  // Sorted pairs, and room for as many values.
+  struct Pairs {
+    Buffer<std::uint32_t> keys, values, scratch;
+  };
+  Pairs sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
+                   std::uint32_t count) const;
+  std::uint32_t take_in_ends(const Buffer<std::uint32_t>& keys, const Buffer<std::uint16_t>& ends,
+                             std::uint32_t count) const;
+
   DeviceContext& device_;
 };
 
