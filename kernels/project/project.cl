@@ -11,7 +11,6 @@ typedef struct SplatArrays {
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
 #endif
-  int unclear[LANES];
   float sort_field[LANES];
 } SplatArrays;
 
@@ -21,7 +20,6 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.sort_field, a->sort_field);
 #endif
 #ifndef EXTENDED_NUMBERS
-  STORE(s.unclear, a->unclear);
 #ifdef ELLIPSES
   STORE(s.x, a->x);
   STORE(s.radius_x, a->radius_x);
@@ -82,12 +80,6 @@ inline uint field_key(float value) {
   const uint bits = as_uint(value == 0.0f ? 0.0f : value);
   return bits ^ ((bits >> 31) ? 0xffffffffu : 0x80000000u);
 }
-
-// A field has no more than the upper 32 bits.
-inline ulong sort_key(float field, ulong depth_key, const ProjectParameters p) {
-  const ulong key = p.sort_by_field ? (ulong)field_key(field) << 16 : depth_key;
-  return p.sort_descending ? ~key : key;
-}
 #endif
 
 #ifdef VECTOR_COLORS
@@ -102,15 +94,6 @@ inline ulong sort_key(float field, ulong depth_key, const ProjectParameters p) {
       __global const float *knots, __global ExtendedSplat *extended_splats
 #else
 #define EXTENDED_PARAMETERS
-#endif
-
-// Depths are computed as integers only where they order or where they decide.
-#ifdef EXTENDED_NUMBERS
-#define DEPTH_IS_NEEDED(found, k, p) 1
-#elif defined(OUTPUT_KEYS)
-#define DEPTH_IS_NEEDED(found, k, p) (!(p).sort_by_field || (found).unclear[k])
-#else
-#define DEPTH_IS_NEEDED(found, k, p) ((found).unclear[k])
 #endif
 
 // counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
@@ -139,20 +122,19 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   const uint numbered = p.first_block + block;
   const uint first_slot = offsets[numbered];
   uint slot = first_slot, bad_count = 0;
+#ifdef OUTPUT_KEYS
+  const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
+#endif
   for (uint i = begin; i < end; i += LANES) {
-    const SplatLanes lanes = project_lanes(i, end, p, grids, columns);
+    SplatLanes lanes = project_lanes(i, end, p, grids, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
+    const INTEGER unclear = lanes.visible & lanes.unclear;
+    if (ANY(unclear)) lanes.visible &= are_within_limits(i, end, unclear, columns, p);
     if (!ANY(lanes.visible)) continue;
     SplatArrays found;
     spread(lanes, &found);
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
-      Depth depth = {0, 1};
-      if (DEPTH_IS_NEEDED(found, k, p)) {
-        depth = depth_of(positions + (size_t)(i + k) * 3, p.depth_key);
-        const float h = smoothing_lengths[(size_t)(i + k) * p.smoothing_length_stride];
-        if (!is_within_limits(depth, h, p.depth_key)) continue;
-      }
 #ifdef EXTENDED_NUMBERS
       Splat rounded;
       ExtendedSplat extended;
@@ -188,9 +170,13 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-        const ulong key = sort_key(found.sort_field[k], depth.key, p);
-        keys[slot] = (uint)(key >> 16);
-        if (!p.sort_by_field) key_ends[slot] = (ushort)key;
+        if (p.sort_by_field) {
+          keys[slot] = field_key(found.sort_field[k]) ^ keys_turned_round;
+        } else {
+          const ulong key = depth_of(positions + (size_t)(i + k) * 3, p.depth_key).key;
+          keys[slot] = (uint)(key >> 16) ^ keys_turned_round;
+          key_ends[slot] = (ushort)((uint)key ^ keys_turned_round);
+        }
         order[slot] = slot;
 #endif
         ++slot;

@@ -3,7 +3,7 @@
 
 typedef struct SplatLanes {
   INTEGER visible, bad;
-  INTEGER unclear;  // of the visible: those whose depth key decides
+  INTEGER unclear;  // of the visible: those of which depth keys decide whether they are
   INTEGER grid;
   VALUE x, y, sigma, radius, weight, color;
 #ifdef ELLIPSES
@@ -227,6 +227,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const float width = (float)grids[0].width, height = (float)grids[0].height;
 #ifdef EXTENDED_NUMBERS
   s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height, p);
+  s.unclear = s.visible;
   return s;
 #else
   const LimitLanes limits = compare_with_limits(view, widths.h, p);

@@ -78,9 +78,9 @@ INLINED LimitLanes compare_with_limits(const ViewLanes view, VALUE h, const Proj
   const VALUE rounding = 2e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) + p.depth_rounding;
   const VALUE nearest =
       p.near_factor > 0.0f ? max(p.near_factor * h, (VALUE)(p.near_limit)) : (VALUE)(p.near_limit);
-  const VALUE behind_near = view.depth - nearest, before_far = p.far_limit - view.depth;
+  const VALUE inside = min(view.depth - nearest, p.far_limit - view.depth);
   LimitLanes limits;
-  limits.may_be_within = behind_near >= -rounding & before_far >= -rounding;
-  limits.unclear = (behind_near > rounding & before_far > rounding) == 0;
+  limits.may_be_within = inside >= -rounding;
+  limits.unclear = inside <= rounding;
   return limits;
 }

@@ -8,13 +8,21 @@
 namespace splotchcl::reference {
 namespace {
 
-__extension__ using Wide = __int128;
-
 constexpr std::uint64_t zero_depth = std::uint64_t{1} << 47;
 
-// The upper 64 of 128 bits, rounded down.
-std::int64_t high_product(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>((static_cast<Wide>(a) * b) >> 64);
+using Integers = std::int64_t[3];
+
+// The scalar product / 2^60; every factor is at most 2^60.
+std::int64_t product(const Integers& a, const Integers& b) {
+  constexpr std::int64_t part = std::int64_t{1} << 30;
+  std::int64_t upper = 0, middle = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t a_high = a[axis] >> 30, a_low = a[axis] & (part - 1);
+    const std::int64_t b_high = b[axis] >> 30, b_low = b[axis] & (part - 1);
+    upper += a_high * b_high;
+    middle += a_high * b_low + a_low * b_high;
+  }
+  return upper + (middle >> 30);
 }
 
 // magnitude * 2^exponent, in finest units or their squares.
@@ -43,7 +51,7 @@ std::uint64_t compressed(const Magnitude& value, std::uint64_t largest_exponent)
 
 // From the camera, in 2^exponent finest units.
 struct Place {
-  std::int64_t axes[3] = {};
+  Integers axes = {};
   int exponent = 0;
 };
 
@@ -52,7 +60,7 @@ Place place_of(const float* position, const DepthKeyScale& scale) {
   for (int axis = 0; axis < 3; ++axis) {
     if (position[axis] != 0) exponent = std::max(exponent, std::ilogb(position[axis]));
   }
-  const int coarser = std::max(0, exponent - scale.unit - 60);
+  const int coarser = std::max(0, exponent - scale.unit - 58);
   Place place;
   place.exponent = scale.unit + coarser - scale.finest_unit;
   for (int axis = 0; axis < 3; ++axis) {
@@ -63,28 +71,23 @@ Place place_of(const float* position, const DepthKeyScale& scale) {
   return place;
 }
 
-// Of a distance whose squared components these are: each component is below 2^62.
-Magnitude squared_length(const std::int64_t (&axes)[3], int exponent) {
+// Of the distance with these components.
+Magnitude squared_length(const Integers& axes, int exponent) {
   std::uint64_t all = 0;
   for (const std::int64_t axis : axes)
     all |= static_cast<std::uint64_t>(std::abs(axis));
   if (all == 0) return {};
-  const int doublings = 62 - bit_count(all);
-  Magnitude squared;
-  squared.exponent = 64 + 2 * (exponent - doublings);
-  for (const std::int64_t axis : axes) {
-    const std::int64_t doubled = std::abs(axis) << doublings;
-    squared.magnitude += static_cast<std::uint64_t>(high_product(doubled, doubled));
-  }
-  return squared;
+  const int doublings = 60 - bit_count(all);
+  Integers doubled;
+  for (int axis = 0; axis < 3; ++axis)
+    doubled[axis] = std::abs(axes[axis]) << doublings;
+  return {static_cast<std::uint64_t>(product(doubled, doubled)), 60 + 2 * (exponent - doublings)};
 }
 
 Depth depth_along_view(const Place& place, const DepthKeyScale& scale) {
-  std::int64_t z = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    z += high_product(place.axes[axis], scale.forward[axis]);
+  const std::int64_t z = product(place.axes, scale.forward);
   const std::uint64_t magnitude =
-      compressed({static_cast<std::uint64_t>(std::abs(z)), place.exponent + 2}, 126);
+      compressed({static_cast<std::uint64_t>(std::abs(z)), place.exponent}, 126);
   Depth depth;
   depth.key = z < 0 ? zero_depth - magnitude : zero_depth + magnitude;
   depth.is_before_camera = !scale.is_perspective || z >= least_perspective_depth;
@@ -95,9 +98,8 @@ std::uint64_t near_key(float h, const DepthKeyScale& scale) {
   if (scale.near_factor == 0) return scale.near_key;
   int exponent = 0;
   const float fraction = std::frexp(h, &exponent);  // 24 bits
-  const auto length = static_cast<std::int64_t>(std::ldexp(static_cast<double>(fraction), 62));
-  // In 2^-60, since both factors count 2^-62.
-  const std::int64_t limit = high_product(length, scale.near_factor);
+  const auto length = static_cast<std::int64_t>(std::ldexp(static_cast<double>(fraction), 60));
+  const std::int64_t limit = product({length, 0, 0}, {scale.near_factor, 0, 0});
   exponent += scale.near_exponent - 60 - scale.finest_unit;
   if (scale.by_distance) return compressed(squared_length({limit, 0, 0}, exponent), 254);
   return zero_depth + compressed({static_cast<std::uint64_t>(limit), exponent}, 126);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t zero_depth = std::uint64_t{1} << (depth_key_bits - 1);
 constexpr std::uint64_t largest_key = (std::uint64_t{1} << depth_key_bits) - 1;
 
-// A number as magnitude * 2^exponent, magnitude < 2^62. All 53 bits of a double fit.
+// A number as magnitude * 2^exponent, magnitude < 2^60. All 53 bits of a double fit.
 struct Scaled {
   std::uint64_t magnitude = 0;
   int exponent = 0;
@@ -20,8 +20,8 @@ struct Scaled {
 Scaled scaled(double value) {
   Scaled result;
   const double fraction = std::frexp(std::abs(value), &result.exponent);
-  result.magnitude = static_cast<std::uint64_t>(std::ldexp(fraction, 62));
-  result.exponent -= 62;
+  result.magnitude = static_cast<std::uint64_t>(std::ldexp(fraction, 60));
+  result.exponent -= 60;
   return result;
 }
 
@@ -47,17 +47,12 @@ std::uint64_t compressed(const Scaled& value, int largest_exponent) {
   return (static_cast<std::uint64_t>(beyond) << 40) + leading;
 }
 
-// Of a magnitude < 2^62: the high half of its product with itself.
-std::uint64_t high_square(std::uint64_t value) {
-  const std::uint64_t high = value >> 32, low = value & 0xffffffffu;
-  const std::uint64_t middle = high * low + (low * low >> 32);
-  return high * high + (middle >> 32) + (((middle & 0xffffffffu) + high * low) >> 32);
-}
-
 Scaled squared(const Scaled& value) {
   if (value.magnitude == 0) return {};
-  const int doublings = leading_zeros(value.magnitude) - 2;
-  return {high_square(value.magnitude << doublings), 64 + 2 * (value.exponent - doublings)};
+  const int doublings = leading_zeros(value.magnitude) - 4;
+  const std::uint64_t length = value.magnitude << doublings;
+  const std::uint64_t high = length >> 30, low = length & 0x3fffffffu;
+  return {high * high + (high * low >> 29), 60 + 2 * (value.exponent - doublings)};
 }
 
 // The key of a particle at this depth.
@@ -78,7 +73,7 @@ void set_limits(const Frame& frame, const DrawnComponent& component, DepthKeySca
   }
   const Scaled factor = scaled(near_smoothing_lengths * component.size_factor);
   scale.near_factor = static_cast<std::int64_t>(factor.magnitude);
-  scale.near_exponent = factor.exponent + 62;
+  scale.near_exponent = factor.exponent + 60;
 }
 
 // a - b as a sum of two doubles, exactly (Knuth).
@@ -103,18 +98,18 @@ DepthKeyScale make_depth_key_scale(const Frame& frame, const DrawnComponent& com
   DepthKeyScale scale;
   scale.by_distance = is_wide_angle(frame.projection);
   scale.is_perspective = frame.projection == Projection::perspective;
-  // The look-at distance has 61 bits.
-  scale.finest_unit = std::ilogb(camera.look_at_distance) - 60;
+  // The look-at distance has 59 bits.
+  scale.finest_unit = std::ilogb(camera.look_at_distance) - 58;
   scale.unit = scale.finest_unit;
   Difference from_camera[3];
   for (int axis = 0; axis < 3; ++axis) {
     Difference& length = from_camera[axis];
     length = exact_difference(component.particles.origin.a[axis], camera.position.a[axis]);
-    if (length.high != 0) scale.unit = std::max(scale.unit, std::ilogb(length.high) - 60);
+    if (length.high != 0) scale.unit = std::max(scale.unit, std::ilogb(length.high) - 58);
   }
   for (int axis = 0; axis < 3; ++axis) {
     scale.origin_from_camera[axis] = in_units(from_camera[axis], scale.unit);
-    scale.forward[axis] = std::llround(std::ldexp(camera.forward.a[axis], 62));
+    scale.forward[axis] = std::llround(std::ldexp(camera.forward.a[axis], 60));
   }
   set_limits(frame, component, scale);
   return scale;

@@ -24,6 +24,7 @@ inline double near_limit(const Frame& frame, double h) {
   return frame.near_limit.value_or(is_flat ? 0.0 : near_smoothing_lengths * h);
 }
 
+// For estimates: what is drawn is decided by depth keys (scene/depth_key.h).
 inline bool is_within_limits(const Frame& frame, double depth, double h) {
   return !(depth < near_limit(frame, h)) && !(frame.far_limit && depth > *frame.far_limit);
 }

@@ -127,7 +127,7 @@ void set_depth_key(const Frame& frame, const DrawnComponent& component,
                    shared::ProjectParameters& p) {
   const DepthKeyScale scale = make_depth_key_scale(frame, component);
   p.depth_key = parameters_of(scale);
-  const double least = std::ldexp(static_cast<double>(least_perspective_depth), scale.unit + 2);
+  const double least = std::ldexp(static_cast<double>(least_perspective_depth), scale.unit);
   p.least_depth = std::max(static_cast<float>(least), std::numeric_limits<float>::min());
   // The camera is held to 2^-48 of its coordinates, and keys are exact to less than the least
   // depth of a perspective camera.
