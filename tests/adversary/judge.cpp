@@ -1,0 +1,82 @@
+#include "adversary/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "adversary/trial_frame.h"
+#include "splotchcl/plan.h"
+#include "splotchcl/reference.h"
+
+namespace splotchcl::adversary {
+namespace {
+
+// The bound of this frame's error that the renderer gives, where it gives one.
+double certified_error(const RenderStats&) {
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Pixels whose centre is so close to the edge of a cut disc that single precision may put it on
+// either side, which docs/accuracy.md takes out of the promise.
+std::vector<bool> pixels_on_cut_edges(const Frame& frame) {
+  const Rectangle& crop = frame.crop;
+  std::vector<bool> on_edge(static_cast<std::size_t>(crop.width) *
+                            static_cast<std::size_t>(crop.height));
+  if (!frame.kernel.cut) return on_edge;
+  for (const reference::Splat& splat : reference::project(frame)) {
+    const double edge = *frame.kernel.cut * splat.sigma;
+    const double known_to = 1e-6 * (std::max(frame.width, frame.height) + edge);
+    for (int y = 0; y < crop.height; ++y) {
+      for (int x = 0; x < crop.width; ++x) {
+        const double distance =
+            std::hypot((crop.x + x + 0.5 - splat.x) / splat.stretch, crop.y + y + 0.5 - splat.y);
+        if (std::abs(distance - edge) > known_to) continue;
+        on_edge[static_cast<std::size_t>(y * crop.width + x)] = true;
+      }
+    }
+  }
+  return on_edge;
+}
+
+void compare(const Image& image, const ReferenceImage& exact, const std::vector<bool>& left_out,
+             Measurement& worst) {
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    if (i % 4 == 3 || left_out[i / 4]) continue;
+    const auto drawn = static_cast<double>(image.pixels[i]);
+    const double error =
+        std::abs(drawn - exact.pixels[i]) / std::max(1.0, std::abs(exact.pixels[i]));
+    if (error <= worst.error) continue;
+    const auto pixel = static_cast<int>(i / 4);
+    worst.error = std::isfinite(error) ? error : 1e300;
+    worst.x = pixel % exact.width;
+    worst.y = pixel / exact.width;
+    worst.channel = static_cast<int>(i % 4);
+    worst.drawn = drawn;
+    worst.exact = exact.pixels[i];
+  }
+}
+
+}  // namespace
+
+Measurement Judge::measure(const Trial& trial) {
+  const Frame frame = make_frame(trial);
+  const Frame merged = make_merged_frame(trial);
+  Renderer& renderer = this->renderer(trial.shape);
+  const Image image = renderer.render(frame);
+  Measurement measurement;
+  measurement.plan = choose_light(frame);
+  measurement.promise = trial.tolerance > 0 ? trial.tolerance : extended_tolerance;
+  measurement.certified = certified_error(renderer.stats());
+  compare(image, reference::render(merged), pixels_on_cut_edges(merged), measurement);
+  return measurement;
+}
+
+Renderer& Judge::renderer(CompositeShape shape) {
+  std::unique_ptr<Renderer>& renderer = renderers_[shape];
+  if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{"", shape});
+  return *renderer;
+}
+
+}  // namespace splotchcl::adversary

@@ -1,0 +1,180 @@
+#include "adversary/trial.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace splotchcl::adversary {
+namespace {
+
+template <class Choice, std::size_t count>
+using Names = std::array<std::pair<Choice, const char*>, count>;
+
+constexpr Names<Arrangement, 7> arrangements = {{{Arrangement::point, "point"},
+                                                 {Arrangement::ring, "ring"},
+                                                 {Arrangement::line, "line"},
+                                                 {Arrangement::lattice, "lattice"},
+                                                 {Arrangement::sheet, "sheet"},
+                                                 {Arrangement::corner, "corner"},
+                                                 {Arrangement::scatter, "scatter"}}};
+constexpr Names<Light, 6> lights = {{{Light::emission, "emission"},
+                                     {Light::proportional, "proportional"},
+                                     {Light::factor, "factor"},
+                                     {Light::ordered, "ordered"},
+                                     {Light::gray, "gray"},
+                                     {Light::stars_among_gas, "stars_among_gas"}}};
+constexpr Names<Projection, 5> projections = {{{Projection::perspective, "perspective"},
+                                               {Projection::orthographic, "orthographic"},
+                                               {Projection::fisheye, "fisheye"},
+                                               {Projection::equirectangular, "equirectangular"},
+                                               {Projection::cube, "cube"}}};
+constexpr Names<Sampling, 2> samplings = {{{Sampling::mean, "mean"}, {Sampling::center, "center"}}};
+constexpr Names<CompositeShape, 2> shapes = {
+    {{CompositeShape::rows, "rows"}, {CompositeShape::groups, "groups"}}};
+
+template <class Choice, std::size_t count>
+const char* name_in(const Names<Choice, count>& names, Choice choice) {
+  for (const auto& [value, name] : names) {
+    if (value == choice) return name;
+  }
+  return "";
+}
+
+template <class Choice, std::size_t count>
+bool take_choice(const Names<Choice, count>& names, const std::string& word, Choice& choice) {
+  for (const auto& [value, name] : names) {
+    if (word != name) continue;
+    choice = value;
+    return true;
+  }
+  return false;
+}
+
+template <class Owner>
+void print_numbers(const Owner& owner, const std::vector<Gene<Owner>>& genes, const char* indent,
+                   std::ostream& out) {
+  const Owner usual;
+  for (const Gene<Owner>& gene : genes) {
+    const double value = owner.*gene.member;
+    if (value != usual.*gene.member) out << indent << gene.name << " " << value << "\n";
+  }
+}
+
+template <class Owner>
+bool take_number(Owner& owner, const std::vector<Gene<Owner>>& genes, const std::string& key,
+                 const std::string& word) {
+  for (const Gene<Owner>& gene : genes) {
+    if (key != gene.name) continue;
+    std::istringstream in(word);
+    return static_cast<bool>(in >> owner.*gene.member);
+  }
+  return false;
+}
+
+bool take_choice_of_trial(Trial& trial, const std::string& key, const std::string& word) {
+  if (key == "class") return trial.kind = word, true;
+  if (key == "light") return take_choice(lights, word, trial.light);
+  if (key == "projection") return take_choice(projections, word, trial.projection);
+  if (key == "sampling") return take_choice(samplings, word, trial.sampling);
+  if (key == "shape") return take_choice(shapes, word, trial.shape);
+  return false;
+}
+
+bool take_line(Trial& trial, const std::string& key, const std::string& word) {
+  if (key == "group") {
+    trial.groups.emplace_back();
+    return take_choice(arrangements, word, trial.groups.back().arrangement);
+  }
+  if (!trial.groups.empty()) return take_number(trial.groups.back(), group_genes(), key, word);
+  return take_choice_of_trial(trial, key, word) || take_number(trial, trial_genes(), key, word);
+}
+
+}  // namespace
+
+const std::vector<Gene<Trial>>& trial_genes() {
+  using Scale = Gene<Trial>::Scale;
+  static const std::vector<Gene<Trial>> genes = {
+      {"tolerance", &Trial::tolerance, Scale::fixed, 0, 0},
+      {"width", &Trial::width, Scale::fixed, 0, 0},
+      {"height", &Trial::height, Scale::fixed, 0, 0},
+      {"picture_size", &Trial::picture_size, Scale::fixed, 0, 0},
+      {"crop_x", &Trial::crop_x, Scale::linear, 0, 1},
+      {"crop_y", &Trial::crop_y, Scale::linear, 0, 1},
+      {"field_of_view", &Trial::field_of_view, Scale::logarithmic, 1, 150},
+      {"background", &Trial::background, Scale::logarithmic, 1e-3, 1e4},
+      {"source", &Trial::source, Scale::logarithmic, 1e-3, 1e3},
+      {"cut", &Trial::cut, Scale::logarithmic, 1.1, 4},
+      {"min_radius", &Trial::min_radius, Scale::logarithmic, 0.1, 3},
+      {"own_colors", &Trial::own_colors, Scale::fixed, 0, 1},
+      {"filler", &Trial::filler, Scale::fixed, 0, 0},
+      {"period", &Trial::period, Scale::fixed, 0, 0},
+      {"offset", &Trial::offset, Scale::fixed, 0, 0},
+      {"jitter_seed", &Trial::jitter_seed, Scale::whole, 1, 1000},
+  };
+  return genes;
+}
+
+const std::vector<Gene<CloudGroup>>& group_genes() {
+  using Scale = Gene<CloudGroup>::Scale;
+  static const std::vector<Gene<CloudGroup>> genes = {
+      {"places", &CloudGroup::places, Scale::whole, 1, 200},
+      {"copies", &CloudGroup::copies, Scale::whole, 1, 400},
+      {"x", &CloudGroup::x, Scale::linear, -40, 40},
+      {"y", &CloudGroup::y, Scale::linear, -30, 30},
+      {"spread", &CloudGroup::spread, Scale::logarithmic, 0.05, 6},
+      {"sigma", &CloudGroup::sigma, Scale::logarithmic, 0.3, 60},
+      {"width_range", &CloudGroup::width_range, Scale::logarithmic, 1, 4},
+      {"peak", &CloudGroup::peak, Scale::logarithmic, 1e-4, 1e6},
+      {"jitter", &CloudGroup::jitter, Scale::logarithmic, 1e-4, 1},
+      {"depth", &CloudGroup::depth, Scale::logarithmic, 1, 100},
+      {"hue", &CloudGroup::hue, Scale::linear, 0, 1},
+      {"color", &CloudGroup::color, Scale::logarithmic, 1e-4, 1e4},
+      {"star", &CloudGroup::star, Scale::fixed, 0, 1},
+  };
+  return genes;
+}
+
+const char* name(Arrangement arrangement) {
+  return name_in(arrangements, arrangement);
+}
+const char* name(Light light) {
+  return name_in(lights, light);
+}
+const char* name(CompositeShape shape) {
+  return name_in(shapes, shape);
+}
+
+std::string text_of(const Trial& trial) {
+  std::ostringstream out;
+  out << std::setprecision(digits);
+  out << "class " << trial.kind << "\nlight " << name(trial.light) << "\nprojection "
+      << name_in(projections, trial.projection) << "\nsampling "
+      << name_in(samplings, trial.sampling) << "\nshape " << name(trial.shape) << "\n";
+  print_numbers(trial, trial_genes(), "", out);
+  for (const CloudGroup& group : trial.groups) {
+    out << "group " << name(group.arrangement) << "\n";
+    print_numbers(group, group_genes(), "  ", out);
+  }
+  return out.str();
+}
+
+Trial trial_of(const std::string& text) {
+  Trial trial;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string key, word;
+    if (!(words >> key) || key[0] == '#') continue;
+    if (!(words >> word) || !take_line(trial, key, word)) {
+      throw std::runtime_error("trial: found the line '" + line +
+                               "', expected the name of a number or a choice, and its value");
+    }
+  }
+  return trial;
+}
+
+}  // namespace splotchcl::adversary

@@ -1,0 +1,343 @@
+#include "adversary/trial_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "device/scenes.h"
+#include "scene/projection.h"
+
+namespace splotchcl::adversary {
+namespace {
+
+using test::pi;
+using test::Random;
+
+// A place of a group, in pixels of the whole picture, and what each of its clouds is like.
+struct Place {
+  double x = 0, y = 0, sigma = 1, depth = 1;
+  int copies = 1;
+  const CloudGroup* group = nullptr;
+};
+
+int whole(double value) {
+  return static_cast<int>(std::lround(value));
+}
+
+Rectangle crop_of(const Trial& trial) {
+  const int width = whole(trial.width), height = whole(trial.height);
+  const int beside_x = std::max(whole(trial.picture_size) - width, 0);
+  const int beside_y = std::max(whole(trial.picture_size) - height, 0);
+  return {whole(trial.crop_x * beside_x), whole(trial.crop_y * beside_y), width, height};
+}
+
+// A camera at the origin that looks along z, x to the right and y downwards.
+Frame empty_frame_of(const Trial& trial) {
+  const Rectangle crop = crop_of(trial);
+  const int size = whole(trial.picture_size);
+  Frame frame =
+      size > 0 ? test::empty_frame(size, size) : test::empty_frame(crop.width, crop.height);
+  frame.crop = crop;
+  frame.projection = trial.projection;
+  const double half_view = 0.5 * trial.field_of_view * pi / 180;
+  switch (trial.projection) {
+    case Projection::orthographic:
+      break;
+    case Projection::perspective:
+      frame.camera.focal_pixels = 0.5 * frame.width / std::tan(half_view);
+      break;
+    case Projection::cube:
+      frame.camera.focal_pixels = 0.5 * frame.width;
+      break;
+    case Projection::fisheye:
+      frame.camera.focal_pixels = 0.5 * std::min(frame.width, frame.height) / half_view;
+      break;
+    case Projection::equirectangular:
+      frame.camera.focal_pixels = frame.width / (2 * pi);
+      break;
+  }
+  frame.camera.pixels_per_length = frame.camera.focal_pixels;
+  frame.background.fill(trial.background);
+  frame.tolerance = trial.tolerance;
+  frame.kernel.width = 1;
+  frame.kernel.sampling = trial.sampling;
+  if (trial.cut > 0) frame.kernel.cut = trial.cut;
+  frame.kernel.min_radius_pixels = trial.min_radius;
+  return frame;
+}
+
+// A particle there, this far away, is seen at this place of the picture.
+Vec3 seen_at(double x, double y, double depth, const Frame& frame) {
+  const double right = (x - frame.camera.center_x) / frame.camera.focal_pixels;
+  const double down = (y - frame.camera.center_y) / frame.camera.focal_pixels;
+  switch (frame.projection) {
+    case Projection::orthographic:
+      return {{right, down, depth}};
+    case Projection::perspective:
+    case Projection::cube:
+      return {{right * depth, down * depth, depth}};
+    case Projection::fisheye: {
+      const double angle = std::min(std::hypot(right, down), pi);
+      const double part = angle > 0 ? std::sin(angle) / std::hypot(right, down) : 1;
+      return {{depth * part * right, depth * part * down, depth * std::cos(angle)}};
+    }
+    case Projection::equirectangular:
+      break;
+  }
+  const double latitude = std::clamp(down, -0.499 * pi, 0.499 * pi);
+  return {{depth * std::cos(latitude) * std::sin(right), depth * std::sin(latitude),
+           depth * std::cos(latitude) * std::cos(right)}};
+}
+
+// The side of the square cells, two sizes for each factor of two, that the search for crowds
+// collects clouds of this width in.
+double side_of_cell(double sigma) {
+  return std::exp2(0.5 * std::floor(2 * std::log2(std::max(sigma, 1.0))));
+}
+
+// Where a group's places lie, from its middle, in pixels.
+class Layout {
+ public:
+  Layout(const CloudGroup& group, const Trial& trial, Random& random)
+      : group_(group), trial_(trial), random_(random) {}
+
+  int count() const {
+    const int places = std::max(whole(group_.places), 1);
+    switch (group_.arrangement) {
+      case Arrangement::corner:
+        return 4;
+      case Arrangement::lattice:
+        return side() * side();
+      case Arrangement::sheet:
+        return columns() * rows();
+      default:
+        return places;
+    }
+  }
+
+  std::pair<double, double> place(int i, double sigma) {
+    const int count = this->count();
+    switch (group_.arrangement) {
+      case Arrangement::point:
+        return {0, 0};
+      case Arrangement::ring: {
+        const double angle = 2 * pi * (i + 0.25) / count, radius = group_.spread * sigma;
+        return {radius * std::cos(angle), radius * std::sin(angle)};
+      }
+      case Arrangement::line:
+        return {group_.spread * group_.sigma * (i - 0.5 * (count - 1)), 0};
+      case Arrangement::lattice:
+        return in_grid(i, side(), side());
+      case Arrangement::sheet:
+        return in_grid(i, columns(), rows());
+      case Arrangement::corner:
+        return {i % 2 == 0 ? -0.01 : 0.01, i < 2 ? -0.01 : 0.01};
+      case Arrangement::scatter:
+        return {random_.uniform(-0.6, 0.6) * trial_.width,
+                random_.uniform(-0.6, 0.6) * trial_.height};
+    }
+    return {0, 0};
+  }
+
+ private:
+  int side() const {
+    return std::max(1, static_cast<int>(std::sqrt(std::max(group_.places, 1.0))));
+  }
+  double spacing() const { return std::max(group_.spread * group_.sigma, 0.2); }
+  // Three sigma beyond the picture on each side, but not more clouds than are drawn soon.
+  int across(double pixels) const {
+    return std::clamp(whole((pixels + 6 * group_.sigma) / spacing()), 1, 60);
+  }
+  int columns() const { return across(trial_.width); }
+  int rows() const { return across(trial_.height); }
+  std::pair<double, double> in_grid(int i, int columns, int rows) const {
+    return {spacing() * (i % columns - 0.5 * (columns - 1)),
+            spacing() * (i / columns - 0.5 * (rows - 1))};
+  }
+
+  const CloudGroup& group_;
+  const Trial& trial_;
+  Random& random_;
+};
+
+void add_places(const CloudGroup& group, const Trial& trial, std::uint64_t seed,
+                std::vector<Place>& places) {
+  Random random(seed);
+  const Rectangle crop = crop_of(trial);
+  double middle_x = crop.x + 0.5 * crop.width + group.x;
+  double middle_y = crop.y + 0.5 * crop.height + group.y;
+  if (group.arrangement == Arrangement::corner) {
+    const double side = side_of_cell(group.sigma);
+    middle_x = std::round(middle_x / side) * side;
+    middle_y = std::round(middle_y / side) * side;
+  }
+  Layout layout(group, trial, random);
+  const int count = layout.count();
+  for (int i = 0; i < count; ++i) {
+    Place place;
+    const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
+    place.sigma = group.sigma * std::pow(group.width_range, part);
+    const auto [x, y] = layout.place(i, place.sigma);
+    const double jitter = group.jitter * place.sigma;
+    place.x = middle_x + x + jitter * random.uniform(-1, 1);
+    place.y = middle_y + y + jitter * random.uniform(-1, 1);
+    place.depth = group.depth * random.uniform(1, 1.2);
+    place.copies = std::max(whole(group.copies), 1);
+    place.group = &group;
+    places.push_back(place);
+  }
+}
+
+std::vector<Place> places_of(const Trial& trial) {
+  std::vector<Place> places;
+  std::uint64_t seed = 100 * static_cast<std::uint64_t>(std::max(trial.jitter_seed, 0.0));
+  for (const CloudGroup& group : trial.groups)
+    add_places(group, trial, ++seed, places);
+  return places;
+}
+
+struct ParticleArrays {
+  std::vector<float> position, h, mass, color, own_color;
+
+  void add(const Place& place, double copies, const Frame& frame) {
+    const Vec3 at = seen_at(place.x, place.y, place.depth, frame);
+    const auto projected = project_point(at, frame.camera, frame.projection);
+    const double scale = projected ? projected->pixels_per_length : 1;
+    const double sigma = place.sigma;
+    const double column =
+        place.group->peak / place.group->color / std::min(1.0, pi * sigma * sigma);
+    const double size = sigma / scale;
+    for (const double coordinate : at.a)
+      position.push_back(static_cast<float>(coordinate));
+    h.push_back(static_cast<float>(size));
+    mass.push_back(static_cast<float>(copies) * short_float(column * pi * size * size));
+    color.push_back(static_cast<float>(place.group->hue));
+    const auto own = static_cast<float>(place.group->color);
+    own_color.insert(own_color.end(), {own, 0.7f * own, 0.3f * own});
+  }
+
+  // Far beside the picture and faint.
+  void add_filler() {
+    position.insert(position.end(), {-1e6f, -1e6f, 1.0f});
+    h.push_back(1);
+    mass.push_back(1e-3f);
+    color.push_back(0);
+    own_color.insert(own_color.end(), {1, 1, 1});
+  }
+
+ private:
+  // Of 14 bits, so that up to 1024 times as much is exact in single precision.
+  static float short_float(double value) {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    return static_cast<float>(std::ldexp(std::round(std::ldexp(mantissa, 14)), exponent - 14));
+  }
+};
+
+DrawnComponent component_of(ParticleArrays arrays, const Trial& trial) {
+  DrawnComponent component;
+  component.particles.count = arrays.h.size();
+  component.particles.position = Column::owning(std::move(arrays.position));
+  component.particles.smoothing_length = Column::owning(std::move(arrays.h));
+  component.particles.weight = Column::owning(std::move(arrays.mass));
+  component.particles.color = Column::owning(std::move(arrays.color));
+  if (trial.own_colors > 0)
+    component.particles.color_vector = Column::owning(std::move(arrays.own_color));
+  component.palette.emission = {Rgb{1.0f, 0.3f, 0.05f}, Rgb{0.2f, 0.6f, 1.0f}};
+  return component;
+}
+
+void choose_light(const Trial& trial, DrawnComponent& component) {
+  using Kind = Absorption::Kind;
+  switch (trial.light) {
+    case Light::emission:
+      component.absorption.kind = Kind::none;
+      break;
+    case Light::proportional:
+      component.absorption.kind = Kind::as_emission;
+      break;
+    case Light::factor:
+    case Light::stars_among_gas:
+      component.absorption = {Kind::factor, 1 / trial.source};
+      break;
+    case Light::ordered:
+      component.absorption = {Kind::factor, 1 / trial.source};
+      component.palette.absorption = {Rgb{1, 1, 1}, Rgb{0.3f, 0.1f, 0.5f}};
+      break;
+    case Light::gray:
+      component.absorption = {Kind::gray, trial.source};
+      break;
+  }
+}
+
+bool is_star(const CloudGroup& group, const Trial& trial) {
+  return trial.light == Light::stars_among_gas && group.star > 0;
+}
+
+Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
+  frame.components = {component_of(std::move(gas), trial)};
+  choose_light(trial, frame.components.front());
+  if (trial.light != Light::stars_among_gas) return frame;
+  frame.components.push_back(component_of(std::move(stars), trial));
+  frame.components.back().absorption.kind = Absorption::Kind::none;
+  return frame;
+}
+
+// Among the filler, every so-many-th.
+bool is_turn_of_filler(std::size_t next, const Trial& trial) {
+  const auto offset = static_cast<std::size_t>(trial.offset);
+  const auto period = static_cast<std::size_t>(trial.period);
+  if (period == 0) return false;
+  return next < offset || (next - offset) % period != 0;
+}
+
+}  // namespace
+
+Frame make_frame(const Trial& trial) {
+  const Frame frame = empty_frame_of(trial);
+  const std::vector<Place> places = places_of(trial);
+  ParticleArrays gas, stars;
+  auto filler = static_cast<std::size_t>(trial.filler);
+  for (const Place& place : places) {
+    for (int copy = 0; copy < place.copies; ++copy) {
+      for (; filler > 0 && is_turn_of_filler(gas.h.size(), trial); --filler)
+        gas.add_filler();
+      (is_star(*place.group, trial) ? stars : gas).add(place, 1, frame);
+    }
+  }
+  for (; filler > 0; --filler)
+    gas.add_filler();
+  return with_components(trial, frame, std::move(gas), std::move(stars));
+}
+
+Frame make_merged_frame(const Trial& trial) {
+  const Frame frame = empty_frame_of(trial);
+  const std::vector<Place> places = places_of(trial);
+  ParticleArrays gas, stars;
+  for (const Place& place : places) {
+    const int times = trial.light == Light::gray ? place.copies : 1;
+    const double copies = trial.light == Light::gray ? 1 : place.copies;
+    for (int i = 0; i < times; ++i)
+      (is_star(*place.group, trial) ? stars : gas).add(place, copies, frame);
+  }
+  return with_components(trial, frame, std::move(gas), std::move(stars));
+}
+
+double cost(const Trial& trial) {
+  constexpr double reference_reach = 5.7, device_reach = 3, sooner_on_device = 20;
+  double pixels = 0;
+  for (const Place& place : places_of(trial)) {
+    const auto drawn = [&trial, &place](double reach) {
+      const double side = 2 * reach * place.sigma + 2;
+      return std::min(side, trial.width) * std::min(side, trial.height);
+    };
+    const double merged = trial.light == Light::gray ? place.copies : 1;
+    pixels += merged * drawn(reference_reach);
+    pixels += place.copies * (drawn(device_reach) / sooner_on_device + 5);
+  }
+  return pixels + trial.filler;
+}
+
+}  // namespace splotchcl::adversary
