@@ -4,7 +4,7 @@
 //        adversary --measure FILE...
 //   --pictures  drawn for each class and seed, at most
 //   --minutes   instead: the time for all, shared out evenly
-//   --findings  each scene beyond its promise becomes a file there
+//   --findings  each scene beyond its promise, made simpler, becomes a file there
 //   --csv       a line per search
 //   --measure   draws the scenes of such files
 // Without options: a short search over a sample of the classes, or with SPLOTCHCL_LONG_TESTS a
@@ -24,6 +24,7 @@
 #include "adversary/classes.h"
 #include "adversary/judge.h"
 #include "adversary/search.h"
+#include "adversary/simplify.h"
 #include "adversary/trial.h"
 #include "long_tests.h"
 
@@ -127,15 +128,17 @@ class Record {
     csv_ << "class,seed,plan,shape,tolerance,certified,measured,promise\n";
   }
 
-  void add(std::uint64_t seed, const Finding& finding) {
+  void add(std::uint64_t seed, const Finding& finding, Judge& judge) {
     const Trial& trial = finding.trial;
     const Measurement& m = finding.measurement;
     csv_ << trial.kind << "," << seed << "," << name(m.plan) << "," << name(trial.shape) << ","
          << trial.tolerance << "," << m.certified << "," << m.error << "," << m.promise << "\n";
     if (folder_.empty() || m.ratio() <= 1) return;
+    const Finding simple = simplified(finding, judge);
     std::ofstream file(std::filesystem::path(folder_) /
                        (trial.kind + "_" + std::to_string(seed) + ".txt"));
-    file << "# off by " << m.ratio() << " times its promise\n" << text_of(trial);
+    file << "# off by " << simple.measurement.ratio() << " times its promise\n"
+         << text_of(simple.trial);
   }
 
  private:
@@ -197,7 +200,7 @@ int search_all(const Options& options) {
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const Finding finding = search_one(kinds[i], seed, judge, allowance.next());
       print(kinds[i].name + " " + std::to_string(seed), finding);
-      record.add(seed, finding);
+      record.add(seed, finding, judge);
       if (worst[i].trial.groups.empty() ||
           finding.measurement.ratio() > worst[i].measurement.ratio()) {
         worst[i] = finding;
