@@ -1,9 +1,10 @@
 // Looks for scenes whose pictures break the promise of their tolerance: docs/contributing.md.
 // usage: adversary [--minutes M] [--pictures N] [--seeds A..B] [--class NAME] [--findings FOLDER]
-//                  [--csv FILE]
+//                  [--light NAME] [--tolerance X] [--csv FILE]
 //        adversary --measure FILE...
 //   --pictures  drawn for each class and seed, at most
 //   --minutes   instead: the time for all, shared out evenly
+//   --light, --tolerance  instead of those that follow from the seed
 //   --findings  each scene beyond its promise, made simpler, becomes a file there
 //   --csv       a line per search
 //   --measure   draws the scenes of such files
@@ -36,6 +37,7 @@ struct Options {
   int pictures = 40;
   std::uint64_t first_seed = 0, last_seed = 0;
   std::vector<std::string> kinds;  // empty: all
+  std::string given;               // choices and numbers that all starts take over, as in files
   std::string findings, csv;
   std::vector<std::string> measured;
 };
@@ -81,6 +83,8 @@ Options read_options(const std::vector<std::string>& words) {
       read_seeds(value, options);
     } else if (words[i] == "--class") {
       options.kinds.push_back(value);
+    } else if (words[i] == "--light" || words[i] == "--tolerance") {
+      options.given += words[i].substr(2) + " " + value + " ";
     } else if (words[i] == "--findings") {
       options.findings = value;
     } else if (words[i] == "--csv") {
@@ -181,10 +185,15 @@ int measure_files(const std::vector<std::string>& files) {
   return all_keep ? 0 : 1;
 }
 
-Finding search_one(const TrialClass& kind, std::uint64_t seed, Judge& judge,
-                   const std::function<bool()>& goes_on) {
+Finding search_one(const TrialClass& kind, std::uint64_t seed, const std::string& given,
+                   Judge& judge, const std::function<bool()>& goes_on) {
   test::Random random(1000 * seed + 17);
-  return search([&](test::Random& r) { return start_of(kind, seed, r); }, judge, random, goes_on);
+  const auto start = [&](test::Random& r) {
+    Trial trial = start_of(kind, seed, r);
+    set(given, trial);
+    return trial;
+  };
+  return search(start, judge, random, goes_on);
 }
 
 int search_all(const Options& options) {
@@ -198,7 +207,7 @@ int search_all(const Options& options) {
     // Renderers of their own, or all kernels that were ever compiled would stay.
     Judge judge;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const Finding finding = search_one(kinds[i], seed, judge, allowance.next());
+      const Finding finding = search_one(kinds[i], seed, options.given, judge, allowance.next());
       print(kinds[i].name + " " + std::to_string(seed), finding);
       record.add(seed, finding, judge);
       if (worst[i].trial.groups.empty() ||

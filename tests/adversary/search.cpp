@@ -71,10 +71,8 @@ void change_groups(Trial& trial, Random& random) {
     CloudGroup another = trial.groups[chosen];
     change_some(another, group_genes(), 0.3, random);
     trial.groups.push_back(another);
-  } else if (choice < 0.7 && trial.groups.size() > 1) {
+  } else if (choice > 0.7 && trial.groups.size() > 1) {
     trial.groups.erase(trial.groups.begin() + static_cast<std::ptrdiff_t>(chosen));
-  } else {
-    trial.groups[chosen].arrangement = static_cast<Arrangement>(random.uniform(0, 7));
   }
 }
 

@@ -84,13 +84,15 @@ bool take_choice_of_trial(Trial& trial, const std::string& key, const std::strin
   return false;
 }
 
-bool take_line(Trial& trial, const std::string& key, const std::string& word) {
+bool take_pair(Trial& trial, const std::string& key, const std::string& word) {
   if (key == "group") {
     trial.groups.emplace_back();
     return take_choice(arrangements, word, trial.groups.back().arrangement);
   }
-  if (!trial.groups.empty()) return take_number(trial.groups.back(), group_genes(), key, word);
-  return take_choice_of_trial(trial, key, word) || take_number(trial, trial_genes(), key, word);
+  if (take_choice_of_trial(trial, key, word) || take_number(trial, trial_genes(), key, word)) {
+    return true;
+  }
+  return !trial.groups.empty() && take_number(trial.groups.back(), group_genes(), key, word);
 }
 
 }  // namespace
@@ -162,18 +164,21 @@ std::string text_of(const Trial& trial) {
   return out.str();
 }
 
-Trial trial_of(const std::string& text) {
-  Trial trial;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string key, word;
-    if (!(words >> key) || key[0] == '#') continue;
-    if (!(words >> word) || !take_line(trial, key, word)) {
-      throw std::runtime_error("trial: found the line '" + line +
+void set(const std::string& text, Trial& trial) {
+  std::istringstream words(text);
+  for (std::string key, word; words >> key;) {
+    if (key == "#") {
+      std::getline(words, word);
+    } else if (!(words >> word) || !take_pair(trial, key, word)) {
+      throw std::runtime_error("trial: found '" + key + " " + word +
                                "', expected the name of a number or a choice, and its value");
     }
   }
+}
+
+Trial trial_of(const std::string& text) {
+  Trial trial;
+  set(text, trial);
   return trial;
 }
 

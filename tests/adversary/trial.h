@@ -100,7 +100,10 @@ constexpr int digits = 6;
 
 // One line per number or choice; what has its default is left out.
 std::string text_of(const Trial& trial);
-// The inverse. Throws std::runtime_error that names the line it does not understand.
+// The inverse. Throws std::runtime_error that names the words it does not understand. A line that
+// begins with # and a space is a comment.
 Trial trial_of(const std::string& text);
+// Changes what the text says, and adds its groups.
+void set(const std::string& text, Trial& trial);
 
 }  // namespace splotchcl::adversary

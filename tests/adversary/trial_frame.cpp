@@ -145,11 +145,16 @@ class Layout {
   int side() const {
     return std::max(1, static_cast<int>(std::sqrt(std::max(group_.places, 1.0))));
   }
-  double spacing() const { return std::max(group_.spread * group_.sigma, 0.2); }
-  // Three sigma beyond the picture on each side, but not more clouds than are drawn soon.
-  int across(double pixels) const {
-    return std::clamp(whole((pixels + 6 * group_.sigma) / spacing()), 1, 60);
+  // A sheet reaches three sigma beyond the picture on each side, with not more clouds than are
+  // drawn soon.
+  double extent(double pixels) const { return pixels + 6 * group_.sigma; }
+  double spacing() const {
+    const double spacing = std::max(group_.spread * group_.sigma, 0.2);
+    if (group_.arrangement != Arrangement::sheet) return spacing;
+    constexpr double most_in_a_row = 60;
+    return std::max(spacing, extent(std::max(trial_.width, trial_.height)) / most_in_a_row);
   }
+  int across(double pixels) const { return std::max(whole(extent(pixels) / spacing()), 1); }
   int columns() const { return across(trial_.width); }
   int rows() const { return across(trial_.height); }
   std::pair<double, double> in_grid(int i, int columns, int rows) const {
