@@ -320,8 +320,10 @@ const std::vector<TrialClass>& all_classes() {
 Trial start_of(const TrialClass& kind, std::uint64_t seed, Random& random) {
   Trial trial = kind.start(random);
   trial.kind = kind.name;
+  if (kind.lights.empty()) return trial;
   trial.light = kind.lights[seed % kind.lights.size()];
   trial.tolerance = kind.tolerances[seed / kind.lights.size() % kind.tolerances.size()];
+  trial.turned = seed % 3 != 1 ? 1 : 0;
   if (seed % 5 == 4) trial.shape = CompositeShape::groups;
   return trial;
 }

@@ -13,8 +13,8 @@ namespace splotchcl::adversary {
 // A kind of scene that is dangerous for one reason.
 struct TrialClass {
   std::string name;
-  std::string why;  // it is dangerous
-  std::vector<Light> lights;
+  std::string why;            // it is dangerous
+  std::vector<Light> lights;  // none: starts choose theirs, and all else
   std::vector<double> tolerances;
   std::function<Trial(test::Random&)> start;  // a random one, of any light and tolerance
 };

@@ -1,9 +1,10 @@
 // Looks for scenes whose pictures break the promise of their tolerance: docs/contributing.md.
 // usage: adversary [--minutes M] [--pictures N] [--seeds A..B] [--class NAME] [--findings FOLDER]
-//                  [--light NAME] [--tolerance X] [--csv FILE]
+//                  [--light NAME] [--tolerance X] [--from FILE] [--csv FILE]
 //        adversary --measure FILE...
 //   --pictures  drawn for each class and seed, at most
 //   --minutes   instead: the time for all, shared out evenly
+//   --from      a scene of such a file is changed, instead of a class's random ones
 //   --light, --tolerance  instead of those that follow from the seed
 //   --findings  each scene beyond its promise, made simpler, becomes a file there
 //   --csv       a line per search
@@ -38,7 +39,7 @@ struct Options {
   std::uint64_t first_seed = 0, last_seed = 0;
   std::vector<std::string> kinds;  // empty: all
   std::string given;               // choices and numbers that all starts take over, as in files
-  std::string findings, csv;
+  std::string from, findings, csv;
   std::vector<std::string> measured;
 };
 
@@ -85,6 +86,8 @@ Options read_options(const std::vector<std::string>& words) {
       options.kinds.push_back(value);
     } else if (words[i] == "--light" || words[i] == "--tolerance") {
       options.given += words[i].substr(2) + " " + value + " ";
+    } else if (words[i] == "--from") {
+      options.from = value;
     } else if (words[i] == "--findings") {
       options.findings = value;
     } else if (words[i] == "--csv") {
@@ -96,7 +99,24 @@ Options read_options(const std::vector<std::string>& words) {
   return options;
 }
 
+Trial read_trial(const std::string& name) {
+  std::ifstream file(name);
+  if (!file) throw std::runtime_error("cannot read " + name);
+  return trial_of({std::istreambuf_iterator<char>(file), {}});
+}
+
+// The file's scene, a little changed, whatever the seed.
+TrialClass class_from(const std::string& file) {
+  const Trial trial = read_trial(file);
+  return {std::filesystem::path(file).stem().string(),
+          "it is close to one that is known",
+          {},
+          {},
+          [trial](test::Random& random) { return changed(trial, 0.02, random); }};
+}
+
 std::vector<TrialClass> chosen_classes(const Options& options) {
+  if (!options.from.empty()) return {class_from(options.from)};
   if (options.kinds.empty()) return all_classes();
   std::vector<TrialClass> chosen;
   for (const std::string& name : options.kinds) {
@@ -175,9 +195,7 @@ int measure_files(const std::vector<std::string>& files) {
   print_heading();
   bool all_keep = true;
   for (const std::string& name : files) {
-    std::ifstream file(name);
-    if (!file) throw std::runtime_error("cannot read " + name);
-    const Trial trial = trial_of({std::istreambuf_iterator<char>(file), {}});
+    const Trial trial = read_trial(name);
     const Finding finding{trial, judge.measure(trial)};
     print(std::filesystem::path(name).stem().string(), finding);
     all_keep &= finding.measurement.ratio() <= 1;

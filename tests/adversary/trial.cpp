@@ -107,6 +107,7 @@ const std::vector<Gene<Trial>>& trial_genes() {
       {"crop_x", &Trial::crop_x, Scale::linear, 0, 1},
       {"crop_y", &Trial::crop_y, Scale::linear, 0, 1},
       {"field_of_view", &Trial::field_of_view, Scale::logarithmic, 1, 150},
+      {"turned", &Trial::turned, Scale::fixed, 0, 1},
       {"background", &Trial::background, Scale::logarithmic, 1e-3, 1e4},
       {"source", &Trial::source, Scale::logarithmic, 1e-3, 1e3},
       {"cut", &Trial::cut, Scale::logarithmic, 1.1, 4},
@@ -148,6 +149,12 @@ const char* name(Light light) {
 }
 const char* name(CompositeShape shape) {
   return name_in(shapes, shape);
+}
+
+LightPlan plan_of(Light light) {
+  if (light == Light::emission) return LightPlan::emission;
+  const bool is_sum = light == Light::proportional || light == Light::factor;
+  return is_sum ? LightPlan::proportional : LightPlan::ordered;
 }
 
 std::string text_of(const Trial& trial) {

@@ -7,6 +7,7 @@
 
 #include "splotchcl/camera.h"
 #include "splotchcl/light_model.h"
+#include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 
 // A scene as the adversary changes it: a few groups of clouds in an arrangement that is hard, and
@@ -62,6 +63,7 @@ struct Trial {
   double picture_size = 0;         // of the picture that it is a crop of; 0: it is the whole
   double crop_x = 0, crop_y = 0;   // where in it, from 0 to 1
   double field_of_view = 60;       // degrees, of the whole picture
+  double turned = 0;               // 1: the camera looks along no axis
   double background = 0;           // light; 0: none
   double source = 1;               // E / A where the light leaves that open
   double cut = 0;                  // kernel.cut; 0: none
@@ -90,6 +92,8 @@ struct Gene {
 };
 const std::vector<Gene<Trial>>& trial_genes();
 const std::vector<Gene<CloudGroup>>& group_genes();
+
+LightPlan plan_of(Light light);
 
 const char* name(Arrangement arrangement);
 const char* name(Light light);

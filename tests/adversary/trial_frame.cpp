@@ -1,6 +1,7 @@
 #include "adversary/trial_frame.h"
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -12,6 +13,7 @@
 namespace splotchcl::adversary {
 namespace {
 
+using namespace boost::qvm;
 using test::pi;
 using test::Random;
 
@@ -33,7 +35,7 @@ Rectangle crop_of(const Trial& trial) {
   return {whole(trial.crop_x * beside_x), whole(trial.crop_y * beside_y), width, height};
 }
 
-// A camera at the origin that looks along z, x to the right and y downwards.
+// A camera at the origin that looks along z, x to the right and y downwards, or along no axis.
 Frame empty_frame_of(const Trial& trial) {
   const Rectangle crop = crop_of(trial);
   const int size = whole(trial.picture_size);
@@ -41,6 +43,12 @@ Frame empty_frame_of(const Trial& trial) {
       size > 0 ? test::empty_frame(size, size) : test::empty_frame(crop.width, crop.height);
   frame.crop = crop;
   frame.projection = trial.projection;
+  if (trial.turned > 0) {
+    // Of whole numbers whose squares add up to 15^2.
+    frame.camera.right = Vec3{{14, 5, 2}} / 15.0;
+    frame.camera.down = Vec3{{-2, 10, -11}} / 15.0;
+    frame.camera.forward = Vec3{{-5, 10, 10}} / 15.0;
+  }
   const double half_view = 0.5 * trial.field_of_view * pi / 180;
   switch (trial.projection) {
     case Projection::orthographic:
@@ -68,8 +76,8 @@ Frame empty_frame_of(const Trial& trial) {
   return frame;
 }
 
-// A particle there, this far away, is seen at this place of the picture.
-Vec3 seen_at(double x, double y, double depth, const Frame& frame) {
+// Where a particle lies, along the camera's axes, that is seen at this place of the picture.
+Vec3 in_camera(double x, double y, double depth, const Frame& frame) {
   const double right = (x - frame.camera.center_x) / frame.camera.focal_pixels;
   const double down = (y - frame.camera.center_y) / frame.camera.focal_pixels;
   switch (frame.projection) {
@@ -204,15 +212,18 @@ std::vector<Place> places_of(const Trial& trial) {
 }
 
 struct ParticleArrays {
-  std::vector<float> position, h, mass, color, own_color;
+  bool own_colors;
+  std::vector<float> position = {}, h = {}, mass = {}, color = {}, own_color = {};
 
   void add(const Place& place, double copies, const Frame& frame) {
-    const Vec3 at = seen_at(place.x, place.y, place.depth, frame);
-    const auto projected = project_point(at, frame.camera, frame.projection);
+    const Vec3 seen = in_camera(place.x, place.y, place.depth, frame);
+    const auto projected = project_point(seen, frame.camera, frame.projection);
+    const Vec3 at = frame.camera.right * seen.a[0] + frame.camera.down * seen.a[1] +
+                    frame.camera.forward * seen.a[2];
     const double scale = projected ? projected->pixels_per_length : 1;
     const double sigma = place.sigma;
-    const double column =
-        place.group->peak / place.group->color / std::min(1.0, pi * sigma * sigma);
+    const double peak_of_column = own_colors ? place.group->color : 1;
+    const double column = place.group->peak / peak_of_column / std::min(1.0, pi * sigma * sigma);
     const double size = sigma / scale;
     for (const double coordinate : at.a)
       position.push_back(static_cast<float>(coordinate));
@@ -241,14 +252,14 @@ struct ParticleArrays {
   }
 };
 
-DrawnComponent component_of(ParticleArrays arrays, const Trial& trial) {
+DrawnComponent component_of(ParticleArrays arrays) {
   DrawnComponent component;
   component.particles.count = arrays.h.size();
   component.particles.position = Column::owning(std::move(arrays.position));
   component.particles.smoothing_length = Column::owning(std::move(arrays.h));
   component.particles.weight = Column::owning(std::move(arrays.mass));
   component.particles.color = Column::owning(std::move(arrays.color));
-  if (trial.own_colors > 0)
+  if (arrays.own_colors)
     component.particles.color_vector = Column::owning(std::move(arrays.own_color));
   component.palette.emission = {Rgb{1.0f, 0.3f, 0.05f}, Rgb{0.2f, 0.6f, 1.0f}};
   return component;
@@ -282,10 +293,10 @@ bool is_star(const CloudGroup& group, const Trial& trial) {
 }
 
 Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
-  frame.components = {component_of(std::move(gas), trial)};
+  frame.components = {component_of(std::move(gas))};
   choose_light(trial, frame.components.front());
   if (trial.light != Light::stars_among_gas) return frame;
-  frame.components.push_back(component_of(std::move(stars), trial));
+  frame.components.push_back(component_of(std::move(stars)));
   frame.components.back().absorption.kind = Absorption::Kind::none;
   return frame;
 }
@@ -303,7 +314,7 @@ bool is_turn_of_filler(std::size_t next, const Trial& trial) {
 Frame make_frame(const Trial& trial) {
   const Frame frame = empty_frame_of(trial);
   const std::vector<Place> places = places_of(trial);
-  ParticleArrays gas, stars;
+  ParticleArrays gas{trial.own_colors > 0}, stars = gas;
   auto filler = static_cast<std::size_t>(trial.filler);
   for (const Place& place : places) {
     for (int copy = 0; copy < place.copies; ++copy) {
@@ -320,7 +331,7 @@ Frame make_frame(const Trial& trial) {
 Frame make_merged_frame(const Trial& trial) {
   const Frame frame = empty_frame_of(trial);
   const std::vector<Place> places = places_of(trial);
-  ParticleArrays gas, stars;
+  ParticleArrays gas{trial.own_colors > 0}, stars = gas;
   for (const Place& place : places) {
     const int times = trial.light == Light::gray ? place.copies : 1;
     const double copies = trial.light == Light::gray ? 1 : place.copies;
