@@ -185,6 +185,37 @@ Trial opaque_before_bright(Random& random) {
   return trial;
 }
 
+Trial beside_picture(Random& random) {
+  CloudGroup group = group_of(Arrangement::point, random, 2, 15, 1, 1e6);
+  group.copies = whole(random, 1, 400);
+  group.x = 32 + random.uniform(2, 6) * group.sigma;
+  return with({group});
+}
+
+Trial coarse_levels(Random& random) {
+  CloudGroup group = group_of(random.uniform() < 0.5 ? Arrangement::point : Arrangement::line,
+                              random, 20, 400, 0.1, 20);
+  group.places = whole(random, 1, 20);
+  group.copies = whole(random, 1, 23);
+  group.spread = random.uniform(0.5, 6);
+  group.width_range = random.uniform(1, 4);
+  Trial trial = with({group});
+  trial.width = 1024;
+  trial.height = 32;
+  return trial;
+}
+
+Trial thin_layers(Random& random) {
+  CloudGroup group = group_of(Arrangement::point, random, 2, 30, 1e-4, 1e-2);
+  group.places = whole(random, 5, 100);
+  group.copies = whole(random, 20, 400);
+  group.width_range = random.uniform(1, 2);
+  Trial trial = with({group});
+  trial.background = random.logarithmic(1, 1e4);
+  trial.source = random.logarithmic(0.01, 100);
+  return trial;
+}
+
 Trial any_base(Random& random) {
   switch (static_cast<int>(random.uniform(0, 8))) {
     case 0:
@@ -294,6 +325,15 @@ const std::vector<TrialClass>& all_classes() {
        {Light::stars_among_gas, Light::ordered, Light::gray, Light::factor},
        usual,
        opaque_before_bright},
+      {"thin_layers",
+       "each of very many layers errs by a rounding",
+       {Light::ordered, Light::proportional, Light::stars_among_gas, Light::gray},
+       usual,
+       thin_layers},
+      {"beside_picture", "clouds whose centres lie outside, and whose light does not", all_lights,
+       usual, beside_picture},
+      {"coarse_levels", "what one grid errs by the next ones interpolate", sums, usual,
+       coarse_levels},
       {"background", "light behind clouds is dimmed by what they lose", all_lights, usual,
        with_background},
       {"cut_kernel", "a cut edge is part of the picture, on coarse grids too", all_lights, usual,

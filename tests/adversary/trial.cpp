@@ -126,10 +126,10 @@ const std::vector<Gene<CloudGroup>>& group_genes() {
   static const std::vector<Gene<CloudGroup>> genes = {
       {"places", &CloudGroup::places, Scale::whole, 1, 200},
       {"copies", &CloudGroup::copies, Scale::whole, 1, 400},
-      {"x", &CloudGroup::x, Scale::linear, -40, 40},
-      {"y", &CloudGroup::y, Scale::linear, -30, 30},
+      {"x", &CloudGroup::x, Scale::linear, -120, 120},
+      {"y", &CloudGroup::y, Scale::linear, -120, 120},
       {"spread", &CloudGroup::spread, Scale::logarithmic, 0.05, 6},
-      {"sigma", &CloudGroup::sigma, Scale::logarithmic, 0.3, 60},
+      {"sigma", &CloudGroup::sigma, Scale::logarithmic, 0.3, 400},
       {"width_range", &CloudGroup::width_range, Scale::logarithmic, 1, 4},
       {"peak", &CloudGroup::peak, Scale::logarithmic, 1e-4, 1e6},
       {"jitter", &CloudGroup::jitter, Scale::logarithmic, 1e-4, 1},
