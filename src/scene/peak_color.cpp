@@ -44,4 +44,15 @@ double peak_color(const DrawnComponent& component) {
                                 : peak_absorption(component, palette.emission));
 }
 
+PeakColors::PeakColors(const DrawnComponent& component)
+    : own_colors_(component.particles.color_vector),
+      peak_(peak_color(component)),
+      own_absorption_(peak_own_absorption(component)) {}
+
+double PeakColors::operator()(std::size_t i) const {
+  if (own_colors_.is_absent()) return peak_;
+  const float own = std::max({own_colors_[3 * i], own_colors_[3 * i + 1], own_colors_[3 * i + 2]});
+  return std::max(peak_ * static_cast<double>(own), own_absorption_);
+}
+
 }  // namespace splotchcl

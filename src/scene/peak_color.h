@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "splotchcl/frame.h"
 
 namespace splotchcl {
@@ -10,5 +12,16 @@ double peak_color(const DrawnComponent& component);
 
 // That of an absorption palette of the component's own, 0 without one.
 double peak_own_absorption(const DrawnComponent& component);
+
+// The same of single particles, whose own colors are known. Looks into the component.
+class PeakColors {
+ public:
+  explicit PeakColors(const DrawnComponent& component);
+  double operator()(std::size_t i) const;
+
+ private:
+  const Column& own_colors_;
+  double peak_, own_absorption_;
+};
 
 }  // namespace splotchcl

@@ -20,6 +20,10 @@ inline std::size_t sample_stride(std::size_t count, std::size_t limit) {
   return count <= limit ? 1 : (count + limit - 1) / limit;
 }
 
+// Which of the `stride` things from `first` on is looked at, below `count`: any of them, but the
+// same in every run. A pattern that repeats in a file cannot keep step with it.
+std::size_t sampled_index(std::size_t first, std::size_t stride, std::size_t count);
+
 // The value below which `fraction` of the values lie, linear between neighbours.
 // `values` must not be empty; their order is lost.
 double percentile(std::vector<double>& values, double fraction);

@@ -55,8 +55,8 @@ struct Content {
 using Cells = std::unordered_map<Cell, Content, CellHash>;
 
 std::optional<Cell> cell_of(const PictureCloud& cloud, double sigma, const Rectangle& crop) {
-  // Farther outside, nothing of a cloud that is not brighter than 1e6 is seen.
-  const double reach = 4 * sigma;
+  // No cloud is drawn farther.
+  const double reach = 7 * sigma;
   if (cloud.x < crop.x - reach || cloud.x > crop.x + crop.width + reach ||
       cloud.y < crop.y - reach || cloud.y > crop.y + crop.height + reach) {
     return std::nullopt;
@@ -71,18 +71,19 @@ std::optional<Cell> cell_of(const PictureCloud& cloud, double sigma, const Recta
 
 void collect(const DrawnComponent& component, const Frame& frame, std::size_t stride,
              Cells& cells) {
-  const double color = peak_color(component) / component.reference_column;
+  const PeakColors colors(component);
   const double least_sigma = frame.kernel.width * frame.kernel.min_radius_pixels;
   const auto weight = static_cast<double>(stride);
-  for (std::size_t i = 0; i < component.particles.count; i += stride) {
+  for (std::size_t first = 0; first < component.particles.count; first += stride) {
+    const std::size_t i = sampled_index(first, stride, component.particles.count);
     const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
     if (!cloud) continue;
     const double sigma = std::hypot(cloud->sigma, least_sigma);
     const std::optional<Cell> cell = cell_of(*cloud, sigma, frame.crop);
     if (!cell) continue;
     Content& content = cells[*cell];
-    content.light +=
-        weight * color * cloud->column * cloud->sigma / sigma * std::min(1.0, pi * sigma * sigma);
+    content.light += weight * colors(i) / component.reference_column * cloud->column *
+                     cloud->sigma / sigma * std::min(1.0, pi * sigma * sigma);
     content.count += weight;
     ++content.samples;
   }

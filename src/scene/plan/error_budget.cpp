@@ -1,6 +1,7 @@
 #include "scene/plan/error_budget.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/plan/sharpness.h"
 
@@ -18,8 +19,23 @@ constexpr double polynomial_erf_tolerance = 3e-5;
 bool places_exceed_tolerance(const Frame& frame) {
   constexpr double part_of_sharpest = 0.15;
   if (frame.tolerance >= fast_tolerance) return false;
-  const double place_error = 0x1p-23 * std::max(frame.crop.width, frame.crop.height);
+  const double place_error = 0x1p-23 * std::max(frame.width, frame.height);
   return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;
+}
+
+constexpr double euler = 2.718281828459045;
+
+// Looked for in steps of depth; between them it changes by less than a hundredth.
+double response_of_one_source(double source, double background) {
+  double largest = std::max(1.0, source) / euler;
+  if (source > euler) largest = 1;
+  for (double depth = 0.1; depth < 50; depth += 0.1) {
+    const double passing = std::exp(-depth);
+    const double light = source * (1 - passing) + background * passing;
+    const double error = depth * std::abs(background - source) * passing;
+    largest = std::max(largest, error / std::max(1.0, light));
+  }
+  return largest;
 }
 
 ToleranceShares extended_shares() {
@@ -64,10 +80,15 @@ ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOpt
   return budget;
 }
 
-double response_to_splats(double brightest_source, double brightest_background) {
-  constexpr double depth_to_light = 0.36787944117144233;  // the maximum of x exp(-x)
+double response_to_splats(LightPlan light, double brightest_source, double brightest_background) {
+  // Light without a brightest source shows where nothing is in front of it. How bright it is
+  // behind something is not known.
+  if (light == LightPlan::emission || !std::isfinite(brightest_source)) return 1;
+  if (light == LightPlan::proportional) {
+    return response_of_one_source(brightest_source, brightest_background);
+  }
   const double brightest = std::max({1.0, brightest_background, brightest_source});
-  return std::min(1.0, depth_to_light * brightest);
+  return std::max(brightest < euler ? brightest / euler : std::log(brightest), 0.0);
 }
 
 }  // namespace splotchcl

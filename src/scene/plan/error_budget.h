@@ -18,9 +18,10 @@ struct ErrorBudget {
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options);
 
 // What a relative error of every splat does to the picture, relative to max(1, I). Light that
-// nothing absorbs errs by as much. Otherwise I = q (1 - exp(-x)) for source q and depth x,
-// and with x off by a part e the error is e q x exp(-x): at most q / e times exp(-1), and
-// never more than e I.
-double response_to_splats(double brightest_source, double brightest_background);
+// nothing absorbs errs by as much. Otherwise light b behind a depth x off by a part of itself
+// errs by that part of x b exp(-x): of max(1, b exp(-x)) this is at most b / e, or where b is
+// above e, log(b), at the depth where it has faded to 1. Where everything has one source q
+// in front of the background b the largest of x |b - q| exp(-x) / max(1, I) over x is less.
+double response_to_splats(LightPlan light, double brightest_source, double brightest_background);
 
 }  // namespace splotchcl

@@ -39,7 +39,8 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   if (!plan.is_extended()) plan.crowd = find_crowd(frame);
   const double background = brightest_background(frame);
   const double source = brightest_source(frame);
-  const double response = is_wide_crowd(plan.crowd) ? 1 : response_to_splats(source, background);
+  const double response =
+      is_wide_crowd(plan.crowd) ? 1 : response_to_splats(plan.light, source, background);
   plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.crowd, response);
   // Coarse grids are for round splats.
   const bool has_coarse_grids = plan.shares.coarse_grids > 0 && !plan.has_ellipses;
