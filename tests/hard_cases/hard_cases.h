@@ -40,6 +40,7 @@ std::vector<HardCase> size_cases();        // widths of clouds, ends of discs
 std::vector<HardCase> camera_cases();      // positions, units and fields of view
 std::vector<HardCase> picture_cases();     // sizes of pictures, crops
 std::vector<HardCase> data_cases();        // numbers of particles, bad values
+std::vector<HardCase> promise_cases();     // what the adversary found (tests/adversary)
 std::vector<HardCase> wide_angle_cases();  // pictures in all directions, small tolerances
 
 }  // namespace splotchcl::test

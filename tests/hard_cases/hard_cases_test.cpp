@@ -20,8 +20,9 @@ namespace {
 const std::vector<HardCase>& all_cases() {
   static const std::vector<HardCase> cases = [] {
     std::vector<HardCase> all;
-    for (const auto& part : {light_cases(), layer_cases(), order_cases(), size_cases(),
-                             camera_cases(), picture_cases(), data_cases(), wide_angle_cases()}) {
+    for (const auto& part :
+         {light_cases(), layer_cases(), order_cases(), size_cases(), camera_cases(),
+          picture_cases(), data_cases(), promise_cases(), wide_angle_cases()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
