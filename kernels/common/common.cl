@@ -5,7 +5,9 @@
 
 // Where a call would cost: PoCL leaves functions of some length as calls, and their structures
 // in memory.
+#ifndef INLINED  // scripts/test_icd has another for a simulator
 #define INLINED __attribute__((always_inline)) inline
+#endif
 
 #ifdef ELLIPSES
 #define SIGMA_X(splat) ((splat).along_x.sigma)
