@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "scene/hash.h"
 #include "scene/scalar_map.h"
 
 namespace splotchcl {
@@ -15,11 +15,8 @@ constexpr double left_out_at_each_end = 0.005;
 }  // namespace
 
 std::size_t sampled_index(std::size_t first, std::size_t stride, std::size_t count) {
-  std::uint64_t hash = first / stride * 0x9e3779b97f4a7c15ull;
-  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ull;
-  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebull;
   const std::size_t range = std::min(stride, count - first);
-  return first + static_cast<std::size_t>((hash >> 32) % range);
+  return first + static_cast<std::size_t>(hash_of(first / stride) % range);
 }
 
 double percentile(std::vector<double>& values, double fraction) {

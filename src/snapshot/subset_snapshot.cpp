@@ -4,16 +4,10 @@
 
 #include <algorithm>
 
+#include "scene/hash.h"
+
 namespace splotchcl {
 namespace {
-
-// A hash whose every bit depends on every bit of the key: the finalizer of SplitMix64.
-std::uint64_t mix(std::uint64_t key) {
-  key += 0x9e3779b97f4a7c15U;
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9U;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebU;
-  return key ^ (key >> 31);
-}
 
 // a * b / c without overflow, rounded down.
 std::uint64_t scale(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
@@ -60,7 +54,8 @@ std::uint64_t SubsetSnapshot::place(int type, std::uint64_t i) const {
   const std::uint64_t some = info_.find_type(type)->count;
   const std::uint64_t first = scale(i, all, some), end = scale(i + 1, all, some);
   const auto seed = static_cast<std::uint64_t>(read_.seed);
-  return first + mix(mix(mix(seed) + static_cast<std::uint64_t>(type)) + i) % (end - first);
+  return first +
+         hash_of(hash_of(hash_of(seed) + static_cast<std::uint64_t>(type)) + i) % (end - first);
 }
 
 Column SubsetSnapshot::read(int type, const std::string& field) const {
