@@ -9,16 +9,13 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 #include "scene/constants.h"
-#include "scene/peak_color.h"
-#include "scene/plan/cloud_in_picture.h"
-#include "scene/statistics.h"
+#include "scene/plan/cloud_sample.h"
 
 namespace splotchcl {
 namespace {
-
-constexpr std::size_t sample_limit = 16384;
 
 // Fewer are covered by the two dozen ends in one pixel that the budget has room for.
 constexpr double fewest = 24;
@@ -54,39 +51,24 @@ struct Content {
 
 using Cells = std::unordered_map<Cell, Content, CellHash>;
 
-std::optional<Cell> cell_of(const PictureCloud& cloud, double sigma, const Rectangle& crop) {
-  // No cloud is drawn farther.
-  const double reach = 7 * sigma;
-  if (cloud.x < crop.x - reach || cloud.x > crop.x + crop.width + reach ||
-      cloud.y < crop.y - reach || cloud.y > crop.y + crop.height + reach) {
-    return std::nullopt;
-  }
+Cell cell_of(const SampledCloud& cloud) {
   // Whatever is narrower than a pixel fills it.
-  const double level = std::floor(2 * std::log2(std::max(sigma, 1.0)));
+  const double level = std::floor(2 * std::log2(std::max(cloud.sigma, 1.0)));
   const double side = std::exp2(0.5 * level);
   const double x = std::floor(cloud.x / side), y = std::floor(cloud.y / side);
-  return Cell{static_cast<std::int32_t>(level), static_cast<std::int32_t>(x),
-              static_cast<std::int32_t>(y)};
+  return {static_cast<std::int32_t>(level), static_cast<std::int32_t>(x),
+          static_cast<std::int32_t>(y)};
 }
 
-void collect(const DrawnComponent& component, const Frame& frame, std::size_t stride,
-             Cells& cells) {
-  const PeakColors colors(component);
-  const double least_sigma = frame.kernel.width * frame.kernel.min_radius_pixels;
-  const auto weight = static_cast<double>(stride);
-  for (std::size_t first = 0; first < component.particles.count; first += stride) {
-    const std::size_t i = sampled_index(first, stride, component.particles.count);
-    const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
-    if (!cloud) continue;
-    const double sigma = std::hypot(cloud->sigma, least_sigma);
-    const std::optional<Cell> cell = cell_of(*cloud, sigma, frame.crop);
-    if (!cell) continue;
-    Content& content = cells[*cell];
-    content.light += weight * colors(i) / component.reference_column * cloud->column *
-                     cloud->sigma / sigma * std::min(1.0, pi * sigma * sigma);
-    content.count += weight;
+Cells collect(const std::vector<SampledCloud>& sample) {
+  Cells cells;
+  for (const SampledCloud& cloud : sample) {
+    Content& content = cells[cell_of(cloud)];
+    content.light += cloud.weight * cloud.light;
+    content.count += cloud.weight;
     ++content.samples;
   }
+  return cells;
 }
 
 // Around a cell, where its clouds end.
@@ -116,15 +98,12 @@ void add(double light, std::int32_t level, Crowd& crowd) {
 }  // namespace
 
 Crowd find_crowd(const Frame& frame) {
-  const std::uint64_t total = particle_count(frame);
   Crowd crowd;
-  if (static_cast<double>(total) < fewest) return crowd;
-  const std::size_t stride = sample_stride(total, sample_limit);
-  Cells cells;
-  for (const DrawnComponent& component : frame.components)
-    collect(component, frame, stride, cells);
-
-  const int least = stride == 1 ? 1 : fewest_in_sample;
+  if (static_cast<double>(particle_count(frame)) < fewest) return crowd;
+  const std::vector<SampledCloud> sample = sample_clouds(frame);
+  const Cells cells = collect(sample);
+  const bool is_of_all = sample.empty() || sample.front().weight == 1;
+  const int least = is_of_all ? 1 : fewest_in_sample;
   for (const auto& [cell, content] : cells) {
     if (content.light <= harmless || content.samples < least || content.count < fewest) continue;
     // A cloud lights pi cells of its own width, so an even field's light is so much more.

@@ -27,8 +27,7 @@ constexpr double euler = 2.718281828459045;
 
 // Looked for in steps of depth; between them it changes by less than a hundredth.
 double response_of_one_source(double source, double background) {
-  double largest = std::max(1.0, source) / euler;
-  if (source > euler) largest = 1;
+  double largest = std::min(1.0, std::max(1.0, source) / euler);
   for (double depth = 0.1; depth < 50; depth += 0.1) {
     const double passing = std::exp(-depth);
     const double light = source * (1 - passing) + background * passing;
@@ -88,7 +87,7 @@ double response_to_splats(LightPlan light, double brightest_source, double brigh
     return response_of_one_source(brightest_source, brightest_background);
   }
   const double brightest = std::max({1.0, brightest_background, brightest_source});
-  return std::max(brightest < euler ? brightest / euler : std::log(brightest), 0.0);
+  return brightest < euler ? brightest / euler : std::log(brightest);
 }
 
 }  // namespace splotchcl
