@@ -8,6 +8,7 @@
 #include "cli/command_builder.h"
 #include "cli/commands.h"
 #include "cli/galaxy_commands.h"
+#include "cli/list_commands.h"
 #include "common/nearest_name.h"
 #include "splotchcl/error.h"
 
@@ -323,6 +324,8 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_movie(app, run, console);
   add_path(app, run, console);
   add_info(app, run, console);
+  add_fields(app, run, console);
+  add_palettes(app, run, console);
   add_compare(app, run, console);
   add_devices(app, run);
   add_generate(app, run, console);

@@ -64,6 +64,20 @@ struct InfoOptions {
 };
 int run_info(const InfoOptions& options, Console& console);
 
+struct FieldsOptions {
+  std::filesystem::path snapshot;
+  std::vector<std::string> columns;  // of a table
+  bool json = false;
+};
+int run_fields(const FieldsOptions& options, Console& console);
+
+struct PalettesOptions {
+  std::vector<std::string> names;  // or files; none: all
+  std::optional<std::filesystem::path> preview;
+  bool json = false;
+};
+int run_palettes(const PalettesOptions& options, Console& console);
+
 struct CompareOptions {
   std::filesystem::path image, reference;
   std::optional<double> limit;

@@ -154,4 +154,17 @@ Palette parse_palette(const std::string& text, const std::string& name_for_messa
                             : read_knots(lines, name_for_messages);
 }
 
+std::string palette_description(const std::string& text, const std::string& name) {
+  const std::vector<Line> lines = split_lines(text);
+  if (lines.empty()) return "";
+  std::string_view first = lines.front().text;
+  if (!is_original(lines)) {
+    if (first.empty() || first.front() != '#') return "";
+    first = trimmed(first.substr(1));
+  }
+  const std::string label = name + ":";
+  if (first.substr(0, label.size()) == label) first = trimmed(first.substr(label.size()));
+  return std::string(first);
+}
+
 }  // namespace splotchcl

@@ -14,4 +14,8 @@ bool is_palette_path(const std::string& name);
 // .pal, told apart by content. Throws DataError with name_for_messages and line.
 Palette parse_palette(const std::string& text, const std::string& name_for_messages);
 
+// What the first comment of a palette file says, without "name:" in front; the first line of the
+// original program's .pal. Empty where there is none.
+std::string palette_description(const std::string& text, const std::string& name);
+
 }  // namespace splotchcl

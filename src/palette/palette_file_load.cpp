@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "common/nearest_name.h"
@@ -21,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* folder_variable = "SPLOTCHCL_PALETTES";
+constexpr std::string_view reversed_ending = "_r";
 
 std::string stem(const std::string& file_name) {
   return fs::path(file_name).stem().string();
@@ -46,13 +51,22 @@ bool is_palette_file(const fs::path& path) {
   return is_named_so && fs::is_regular_file(path, ignored);
 }
 
-// Nothing in a folder that cannot be read.
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
+// The path of a palette in the user's folder; empty where there is none.
+fs::path own_file(const fs::path& folder, const std::string& name) {
+  for (const char* ending : {".txt", ".pal"}) {
+    const fs::path path = folder / (name + ending);
+    if (is_palette_file(path)) return path;
+  }
+  return {};
+}
+
+// Each name once. Nothing in a folder that cannot be read.
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (is_palette_file(entry->path())) names.push_back(entry->path().stem().string());
+    if (is_palette_file(entry->path())) names.insert(entry->path().stem().string());
   }
   return names;
 }
@@ -64,12 +78,9 @@ Palette load_file(const fs::path& path, const std::string& name) {
 }
 
 std::optional<Palette> find_own(const std::string& name, const std::optional<fs::path>& folder) {
-  if (!folder) return std::nullopt;
-  for (const char* ending : {".txt", ".pal"}) {
-    const fs::path path = *folder / (name + ending);
-    if (is_palette_file(path)) return load_file(path, name);
-  }
-  return std::nullopt;
+  const fs::path path = folder ? own_file(*folder, name) : fs::path();
+  if (path.empty()) return std::nullopt;
+  return load_file(path, name);
 }
 
 std::optional<Palette> find_built_in(const std::string& name) {
@@ -79,16 +90,62 @@ std::optional<Palette> find_built_in(const std::string& name) {
   return std::nullopt;
 }
 
-[[noreturn]] void refuse(const std::string& found, const std::string& name,
-                         const std::optional<fs::path>& folder) {
-  std::vector<std::string> names = palette_names();
-  if (folder) {
-    const std::vector<std::string> own = names_in(*folder);
-    names.insert(names.end(), own.begin(), own.end());
+std::optional<Palette> find_named(const std::string& name, const std::optional<fs::path>& folder) {
+  if (auto palette = find_own(name, folder)) return palette;
+  return find_built_in(name);
+}
+
+// The name of the palette that this is the reverse of; none where it does not say so.
+std::optional<std::string> name_before_reversal(const std::string& name) {
+  if (name.size() <= reversed_ending.size()) return std::nullopt;
+  const std::size_t length = name.size() - reversed_ending.size();
+  if (name.substr(length) != reversed_ending) return std::nullopt;
+  return name.substr(0, length);
+}
+
+Palette reversed(Palette palette, const std::string& name) {
+  palette.name = name;
+  std::reverse(palette.emission.begin(), palette.emission.end());
+  std::reverse(palette.absorption.begin(), palette.absorption.end());
+  return palette;
+}
+
+std::optional<std::string> nearest_palette(const std::string& name) {
+  std::vector<std::string> names;
+  for (const PaletteInfo& palette : list_palettes())
+    names.push_back(palette.name);
+  if (const auto before = name_before_reversal(name)) {
+    if (const auto nearest = nearest_name(*before, names)) {
+      return *nearest + std::string(reversed_ending);
+    }
   }
-  throw UsageError(fmt::format("palette \"{}\": found {}, expected a palette file or one of {}{}",
-                               name, found, fmt::join(names, ", "),
-                               did_you_mean(nearest_name(stem(name), names))));
+  return nearest_name(name, names);
+}
+
+[[noreturn]] void refuse(const std::string& found, const std::string& name) {
+  throw UsageError(fmt::format(
+      "palette \"{}\": found {}, expected a palette file or a name that \"splotchcl palettes\" "
+      "lists{}",
+      name, found, did_you_mean(nearest_palette(stem(name)))));
+}
+
+// As people look for names: upper and lower case together.
+bool comes_before(const PaletteInfo& a, const PaletteInfo& b) {
+  const auto lower = [](std::string text) {
+    for (char& letter : text)
+      letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return text;
+  };
+  return std::make_pair(lower(a.name), a.name) < std::make_pair(lower(b.name), b.name);
+}
+
+// Empty where the file cannot be read, which is said when it is used.
+std::string description_in(const fs::path& file, const std::string& name) {
+  try {
+    return palette_description(read_text_file(file), name);
+  } catch (const DataError&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -101,17 +158,36 @@ std::vector<std::string> palette_names() {
   return names;
 }
 
+std::vector<PaletteInfo> list_palettes() {
+  std::vector<PaletteInfo> palettes;
+  const std::optional<fs::path> folder = own_folder();
+  const std::set<std::string> own = folder ? names_in(*folder) : std::set<std::string>();
+  for (const std::string& name : own) {
+    const fs::path file = own_file(*folder, name);
+    palettes.push_back({name, file, description_in(file, name)});
+  }
+  for (const embedded::TextFile& file : embedded::palettes()) {
+    const std::string name = stem(file.name);
+    if (own.count(name) > 0) continue;
+    palettes.push_back({name, {}, palette_description(std::string(file.text), name)});
+  }
+  std::sort(palettes.begin(), palettes.end(), comes_before);
+  return palettes;
+}
+
 Palette load_palette(const std::string& name, const std::filesystem::path& relative_to) {
   const std::optional<fs::path> folder = own_folder();
   if (is_palette_path(name)) {
     const fs::path path = relative_to / name;
     std::error_code ignored;
-    if (!fs::exists(path, ignored)) refuse("no such file", name, folder);
+    if (!fs::exists(path, ignored)) refuse("no such file", name);
     return load_file(path, stem(name));
   }
-  if (auto palette = find_own(name, folder)) return *palette;
-  if (auto palette = find_built_in(name)) return *palette;
-  refuse("no such palette", name, folder);
+  if (auto palette = find_named(name, folder)) return *palette;
+  if (const auto before = name_before_reversal(name)) {
+    if (auto palette = find_named(*before, folder)) return reversed(std::move(*palette), name);
+  }
+  refuse("no such palette", name);
 }
 
 }  // namespace splotchcl

@@ -25,12 +25,14 @@ TEST(Arguments, NamesEveryCommandInItsHelp) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, AllOf(HasSubstr("render"), HasSubstr("info"), HasSubstr("compare"),
-                                HasSubstr("devices"), HasSubstr("generate")));
+                                HasSubstr("devices"), HasSubstr("generate"), HasSubstr("fields"),
+                                HasSubstr("palettes")));
 }
 
 class Commands : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Arguments, Commands,
-                         ::testing::Values("render", "info", "compare", "devices", "generate"));
+                         ::testing::Values("render", "info", "fields", "palettes", "compare",
+                                           "devices", "generate"));
 
 TEST_P(Commands, HaveHelpWithAnExample) {
   const TemporaryFolder folder;

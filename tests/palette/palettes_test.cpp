@@ -42,6 +42,55 @@ TEST(BuiltInPalettes, HaveTheUsualOnesAndOnesForMatter) {
                             "stars", "temperature", "dust", "nebula", "gray", "fire", "veil"}));
 }
 
+TEST(BuiltInPalettes, HaveMatplotlibsUsualNames) {
+  EXPECT_THAT(palette_names(),
+              IsSupersetOf({"turbo", "jet", "hot", "coolwarm", "RdBu", "seismic", "twilight",
+                            "Blues", "Greys", "Spectral", "bwr", "hsv", "rainbow", "cubehelix"}));
+}
+
+struct KnownColor {
+  const char* palette;
+  double position;
+  Rgb color;
+};
+
+// As Matplotlib's maps of these names have them, to two digits.
+TEST(BuiltInPalettes, HaveMatplotlibsColors) {
+  for (const KnownColor& known : {KnownColor{"turbo", 0.5, {0.64F, 0.99F, 0.23F}},
+                                  {"jet", 0, {0, 0, 0.5F}},
+                                  {"jet", 0.5, {0.48F, 1, 0.49F}},
+                                  {"hot", 0.365079, {1, 0, 0}},
+                                  {"coolwarm", 0, {0.23F, 0.30F, 0.75F}},
+                                  {"coolwarm", 1, {0.71F, 0.02F, 0.15F}},
+                                  {"RdBu", 0, {0.40F, 0, 0.12F}},
+                                  {"RdBu", 1, {0.02F, 0.19F, 0.38F}},
+                                  {"seismic", 0.25, {0, 0, 1}},
+                                  {"seismic", 0.75, {1, 0, 0}},
+                                  {"twilight", 0.5, {0.18F, 0.08F, 0.22F}},
+                                  {"Blues", 1, {0.03F, 0.19F, 0.42F}},
+                                  {"viridis", 1, {0.99F, 0.91F, 0.14F}}}) {
+    const auto color = sample_knots(load_palette(known.palette).emission, known.position);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(color[c], static_cast<double>(known.color[c]), 0.02)
+          << known.palette << " at " << known.position << ", channel " << c;
+    }
+  }
+}
+
+TEST(BuiltInPalettes, OfOthersAreInTheNotice) {
+  std::ifstream file(test::source_folder() / "palettes" / "NOTICE");
+  const std::string notice{std::istreambuf_iterator<char>(file), {}};
+  const auto folder = test::source_folder() / "palettes";
+  for (const std::string& name : palette_names()) {
+    std::ifstream palette(folder / (name + ".txt"));
+    std::string first, second;
+    std::getline(palette, first);
+    std::getline(palette, second);
+    if (second.rfind("# By ", 0) != 0 && second.rfind("# As in ", 0) != 0) continue;
+    EXPECT_THAT(notice, ::testing::ContainsRegex("[ \n]" + name + "[,:.]")) << second;
+  }
+}
+
 TEST(BuiltInPalettes, AreListedInAlphabeticalOrder) {
   const std::vector<std::string> names = palette_names();
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
@@ -78,6 +127,20 @@ TEST(BuiltInPalettes, ForDensityGrowLighterAllTheWay) {
           << name << ", knot " << i;
     }
   }
+}
+
+TEST(ReversedPalettes, RunFromTheLastColorToTheFirst) {
+  const Palette magma = load_palette("magma");
+  Palette reversed = load_palette("magma_r");
+  EXPECT_EQ(reversed.name, "magma_r");
+  std::reverse(reversed.emission.begin(), reversed.emission.end());
+  EXPECT_EQ(reversed.emission, magma.emission);
+}
+
+TEST(ReversedPalettes, ReverseWhatIsAbsorbedToo) {
+  Palette reversed = load_palette("veil_r");
+  std::reverse(reversed.absorption.begin(), reversed.absorption.end());
+  EXPECT_EQ(reversed.absorption, load_palette("veil").absorption);
 }
 
 TEST(VeilPalette, TurnsTransparentTowardsHighValues) {
@@ -135,6 +198,32 @@ TEST_F(PaletteFolder, ComesBeforeTheBuiltInPalettes) {
   EXPECT_EQ(load_palette("magma").emission.size(), 1u);
 }
 
+TEST_F(PaletteFolder, HasPalettesThatCanBeReversed) {
+  write("mine.txt", "1 0 0\n0 0 1\n");
+  use_folder();
+  EXPECT_THAT(load_palette("mine_r").emission, ElementsAre(Rgb{0, 0, 1}, Rgb{1, 0, 0}));
+}
+
+TEST_F(PaletteFolder, MayHaveAPaletteWhoseNameEndsLikeAReversedOne) {
+  write("magma_r.txt", "0.25 0.5 0.75\n");
+  use_folder();
+  EXPECT_THAT(load_palette("magma_r").emission, ElementsAre(Rgb{0.25f, 0.5f, 0.75f}));
+}
+
+TEST_F(PaletteFolder, IsListedWithTheBuiltInPalettes) {
+  write("magma.txt", "# magma: of mine.\n1 1 1\n");
+  write("Mine.pal", "Old one\n0100\n1\n255 0 0\n");
+  use_folder();
+  std::vector<std::string> lines;
+  for (const PaletteInfo& info : list_palettes())
+    lines.push_back(info.name + "|" + info.file.filename().string() + "|" + info.description);
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const std::string& line) { return line.rfind("magma|", 0) == 0; }),
+            1);
+  EXPECT_THAT(lines, IsSupersetOf({"magma|magma.txt|of mine.", "Mine|Mine.pal|Old one",
+                                   "gray||black to white."}));
+}
+
 TEST_F(PaletteFolder, LeavesTheBuiltInPalettesInPlace) {
   use_folder();
   EXPECT_EQ(load_palette("magma").name, "magma");
@@ -167,10 +256,12 @@ TEST(UnknownPalettes, AreRefusedWithTheNearestName) {
   EXPECT_THAT(message_for("Magma"), HasSubstr("; did you mean magma?"));
   EXPECT_THAT(message_for("veil.txt"), HasSubstr("; did you mean veil?"));
   EXPECT_THAT(message_for("palettes/gray.pal"), HasSubstr("; did you mean gray?"));
+  EXPECT_THAT(message_for("rdbu"), HasSubstr("; did you mean RdBu?"));
+  EXPECT_THAT(message_for("infreno_r"), HasSubstr("; did you mean inferno_r?"));
 }
 
-TEST(UnknownPalettes, AreRefusedWithAListOfAll) {
-  EXPECT_THAT(message_for("mauve"), HasSubstr("cividis, dust, fire, gas"));
+TEST(UnknownPalettes, AreRefusedWithTheCommandThatListsAll) {
+  EXPECT_THAT(message_for("mauve"), HasSubstr("\"splotchcl palettes\" lists"));
 }
 
 TEST(UnknownPalettes, AreAMistakeOfTheScene) {

@@ -1,0 +1,50 @@
+#include "cli/list_commands.h"
+
+#include "cli/commands.h"
+
+namespace splotchcl::cli {
+
+void add_fields(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<FieldsOptions>();
+  CLI::App* const sub = add_command<FieldsOptions>(
+      app, run, "fields", "List a snapshot's fields by the names that scenes use", options,
+      [&console](const FieldsOptions& o) { return run_fields(o, console); });
+  sub->add_option("FILE", options->snapshot,
+                  wrapped("A snapshot; of several files, any one of them"))
+      ->required();
+  sub->add_option("--columns", options->columns,
+                  wrapped("Names for the columns of a text table or a plain NumPy array, in their "
+                          "order; - for one that is not needed"))
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->footer(
+      "A line per type and field: particles, range, bad values (not a number, or infinite), unit.\n"
+      "Derived fields are not in the file but follow from it, and are used like the others.\n"
+      "splotchcl info tells more of the file.\n"
+      "Examples:\n"
+      "  splotchcl fields snapshot_006\n"
+      "  splotchcl fields snapshot_006 | grep gas");
+}
+
+void add_palettes(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<PalettesOptions>();
+  CLI::App* const sub = add_command<PalettesOptions>(
+      app, run, "palettes", "List the palettes, or show them in a picture", options,
+      [&console](const PalettesOptions& o) { return run_palettes(o, console); });
+  sub->add_option("NAME", options->names,
+                  wrapped("Only these: names, or palette files. Default: the program's own, and "
+                          "those in the folder that SPLOTCHCL_PALETTES names"));
+  sub->add_option("--preview", options->preview,
+                  wrapped("Write a picture of them with their names"))
+      ->type_name("FILE");
+  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->footer(
+      "A line for each: its name, its number of knots, its file or its colours.\n"
+      "NAME_r is the palette NAME reversed.\n"
+      "Examples:\n"
+      "  splotchcl palettes --preview palettes.png\n"
+      "  splotchcl palettes magma_r mine.txt --preview two.png");
+}
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/command_builder.h"
+#include "cli/console.h"
+
+namespace splotchcl::cli {
+
+// Describe `splotchcl fields` and `splotchcl palettes`: the names that scenes may use.
+void add_fields(CLI::App& app, Run& run, Console& console);
+void add_palettes(CLI::App& app, Run& run, Console& console);
+
+}  // namespace splotchcl::cli
