@@ -6,41 +6,56 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "common/unfinished_file.h"
 #include "common/words.h"
 #include "image/image_library.h"
+#include "image/picture_encoders.h"
 #include "image/png_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
+using Metadata = std::map<std::string, std::string>;
+using EncodeLight = std::vector<unsigned char>(const std::filesystem::path& path,
+                                               const Image& image, const Metadata& metadata);
+
+std::vector<unsigned char> encode_light_as_tiff(const std::filesystem::path& path,
+                                                const Image& image, const Metadata&) {
+  return encode_tiff(path, image);
+}
+
+std::vector<unsigned char> encode_light_as_hdr(const std::filesystem::path& path,
+                                               const Image& image, const Metadata&) {
+  return encode_hdr(path, image);
+}
+
 // A format that can be written, by the ending of a file's name.
 struct Format {
   const char* ending;
-  bool is_float;   // linear 32-bit floats; otherwise 8 bits
-  bool has_alpha;  // written with premultiplied alpha
+  EncodeLight* encode_light = nullptr;  // linear floats; null: 8 bits
   int longest_side = std::numeric_limits<int>::max();
 };
 
 // Those that can be encoded in memory: writing the bytes is then ours to check.
 // (On a full disk, and for a picture that is too large, libjpeg ends the whole program.)
-constexpr std::array<Format, 13> formats = {{{"png", false, false},
-                                             {"jpg", false, false, 65500},
-                                             {"jpeg", false, false, 65500},
-                                             {"tga", false, false, 65535},
-                                             {"bmp", false, false},
-                                             {"ppm", false, false},
-                                             {"pnm", false, false},
-                                             {"webp", false, false, 16383},
-                                             {"jp2", false, false},
-                                             {"exr", true, true},
-                                             {"tif", true, true},
-                                             {"tiff", true, true},
-                                             {"hdr", true, false}}};
+constexpr std::array<Format, 13> formats = {{{"png"},
+                                             {"jpg", nullptr, 65500},
+                                             {"jpeg", nullptr, 65500},
+                                             {"tga", nullptr, 65535},
+                                             {"bmp"},
+                                             {"ppm"},
+                                             {"pnm"},
+                                             {"webp", nullptr, 16383},
+                                             {"jp2"},
+                                             {"exr", encode_exr},
+                                             {"tif", encode_light_as_tiff},
+                                             {"tiff", encode_light_as_tiff},
+                                             {"hdr", encode_light_as_hdr, 26754}}};
 
 std::string endings() {
   std::string list;
@@ -91,23 +106,15 @@ std::vector<std::uint8_t> to_bytes(const std::filesystem::path& path, const Imag
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Image& image,
                                   const ImageFileOptions& options) {
   const Format& format = format_of(path);
-  StoredPicture picture;
-  picture.width = image.width;
-  picture.height = image.height;
-  picture.metadata = &options.metadata;
-  if (format.is_float) {
-    picture.is_float = true;
-    picture.channels = format.has_alpha ? 4 : 3;
-    picture.pixels = image.pixels.data();
-    picture.pixel_bytes = 4 * sizeof(float);
-    return image_library().encode(path, format.ending, picture);
-  }
+  if (format.encode_light != nullptr) return format.encode_light(path, image, options.metadata);
   const std::vector<std::uint8_t> bytes = to_bytes(path, image, options);
   if (std::string(format.ending) == "png") {
     return encode_png(path, image.width, image.height, bytes);
   }
+  StoredPicture picture;
+  picture.width = image.width;
+  picture.height = image.height;
   picture.pixels = bytes.data();
-  picture.pixel_bytes = 3;
   return image_library().encode(path, format.ending, picture);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -10,14 +9,10 @@
 
 namespace splotchcl {
 
-// A picture as a file shall hold it.
+// A picture of 8 bits in red, green and blue as a file shall hold it, rows from the top.
 struct StoredPicture {
   int width = 0, height = 0;
-  int channels = 3;
-  bool is_float = false;                                         // 32-bit floats, otherwise bytes
-  const void* pixels = nullptr;                                  // rows from the top
-  std::size_t pixel_bytes = 0;                                   // from one pixel to the next
-  const std::map<std::string, std::string>* metadata = nullptr;  // where the format keeps it
+  const unsigned char* pixels = nullptr;
 };
 
 // Part of a picture, in pixels.
@@ -27,7 +22,8 @@ struct PictureArea {
 
 // All that is done by OpenImageIO. It brings some 250 shared libraries with it, which take a
 // quarter of a second to load: as long as a frame of millions of particles. So it lies in a
-// module of its own (src/openimageio) that is loaded when the first picture needs it.
+// module of its own (src/openimageio) that is loaded when the first picture needs it: one that is
+// read, or written in a format that png_file.h and picture_encoders.h do not know.
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;

@@ -10,16 +10,11 @@
 namespace splotchcl {
 namespace {
 
-OIIO::ImageSpec make_spec(const StoredPicture& picture, const OIIO::ImageOutput& output) {
-  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
-                       picture.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+OIIO::ImageSpec make_spec(const StoredPicture& picture) {
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   // JPEG: little loss, and none of it by halving the resolution of colour.
   spec.attribute("CompressionQuality", 95);
   spec.attribute("jpeg:subsampling", "4:4:4");
-  if (picture.metadata != nullptr && output.supports("arbitrary_metadata")) {
-    for (const auto& [name, text] : *picture.metadata)
-      spec.attribute(name, text);
-  }
   return spec;
 }
 
@@ -42,10 +37,9 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const std::
   std::vector<unsigned char> file;
   OIIO::Filesystem::IOVecOutput memory(file);
   require(output->set_ioproxy(&memory));
-  const OIIO::ImageSpec spec = make_spec(picture, *output);
+  const OIIO::ImageSpec spec = make_spec(picture);
   require(output->open("picture." + ending, spec));
-  require(output->write_image(spec.format, picture.pixels,
-                              static_cast<OIIO::stride_t>(picture.pixel_bytes)));
+  require(output->write_image(spec.format, picture.pixels));
   require(output->close());
   return file;
 }

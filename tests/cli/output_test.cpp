@@ -94,6 +94,18 @@ TEST_F(RenderedOutput, KeepsLinearLightAndTheSceneInExr) {
   EXPECT_EQ(info.metadata.at("splotchcl:scene"), explained.substr(explained.find("snapshot = ")));
 }
 
+// Its 250 libraries take longer to load than a small picture takes to draw.
+TEST_F(RenderedOutput, NeedsNoOpenImageIoForTheUsualFormats) {
+  for (const std::string ending : {"png", "exr", "tif", "hdr"}) {
+    const ProgramResult result =
+        run_in(folder_, "LD_DEBUG=files \"$splotchcl\" render h --reference -o a." + ending +
+                            " --set 'image.size=[16,12]'");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("libpng"));
+    EXPECT_THAT(result.err, Not(HasSubstr("OpenImageIO"))) << ending;
+  }
+}
+
 TEST_F(RenderedOutput, OfTheSameCallIsTheSameFile) {
   for (const std::string name : {"a", "b"}) {
     ASSERT_EQ(splotchcl_in(folder_, "render h -o " + name + ".png" + small).exit_code, 0);

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <csignal>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "common/unfinished_file.h"
 #include "splotchcl/error.h"
@@ -158,6 +160,62 @@ TEST(ImageFile, RefusesToStoreNotANumberInEightBitsAndSaysWhere) {
   EXPECT_THAT([&] { write_image(folder / "a.png", image); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("2,1"), HasSubstr(".exr"))));
   EXPECT_EQ(folder.count_files(), 0U);
+}
+
+TEST(ImageFile, RoundsColorsOfRadianceFilesToTheNearestStep) {
+  const TemporaryFolder folder;
+  Image image(2, 1);
+  image.pixels = {1,           0.9999F, 0.503F, 1,   // steps of 1/128
+                  0.99999994F, 0.25F,   0,      1};  // too close to 1 for steps of 1/256
+  write_image(folder / "a.hdr", image);
+  const Image read = read_image(folder / "a.hdr");
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (i % 4 == 3) continue;
+    EXPECT_NEAR(read.pixels[i], image.pixels[i], 0.5 / 128) << i;
+  }
+}
+
+TEST(ImageFile, RefusesLightThatRadianceFilesCannotHoldAndSaysWhere) {
+  const TemporaryFolder folder;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (const float light : {-1.0F, infinity, std::numeric_limits<float>::quiet_NaN(), 3e38F}) {
+    Image image(3, 2);
+    image.at(2, 1)[1] = light;
+    EXPECT_THAT([&] { write_image(folder / "a.hdr", image); },
+                ThrowsMessage<DataError>(AllOf(HasSubstr("2,1"), HasSubstr(".exr"))));
+  }
+  EXPECT_EQ(folder.count_files(), 0U);
+}
+
+// The value of a tag with one short number, in a little-endian TIFF file; none where it is absent.
+std::optional<int> short_tag(const std::string& file, int wanted) {
+  const auto number = [&file](std::size_t place, std::size_t bytes) {
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i)
+      value += std::size_t{static_cast<unsigned char>(file.at(place + i))} << (8 * i);
+    return value;
+  };
+  const std::size_t directory = number(4, 4);
+  for (std::size_t i = 0; i < number(directory, 2); ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    if (number(entry, 2) == static_cast<std::size_t>(wanted)) {
+      return static_cast<int>(number(entry + 8, 2));
+    }
+  }
+  return std::nullopt;
+}
+
+// Which tifffile cannot undo without more libraries, and others not at all.
+TEST(ImageFile, PredictsNoValuesOfTiffFiles) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.tif", ramp(70, 130, 3));
+  const std::string file = read_text(folder / "a.tif");
+  ASSERT_EQ(file.substr(0, 4), std::string("II*\0", 4));
+  constexpr int compression = 259, predictor = 317, sample_format = 339;
+  EXPECT_EQ(short_tag(file, compression), 8);
+  EXPECT_EQ(short_tag(file, predictor).value_or(1), 1);
+  EXPECT_TRUE(short_tag(file, sample_format).has_value());
+  EXPECT_EQ(read_image(folder / "a.tif").pixels, ramp(70, 130, 3).pixels);
 }
 
 TEST(ImageFile, KeepsMetadataInExr) {

@@ -1,0 +1,142 @@
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+
+#include "image/picture_encoders.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int rows_in_strip = 64;
+// Offsets have 32 bits unless a file says otherwise. Deflating may make noise a little longer.
+constexpr std::size_t most_bytes_of_plain_tiff = std::size_t{4000} * 1000 * 1000;
+
+// What libtiff writes to, and what it says of its failures.
+struct MemoryFile {
+  std::vector<unsigned char> bytes;
+  std::size_t place = 0;
+  std::string problem = "libtiff does not say why";
+};
+
+MemoryFile& memory_file(thandle_t handle) {
+  return *static_cast<MemoryFile*>(handle);
+}
+
+// libtiff reads back what it has begun to write.
+tmsize_t read_bytes(thandle_t handle, void* to, tmsize_t count) {
+  MemoryFile& file = memory_file(handle);
+  const std::size_t left = file.bytes.size() - std::min(file.place, file.bytes.size());
+  const std::size_t taken = std::min(left, static_cast<std::size_t>(count));
+  std::copy_n(file.bytes.begin() + static_cast<std::ptrdiff_t>(file.place), taken,
+              static_cast<unsigned char*>(to));
+  file.place += taken;
+  return static_cast<tmsize_t>(taken);
+}
+
+tmsize_t write_bytes(thandle_t handle, void* from, tmsize_t count) {
+  MemoryFile& file = memory_file(handle);
+  const std::size_t end = file.place + static_cast<std::size_t>(count);
+  if (file.bytes.size() < end) file.bytes.resize(end);
+  std::copy_n(static_cast<const unsigned char*>(from), count,
+              file.bytes.begin() + static_cast<std::ptrdiff_t>(file.place));
+  file.place = end;
+  return count;
+}
+
+toff_t seek(thandle_t handle, toff_t offset, int whence) {
+  MemoryFile& file = memory_file(handle);
+  const std::size_t from = whence == SEEK_SET   ? 0
+                           : whence == SEEK_CUR ? file.place
+                                                : file.bytes.size();
+  file.place = from + static_cast<std::size_t>(offset);
+  return file.place;
+}
+
+int close_nothing(thandle_t) {
+  return 0;
+}
+
+toff_t size_of(thandle_t handle) {
+  return memory_file(handle).bytes.size();
+}
+
+int keep_problem(TIFF*, void* handle, const char*, const char* format, std::va_list values) {
+  char text[256];
+  std::vsnprintf(text, sizeof text, format, values);
+  memory_file(handle).problem = text;
+  return 1;  // libtiff need not print it
+}
+
+int ignore_warning(TIFF*, void*, const char*, const char*, std::va_list) {
+  return 1;
+}
+
+struct CloseTiff {
+  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+};
+using Tiff = std::unique_ptr<TIFF, CloseTiff>;
+
+Tiff open(MemoryFile& file, const Image& image) {
+  const bool is_big = image.pixels.size() * sizeof(float) > most_bytes_of_plain_tiff;
+  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
+      TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_problem, &file);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_warning, nullptr);
+  return Tiff(TIFFClientOpenExt("picture", is_big ? "w8" : "w", &file, read_bytes, write_bytes,
+                                seek, close_nothing, size_of, nullptr, nullptr, options.get()));
+}
+
+void describe(TIFF* tiff, const Image& image) {
+  const std::uint16_t alpha_is_multiplied[] = {EXTRASAMPLE_ASSOCALPHA};
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, image.width);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, image.height);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 4);
+  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, alpha_is_multiplied);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+  TIFFSetField(tiff, TIFFTAG_PREDICTOR, PREDICTOR_NONE);
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, std::min(rows_in_strip, image.height));
+}
+
+bool write_strips(TIFF* tiff, const Image& image) {
+  // libtiff may work in what it is given.
+  std::vector<float> strip;
+  const std::size_t row = 4 * static_cast<std::size_t>(image.width);
+  for (int first = 0; first < image.height; first += rows_in_strip) {
+    const int rows = std::min(rows_in_strip, image.height - first);
+    const float* const from = image.at(0, first);
+    strip.assign(from, from + row * static_cast<std::size_t>(rows));
+    const auto bytes = static_cast<tmsize_t>(strip.size() * sizeof(float));
+    const auto number = static_cast<std::uint32_t>(first / rows_in_strip);
+    if (TIFFWriteEncodedStrip(tiff, number, strip.data(), bytes) != bytes) return false;
+  }
+  return TIFFWriteDirectory(tiff) == 1;
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image) {
+  MemoryFile file;
+  bool is_written = false;
+  if (const Tiff tiff = open(file, image)) {
+    describe(tiff.get(), image);
+    is_written = write_strips(tiff.get(), image);
+  }
+  if (!is_written) {
+    throw DataError(path.string() + ": " + std::to_string(image.width) + "x" +
+                    std::to_string(image.height) +
+                    " pixels cannot be stored as .tif: " + file.problem);
+  }
+  return std::move(file.bytes);
+}
+
+}  // namespace splotchcl
