@@ -6,18 +6,19 @@
 namespace splotchcl {
 namespace {
 
-// Along each axis in turn: a quarter, a half, a quarter. Adds 1/2 to the variance.
+// Along each axis in turn: a quarter, a half, a quarter. Adds 1/2 to the variance. Neighbors along
+// an axis are `stride` apart; whole rows of them are blurred together, in the order of memory.
 void blur_once(std::vector<float>& values, std::size_t side) {
-  std::vector<float> line(side);
   for (std::size_t stride = 1; stride < values.size(); stride *= side) {
-    for (std::size_t start = 0; start < values.size(); ++start) {
-      if (start / stride % side != 0) continue;
-      for (std::size_t i = 0; i < side; ++i)
-        line[i] = values[start + i * stride];
+    const std::vector<float> old = values;
+    for (std::size_t first = 0; first < values.size(); first += stride * side) {
       for (std::size_t i = 0; i < side; ++i) {
-        const float before = line[(i + side - 1) % side];
-        const float after = line[(i + 1) % side];
-        values[start + i * stride] = 0.5F * line[i] + 0.25F * (before + after);
+        const float* const here = &old[first + i * stride];
+        const float* const before = &old[first + (i + side - 1) % side * stride];
+        const float* const after = &old[first + (i + 1) % side * stride];
+        float* const blurred = &values[first + i * stride];
+        for (std::size_t j = 0; j < stride; ++j)
+          blurred[j] = 0.5F * here[j] + 0.25F * (before[j] + after[j]);
       }
     }
   }
