@@ -29,6 +29,8 @@ struct FilmReport {
   std::function<void(const std::string& what, double fraction)> progress;
   // Before each frame: its number, and how many of those to be drawn are done.
   std::function<void(int frame, std::size_t done, std::size_t total)> frame;
+  // After each frame that was drawn: its number and what it took.
+  std::function<void(int frame, const RenderStats& stats)> drawn;
   // Asked after each frame; true ends the film as an interruption does.
   std::function<bool()> is_stopped;
 };

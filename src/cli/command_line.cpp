@@ -15,6 +15,42 @@
 namespace splotchcl::cli {
 namespace {
 
+// What render and movie take alike.
+void add_draw_options(CLI::App& sub, DrawOptions& options) {
+  sub.add_option(
+         "--device", options.device,
+         wrapped("A part of an OpenCL device's name, see splotchcl devices. Default: a GPU, "
+                 "else the CPU"))
+      ->type_name("NAME");
+  sub.add_option("--set", options.settings, wrapped("Override a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub.add_option(
+         "--tolerance", options.tolerance,
+         wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
+                 "the device can. Default: the scene's, 0.001"))
+      ->type_name("X");
+  sub.add_option("--every", options.every,
+                 wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
+                         "look at much data"))
+      ->type_name("N");
+  sub.add_option("--max-particles", options.max_particles,
+                 wrapped("Draw at most N particles, chosen at random, brighter likewise"))
+      ->type_name("N");
+  sub.add_flag("--cache-smoothing-lengths", options.cache_smoothing_lengths,
+               wrapped("Keep smoothing lengths that had to be found in a file beside the "
+                       "snapshot, and use those that are there"));
+  sub.add_flag(
+      "--reference", options.reference,
+      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
+  sub.add_flag("--explain", options.explain,
+               wrapped("Print how it is drawn, the memory and the time that it will take, and the "
+                       "equivalent scene file; draws nothing unless there is an --output"));
+  sub.add_option("--stats", options.stats,
+                 wrapped("Write times in seconds, counts and memory as JSON"))
+      ->type_name("FILE");
+}
+
 void add_render(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* const sub = add_command<RenderOptions>(
@@ -31,42 +67,9 @@ void add_render(CLI::App& app, Run& run, Console& console) {
                  ".exr and .tif linear floats and alpha. Default: the scene's name with .png, "
                  "in the current folder"))
       ->type_name("FILE");
-  sub->add_option(
-         "--device", options->device,
-         wrapped("A part of an OpenCL device's name, see splotchcl devices. Default: a GPU, "
-                 "else the CPU"))
-      ->type_name("NAME");
-  sub->add_option("--set", options->settings,
-                  wrapped("Override a key of the scene; can be repeated"))
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub->add_option(
-         "--tolerance", options->tolerance,
-         wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
-                 "the device can. Default: the scene's, 0.001"))
-      ->type_name("X");
-  sub->add_option("--every", options->every,
-                  wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
-                          "look at much data"))
-      ->type_name("N");
-  sub->add_option("--max-particles", options->max_particles,
-                  wrapped("Draw at most N particles, chosen at random, brighter likewise"))
-      ->type_name("N");
-  sub->add_flag("--cache-smoothing-lengths", options->cache_smoothing_lengths,
-                wrapped("Keep smoothing lengths that had to be found in a file beside the "
-                        "snapshot, and use those that are there"));
+  add_draw_options(*sub, *options);
   sub->add_option("--crop", options->crop, wrapped("Draw only this part of the picture, in pixels"))
       ->type_name("X,Y,W,H");
-  sub->add_flag(
-      "--reference", options->reference,
-      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
-  sub->add_flag(
-      "--explain", options->explain,
-      wrapped("Print how the picture is drawn, and the equivalent scene file; draws nothing "
-              "unless there is an --output"));
-  sub->add_option("--stats", options->stats,
-                  wrapped("Write times in seconds, counts and the plan as JSON"))
-      ->type_name("FILE");
   sub->footer(
       "Examples:\n"
       "  splotchcl render snapshot_006 -o universe.png\n"
@@ -105,20 +108,8 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
   sub->add_option("-o,--output", options->output,
                   wrapped("The film (.mp4 .mov .mkv .webm, made by ffmpeg), or numbered images: a "
                           "name with %d or %04d and the ending of a picture"))
-      ->required()
       ->type_name("FILE");
-  sub->add_option("--device", options->device,
-                  wrapped("A part of an OpenCL device's name, see splotchcl devices"))
-      ->type_name("NAME");
-  sub->add_option("--set", options->settings,
-                  wrapped("Override a key of the scene; can be repeated"))
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub->add_option("--tolerance", options->tolerance,
-                  wrapped("Largest error of a pixel, as for render"))
-      ->type_name("X");
-  sub->add_flag("--reference", options->reference,
-                wrapped("Draw with the slow reference renderer instead of a device"));
+  add_draw_options(*sub, *options);
   sub->add_option("--frames", options->frames,
                   wrapped("Only these frames, from 0: FIRST:END:STEP, END left out; 100:200:2 is "
                           "100, 102, ... 198"))
@@ -134,6 +125,7 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
       "FILE.frames until it is complete.\n"
       "Examples:\n"
       "  splotchcl movie flight.toml -o flight.mp4\n"
+      "  splotchcl movie flight.toml --explain\n"
       "  splotchcl movie snapshot_006 --set path.orbit.degrees=360 --set movie.frames=250 "
       "-o turn.mp4\n"
       "  splotchcl movie flight.toml -o frame_%04d.exr --frames 0:100 --part 3/8");
@@ -311,6 +303,21 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
   return command.get_name() + ": " + text + "; see splotchcl " + command.get_name() + " --help";
 }
 
+// Taken before the command and after it.
+void add_verbosity(CLI::App& app, bool& is_verbose, bool& is_quiet) {
+  CLI::Option* const verbose = app.add_flag(
+      "-v,--verbose", is_verbose, wrapped("Say on standard error what is being done, and when"));
+  app.add_flag("-q,--quiet", is_quiet, wrapped("Say nothing but errors: no notes, no progress"))
+      ->excludes(verbose);
+}
+
+Verbosity chosen_verbosity(bool is_verbose, bool is_quiet) {
+  if (is_verbose && is_quiet) {
+    throw UsageError("--quiet: found beside --verbose, expected one of the two");
+  }
+  return is_quiet ? Verbosity::quiet : is_verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv, Console& console) {
@@ -331,8 +338,14 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_generate(app, run, console);
   add_galaxy(app, run, console);
   add_evolve(app, run, console);
+  bool is_verbose = false, is_quiet = false;
+  add_verbosity(app, is_verbose, is_quiet);
+  for (CLI::App* const sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    add_verbosity(*sub, is_verbose, is_quiet);
   app.footer(
-      "splotchcl COMMAND --help tells more.\n"
+      "splotchcl COMMAND --help tells more. Off a terminal, what takes long says every 30 s how "
+      "far\n"
+      "it is.\n"
       "Exit codes: 0 done; 1 the data or the device failed; 2 the call or the scene is wrong.");
   if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);
   try {
@@ -341,6 +354,7 @@ int run_command_line(int argc, char** argv, Console& console) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw UsageError(explain(error, app));
   }
+  console.set_verbosity(chosen_verbosity(is_verbose, is_quiet));
   return run();
 }
 

@@ -14,18 +14,24 @@
 // standard output, everything else through the console. The result is the exit code.
 namespace splotchcl::cli {
 
-struct RenderOptions {
+// What render and movie have in common.
+struct DrawOptions {
   std::filesystem::path scene;  // a scene file or a snapshot
-  std::optional<std::filesystem::path> output;
   std::string device;
   std::vector<std::string> settings;  // key=value
   std::optional<double> tolerance;
   std::optional<int> every, max_particles;
   bool cache_smoothing_lengths = false;
-  std::string crop;  // X,Y,W,H
   bool reference = false;
   bool explain = false;
   std::optional<std::filesystem::path> stats;
+};
+// All that is set, as key=value.
+std::vector<std::string> settings_of(const DrawOptions& options);
+
+struct RenderOptions : DrawOptions {
+  std::optional<std::filesystem::path> output;
+  std::string crop;  // X,Y,W,H
 };
 int run_render(const RenderOptions& options, Console& console);
 
@@ -36,15 +42,10 @@ struct ConvertOptions {
 };
 int run_convert(const ConvertOptions& options, Console& console);
 
-struct MovieOptions {
-  std::filesystem::path scene;   // a scene file or a snapshot
-  std::filesystem::path output;  // a film, or numbered images
-  std::string device;
-  std::vector<std::string> settings;  // key=value
-  std::optional<double> tolerance;
-  bool reference = false;
-  std::string frames;  // FIRST:END:STEP
-  std::string part;    // K/N
+struct MovieOptions : DrawOptions {
+  std::optional<std::filesystem::path> output;  // a film, or numbered images
+  std::string frames;                           // FIRST:END:STEP
+  std::string part;                             // K/N
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

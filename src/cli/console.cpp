@@ -1,5 +1,6 @@
 #include "cli/console.h"
 
+#include <fmt/format.h>
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -7,10 +8,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <set>
+#include <thread>
 
 namespace splotchcl::cli {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 // Notes and errors are a line each, whatever a library put into them.
 std::string one_line(std::string text) {
@@ -18,6 +26,18 @@ std::string one_line(std::string text) {
     text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return printable(std::move(text));
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// How often a pipe or a file hears what is being done. Anything but a number above 0 is ignored.
+std::chrono::duration<double> reporting_interval() {
+  constexpr double usual = 30;
+  const char* const text = std::getenv("SPLOTCHCL_PROGRESS_SECONDS");
+  const double seconds = text == nullptr ? usual : std::strtod(text, nullptr);
+  return std::chrono::duration<double>(seconds > 0 && seconds < 1e6 ? seconds : usual);
 }
 
 }  // namespace
@@ -30,7 +50,44 @@ std::string printable(std::string text) {
 }
 
 struct Console::Log {
-  spdlog::logger logger{"splotchcl", std::make_shared<spdlog::sinks::stderr_sink_st>()};
+  spdlog::logger logger{"splotchcl", std::make_shared<spdlog::sinks::stderr_sink_mt>()};
+};
+
+// Tells from time to time what is being done, also while nothing calls the console.
+class Console::Reporter {
+ public:
+  explicit Reporter(spdlog::logger& logger)
+      : logger_(logger), thread_([this] { report_until_ended(); }) {}
+  ~Reporter() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      has_ended_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
+
+  void set(const std::string& what) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    what_ = what;
+  }
+
+ private:
+  void report_until_ended() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!changed_.wait_for(lock, interval_, [this] { return has_ended_; })) {
+      logger_.info("{:.0f} s: {}", seconds_since(start_), one_line(what_));
+    }
+  }
+
+  spdlog::logger& logger_;
+  const std::chrono::duration<double> interval_ = reporting_interval();
+  const Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string what_;
+  bool has_ended_ = false;
+  std::thread thread_;  // last: it uses the others
 };
 
 Console::Console() : log_(std::make_unique<Log>()), is_terminal_(::isatty(STDERR_FILENO) == 1) {
@@ -38,39 +95,76 @@ Console::Console() : log_(std::make_unique<Log>()), is_terminal_(::isatty(STDERR
 }
 
 Console::~Console() {
+  reporter_.reset();
   clear_status();
 }
 
+void Console::set_verbosity(Verbosity verbosity) {
+  verbosity_ = verbosity;
+}
+
 void Console::note(const std::string& text) {
+  if (verbosity_ == Verbosity::quiet) return;
   clear_status();
   log_->logger.warn("note: {}", one_line(text));
 }
 
+void Console::note_each_once(const std::vector<std::string>& notes) {
+  std::set<std::string> told;
+  for (const std::string& text : notes) {
+    if (told.insert(text).second) note(text);
+  }
+}
+
 void Console::error(const std::string& text) {
+  reporter_.reset();
   clear_status();
   log_->logger.error("{}", one_line(text));
 }
 
 void Console::status(const std::string& text) {
-  if (!is_terminal_) return;
+  if (verbosity_ == Verbosity::quiet) return;
+  if (verbosity_ == Verbosity::verbose && text != last_stage_) {
+    clear_status();
+    log_->logger.info("{:.2f} s: {}", seconds_since(start_), one_line(text));
+    last_stage_ = text;
+  }
+  show_status(text);
+}
+
+void Console::progress(const std::string& text, double fraction) {
+  if (verbosity_ == Verbosity::quiet) return;
+  const auto now = Clock::now();
+  if (now - last_progress_ < std::chrono::milliseconds(200)) return;
+  last_progress_ = now;
+  show_status(fmt::format("{} {} %", text, std::lround(100 * fraction)));
+}
+
+void Console::show_status(const std::string& text) {
+  if (!is_terminal_) {
+    tell_now_and_then(text);
+    return;
+  }
   // Back to the start of the line, and erase it.
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);
   has_status_ = true;
 }
 
-void Console::progress(const std::string& text, double fraction) {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_progress_ < std::chrono::milliseconds(200)) return;
-  last_progress_ = now;
-  status(text + " " + std::to_string(std::lround(100 * fraction)) + " %");
+void Console::tell_now_and_then(const std::string& text) {
+  if (!reporter_) reporter_ = std::make_unique<Reporter>(log_->logger);
+  reporter_->set(text);
 }
 
 void Console::done(const std::string& text) {
-  if (!is_terminal_) return;
-  status(text);
-  std::fputc('\n', stderr);
-  has_status_ = false;
+  if (verbosity_ == Verbosity::quiet) return;
+  reporter_.reset();
+  clear_status();
+  if (is_terminal_) {
+    std::fprintf(stderr, "%s\n", text.c_str());
+  } else if (verbosity_ == Verbosity::verbose) {
+    log_->logger.info("{:.2f} s: {}", seconds_since(start_), one_line(text));
+  }
 }
 
 void Console::clear_status() {

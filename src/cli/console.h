@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace splotchcl::cli {
 
@@ -10,8 +11,16 @@ namespace splotchcl::cli {
 // a terminal obeys them.
 std::string printable(std::string text);
 
+enum class Verbosity {
+  quiet,    // errors only
+  normal,   // and notes
+  verbose,  // and a line for each thing that is done, with the seconds since the start
+};
+
 // What goes to standard error: notes and errors, a line each, and on a terminal a status
-// line that is overwritten and finally removed. In a pipe there is no status.
+// line that is overwritten and finally removed. Off a terminal, where something takes long, a line
+// every 30 seconds says what is being done and for how long (or as often as the environment
+// variable SPLOTCHCL_PROGRESS_SECONDS says).
 class Console {
  public:
   Console();
@@ -19,22 +28,32 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  void note(const std::string& text);   // splotchcl: note: text
+  void set_verbosity(Verbosity verbosity);
+
+  void note(const std::string& text);  // splotchcl: note: text
+  void note_each_once(const std::vector<std::string>& notes);
   void error(const std::string& text);  // splotchcl: text
   void status(const std::string& text);
   void progress(const std::string& text, double fraction);  // shown a few times a second
-  // The result of what took long; only on a terminal.
+  // The result of what took long; only on a terminal, or where verbose.
   void done(const std::string& text);
 
  private:
+  class Reporter;
   struct Log;
 
+  void show_status(const std::string& text);
   void clear_status();
+  void tell_now_and_then(const std::string& text);
 
   std::unique_ptr<Log> log_;
+  Verbosity verbosity_ = Verbosity::normal;
   bool is_terminal_;
   bool has_status_ = false;
+  std::string last_stage_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_progress_;
+  std::unique_ptr<Reporter> reporter_;  // off a terminal, once something is being done
 };
 
 // The time since it was made, in seconds.

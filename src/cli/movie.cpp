@@ -2,10 +2,18 @@
 
 #include <cmath>
 #include <csignal>
+#include <iostream>
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/explanation.h"
+#include "cli/render_stats.h"
+#include "common/unfinished_file.h"
+#include "film/frames/film_scene.h"
+#include "film/movie/frame_range.h"
+#include "splotchcl/error.h"
 #include "splotchcl/film.h"
+#include "splotchcl/load.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -69,9 +77,15 @@ class Watch {
     report.frame = [this](int frame, std::size_t done, std::size_t total) {
       show_frame(frame, done, total);
     };
+    report.drawn = [this](int frame, const RenderStats& stats) {
+      drawn_.push_back({frame, stats});
+    };
     report.is_stopped = [] { return is_stopped != 0; };
     return report;
   }
+
+  // The frames that were drawn.
+  const std::vector<FilmFrameStats>& drawn() const { return drawn_; }
 
  private:
   void show_frame(int frame, std::size_t done, std::size_t total) {
@@ -90,14 +104,14 @@ class Watch {
   Console& console_;
   std::optional<StopSignals> signals_;
   Stopwatch drawing_;
+  std::vector<FilmFrameStats> drawn_;
 };
 
 FilmOptions film_options(const MovieOptions& options) {
   FilmOptions film;
   film.scene = options.scene;
-  film.output = options.output;
-  film.settings = options.settings;
-  if (options.tolerance) film.settings.push_back(fmt::format("tolerance={}", *options.tolerance));
+  film.output = *options.output;
+  film.settings = settings_of(options);
   film.device = options.device;
   film.by_reference = options.reference;
   film.frames = options.frames;
@@ -106,14 +120,32 @@ FilmOptions film_options(const MovieOptions& options) {
   return film;
 }
 
+// By the first of the frames that are asked for.
+void explain_film(const MovieOptions& options, Console& console) {
+  FilmScene film(options.scene, settings_of(options));
+  const std::vector<int> frames =
+      select_part(options.part, select_frames(options.frames, film.path().frame_count()));
+  if (frames.empty()) throw UsageError("--part: has no frames to explain");
+  console.status("reading");
+  film.decide();
+  const Scene scene = film.scene_at(frames.front());
+  std::vector<std::string> notes = film.notes();
+  const Frame frame = load_frame(scene, *film.snapshot_at(scene), notes);
+  if (!options.output) console.note_each_once(notes);  // else the film tells them
+  const int count = static_cast<int>(frames.size());
+  std::cout << fmt::format("# film: {} frame{}; what follows is of frame {}\n", count,
+                           count == 1 ? "" : "s", frames.front());
+  print_explanation(make_plan(frame), frame, film.scene(), options, count);
+}
+
 void tell_result(const FilmResult& result, const MovieOptions& options, Console& console) {
   switch (result.state) {
     case FilmState::complete:
-      console.done(fmt::format("{}: {} frames of {}x{} pixels", options.output.string(),
+      console.done(fmt::format("{}: {} frames of {}x{} pixels", options.output->string(),
                                result.frames, result.width, result.height));
       break;
     case FilmState::complete_before:
-      console.done(options.output.string() + " is complete already");
+      console.done(options.output->string() + " is complete already");
       break;
     case FilmState::part_is_drawn:
       console.done(
@@ -128,8 +160,26 @@ void tell_result(const FilmResult& result, const MovieOptions& options, Console&
 }  // namespace
 
 int run_movie(const MovieOptions& options, Console& console) {
+  if (!options.output && !options.explain) {
+    throw UsageError(
+        "movie: found no --output, expected a film such as film.mp4, or numbered images such as "
+        "frame_%04d.png; see splotchcl movie --help");
+  }
+  if (options.stats) check_output_path(*options.stats);
+  if (options.explain) explain_film(options, console);
+  if (!options.output) return 0;
   Watch watch(console);
-  tell_result(make_film(film_options(options), watch.report()), options, console);
+  const FilmResult result = make_film(film_options(options), watch.report());
+  if (options.stats) {
+    FilmStats stats;
+    stats.scene = options.scene.string();
+    stats.output = options.output->string();
+    stats.reference = options.reference;
+    stats.result = result;
+    stats.frames = watch.drawn();
+    write_stats(*options.stats, stats);
+  }
+  tell_result(result, options, console);
   return 0;
 }
 

@@ -3,7 +3,6 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
-#include <set>
 
 #include "cli/commands.h"
 #include "film/frames/film_scene.h"
@@ -54,13 +53,6 @@ void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
   }
 }
 
-void tell_once(const std::vector<std::string>& notes, Console& console) {
-  std::set<std::string> told;
-  for (const std::string& note : notes) {
-    if (told.insert(note).second) console.note(note);
-  }
-}
-
 }  // namespace
 
 int run_path(const PathOptions& options, Console& console) {
@@ -72,7 +64,7 @@ int run_path(const PathOptions& options, Console& console) {
   const std::shared_ptr<const Snapshot> snapshot = film.snapshot_at(start);
   std::vector<std::string> notes = film.notes();
   Frame frame = load_frame(start, *snapshot, notes);
-  tell_once(notes, console);
+  console.note_each_once(notes);
   PathPlot plot;
   plot.particles = sample_particles(frame);
   plot.box_size = snapshot->info().box_size;

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <iostream>
 #include <map>
 
 #include "cli/commands.h"
+#include "cli/explanation.h"
 #include "cli/render_stats.h"
 #include "common/unfinished_file.h"
 #include "splotchcl/error.h"
@@ -66,17 +66,6 @@ std::optional<std::filesystem::path> choose_output(const RenderOptions& options)
   return name_of(options.scene) + ".png";
 }
 
-std::vector<std::string> settings_of(const RenderOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
-  if (options.every) settings.push_back(fmt::format("read.every={}", *options.every));
-  if (options.max_particles) {
-    settings.push_back(fmt::format("read.max_particles={}", *options.max_particles));
-  }
-  if (options.cache_smoothing_lengths) settings.push_back("read.cache_smoothing_lengths=true");
-  return settings;
-}
-
 LoadProgress show_progress(Console& console) {
   return [&console](const std::string& what, double fraction) { console.progress(what, fraction); };
 }
@@ -89,20 +78,6 @@ Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, 
     console.note(note);
   frame.crop = choose_crop(options.crop, frame.width, frame.height);
   return frame;
-}
-
-// The plan as comments, so that the whole is a scene file.
-void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene) {
-  std::string line;
-  for (const char c : explain(plan, frame)) {
-    if (c != '\n') {
-      line += c;
-      continue;
-    }
-    std::cout << "# " << line << "\n";
-    line.clear();
-  }
-  std::cout << "\n" << format_scene(scene);
 }
 
 // The pictures' files by suffix, and whether each could be written.
@@ -159,7 +134,9 @@ int run_render(const RenderOptions& options, Console& console) {
   report.frame = read_frame(source, options, console);
   report.read_seconds = reading.seconds();
   if (options.explain || options.stats) report.plan = make_plan(report.frame);
-  if (options.explain) print_explanation(report.plan, report.frame, source.scene);
+  if (options.explain) {
+    print_explanation(report.plan, report.frame, source.scene, options, 1);
+  }
   if (!output) return 0;
 
   const Stopwatch drawing;

@@ -59,13 +59,50 @@ Json to_json(const RenderReport& report) {
           {"stages", stages_to_json(report.stats)}};
 }
 
-}  // namespace
+Json to_json(const FilmFrameStats& frame) {
+  return {
+      {"frame", frame.frame},
+      {"particles", particles_to_json(frame.stats)},
+      {"tile_entries", frame.stats.tile_entries},
+      {"device_bytes", frame.stats.device_bytes},
+      {"seconds", {{"draw", frame.stats.total_seconds}, {"compile", frame.stats.build_seconds}}},
+      {"stages", stages_to_json(frame.stats)}};
+}
 
-void write_stats(const std::filesystem::path& path, const RenderReport& report) {
-  const std::string text = to_json(report).dump(2) + "\n";
+Json to_json(const FilmStats& film) {
+  Json frames = Json::array();
+  double draw_seconds = 0;
+  for (const FilmFrameStats& frame : film.frames) {
+    frames.push_back(to_json(frame));
+    draw_seconds += frame.stats.total_seconds;
+  }
+  return {{"version", SPLOTCHCL_VERSION},
+          {"scene", film.scene},
+          {"output", film.output},
+          {"width", film.result.width},
+          {"height", film.result.height},
+          {"renderer", film.reference ? "reference" : "device"},
+          {"device", film.frames.empty() ? "" : film.frames.front().stats.device},
+          {"frames_of_film", film.result.frames},
+          {"seconds", {{"draw", draw_seconds}}},
+          {"frames", frames}};
+}
+
+void write(const std::filesystem::path& path, const Json& json) {
+  const std::string text = json.dump(2) + "\n";
   UnfinishedFile file(path);
   file.write(text.data(), text.size());
   file.finish();
+}
+
+}  // namespace
+
+void write_stats(const std::filesystem::path& path, const RenderReport& report) {
+  write(path, to_json(report));
+}
+
+void write_stats(const std::filesystem::path& path, const FilmStats& stats) {
+  write(path, to_json(stats));
 }
 
 }  // namespace splotchcl::cli

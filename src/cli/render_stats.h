@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "splotchcl/film.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
@@ -18,6 +20,21 @@ struct RenderReport {
   RenderStats stats;
   double read_seconds = 0, draw_seconds = 0, write_seconds = 0;
 };
+
+// One frame of a film, of all its views together.
+struct FilmFrameStats {
+  int frame = 0;
+  RenderStats stats;
+};
+
+// What --stats tells of a film: of the frames that this run has drawn.
+struct FilmStats {
+  std::string scene, output;
+  bool reference = false;
+  FilmResult result;
+  std::vector<FilmFrameStats> frames;
+};
+void write_stats(const std::filesystem::path& path, const FilmStats& stats);
 
 // As JSON; appears only when complete.
 void write_stats(const std::filesystem::path& path, const RenderReport& report);

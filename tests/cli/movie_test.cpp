@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
@@ -49,6 +50,41 @@ TEST_F(Movie, WritesNumberedImagesSilently) {
   for (const char* name : {"frame_001.png", "frame_003.png", "frame_005.png"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_EQ(folder_.count_files(), 2U + 3U);  // and no manifest
+}
+
+TEST_F(Movie, TakesRendersOptionsForLessData) {
+  ASSERT_EQ(movie("-o frame_%d.png --frames 0 --max-particles 100 --stats s.json").exit_code, 0);
+  const auto stats = nlohmann::json::parse(content("s.json"));
+  EXPECT_LE(stats["frames"][0]["particles"]["total"], 100);  // of which some are stars
+  ASSERT_EQ(movie("-o every_%d.png --frames 0 --every 5 --stats t.json").exit_code, 0);
+  const int total = nlohmann::json::parse(content("t.json"))["frames"][0]["particles"]["total"];
+  EXPECT_LT(total, 300);
+}
+
+TEST_F(Movie, TellsOfEachFrameThatWasDrawnAsJson) {
+  ASSERT_EQ(movie("-o frame_%d.png --frames 1:6:2 --stats s.json").exit_code, 0);
+  const auto stats = nlohmann::json::parse(content("s.json"));
+  EXPECT_EQ(stats["output"], "frame_%d.png");
+  EXPECT_EQ(stats["width"], 32);
+  EXPECT_EQ(stats["frames_of_film"], 3);
+  ASSERT_EQ(stats["frames"].size(), 3U);
+  EXPECT_EQ(stats["frames"][1]["frame"], 3);
+  EXPECT_GT(stats["frames"][1]["seconds"]["draw"], 0);
+  EXPECT_EQ(stats["renderer"], "reference");
+}
+
+TEST_F(Movie, ChecksWhereItsStatisticsGoBeforeItReads) {
+  const ProgramResult result = movie("-o frame_%d.png --stats nowhere/s.json");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("nowhere"));
+  EXPECT_FALSE(has("frame_0.png"));
+}
+
+TEST_F(Movie, NeedsAnOutputUnlessItExplains) {
+  const ProgramResult result = movie("");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--output"));
+  EXPECT_EQ(movie("--explain").exit_code, 0);
 }
 
 TEST_F(Movie, DrawsEachFrameAsRenderDoes) {

@@ -11,8 +11,8 @@ FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
 // The future waits for the frame that is being written.
 FilmDrawer::~FilmDrawer() = default;
 
-void FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
-                      OtherScenes& other_scenes, const std::filesystem::path& output) {
+RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
+                             OtherScenes& other_scenes, const std::filesystem::path& output) {
   DrawnFrame drawn = drawer_.draw(scene, snapshot, other_scenes);
   tell(drawn.notes);
   tell_of_bad_particles(drawn);
@@ -23,6 +23,7 @@ void FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
        options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
         write_pictures(output, pictures, options);
       });
+  return drawn.stats;
 }
 
 void FilmDrawer::finish() {

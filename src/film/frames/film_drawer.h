@@ -22,10 +22,10 @@ class FilmDrawer {
   FilmDrawer(const FilmDrawer&) = delete;
   FilmDrawer& operator=(const FilmDrawer&) = delete;
 
-  // The frame of this number as the scene shows it, to picture_path(output, ...). Throws as
-  // FrameDrawer::draw, and what writing an earlier frame has thrown.
-  void draw(int frame, const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes,
-            const std::filesystem::path& output);
+  // The frame of this number as the scene shows it, to picture_path(output, ...). What it took.
+  // Throws as FrameDrawer::draw, and what writing an earlier frame has thrown.
+  RenderStats draw(int frame, const Scene& scene, const Snapshot& snapshot,
+                   OtherScenes& other_scenes, const std::filesystem::path& output);
   // All frames are written. Throws what writing has thrown.
   void finish();
 

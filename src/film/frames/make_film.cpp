@@ -106,8 +106,9 @@ class Film {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (report_.frame) report_.frame(frames[i], i, frames.size());
       const Scene scene = scene_.scene_at(frames[i]);
-      drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(),
-                  files_.picture(frames[i], ""));
+      const RenderStats stats = drawer.draw(frames[i], scene, *scene_.snapshot_at(scene),
+                                            scene_.other_scenes(), files_.picture(frames[i], ""));
+      if (report_.drawn) report_.drawn(frames[i], stats);
       if (report_.is_stopped && report_.is_stopped()) {
         drawer.finish();
         throw DataError(

@@ -1,0 +1,124 @@
+#include "estimate/device_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "device/frame/picture_layout.h"
+#include "device/frame/shared.h"
+
+namespace splotchcl {
+namespace {
+
+// Of the buffers of one frame, by what they hold.
+class FrameBuffers {
+ public:
+  FrameBuffers(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
+               const DeviceTraits& traits)
+      : frame_(frame),
+        plan_(plan),
+        specialization_(specialization),
+        traits_(traits),
+        layout_(make_picture_layout(plan, specialization)) {}
+
+  std::uint64_t planes() const { return layout_.plane_floats * sizeof(float); }
+
+  // Of one chunk of particles, in blocks that are never filled up in part.
+  std::uint64_t chunk_splats() const {
+    std::uint64_t largest = 0;
+    for (const DrawnComponent& component : frame_.components)
+      largest = std::max<std::uint64_t>(largest, component.particles.count);
+    const std::uint64_t block = traits_.project_block;
+    const std::uint64_t blocks =
+        std::min<std::uint64_t>(traits_.chunk_blocks, (largest + block - 1) / block);
+    return blocks * block * splats_per_particle();
+  }
+
+  std::uint64_t splats(std::uint64_t count) const {
+    return count * (specialization_.splat_bytes() + specialization_.extended_splat_bytes());
+  }
+
+  // Splats that were put in order for their lists.
+  std::uint64_t splats_in_order(std::uint64_t count) const {
+    return count * specialization_.splat_bytes();
+  }
+
+  // Counts per tile of each block, and the lists of as many tiles as fit.
+  std::uint64_t lists(std::uint64_t blocks) const {
+    const std::uint64_t capacity = std::max<std::uint64_t>(
+        traits_.list_capacity, std::uint64_t{traits_.chunk_length()} * splats_per_particle());
+    const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
+    return (blocks + 2) * layout_.tile_count * sizeof(std::uint32_t) +
+           segments * sizeof(shared::Segment) + capacity * specialization_.tile_splat_bytes();
+  }
+
+  // What a grid's rows are blurred or refined into.
+  std::uint64_t blurred_columns() const {
+    std::uint64_t largest = 0;
+    for (std::size_t g = 1; g < layout_.grids.size(); ++g) {
+      const shared::Grid& coarse = layout_.grids[g];
+      const std::uint64_t width = std::max(coarse.stride + 8, layout_.grids[g - 1].stride);
+      largest = std::max(largest, width * static_cast<std::uint64_t>(coarse.height));
+    }
+    return largest * specialization_.planes() * sizeof(float);
+  }
+
+  std::uint64_t blocks_of_chunk() const {
+    return chunk_splats() / (std::uint64_t{traits_.project_block} * splats_per_particle());
+  }
+
+ private:
+  std::uint64_t splats_per_particle() const {
+    return static_cast<std::uint64_t>(plan_.splats_per_particle);
+  }
+
+  const Frame& frame_;
+  const FramePlan& plan_;
+  const Specialization& specialization_;
+  const DeviceTraits& traits_;
+  const PictureLayout layout_;
+};
+
+std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
+  const std::uint64_t drawing =
+      buffers.splats(buffers.chunk_splats()) + buffers.lists(buffers.blocks_of_chunk());
+  return buffers.planes() + std::max(drawing, buffers.blurred_columns());
+}
+
+std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
+                             const DeviceTraits& traits, double splats) {
+  const auto count = static_cast<std::uint64_t>(std::llround(splats));
+  constexpr std::uint64_t key = sizeof(std::uint32_t), order = sizeof(std::uint32_t);
+  const bool by_depth = frame.sort.by == SortOrder::By::depth;
+  const std::uint64_t key_end = by_depth ? sizeof(std::uint16_t) : 0;
+  // Keys and order have a second place each, where they are sorted to.
+  const std::uint64_t sorting = count * (2 * key + 2 * order + key_end);
+  const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.chunk_length());
+  const std::uint64_t drawing =
+      count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
+  return buffers.planes() + buffers.splats(count) + std::max(sorting, drawing);
+}
+
+}  // namespace
+
+std::uint64_t particle_bytes(const Frame& frame) {
+  std::uint64_t values = 0;
+  for (const DrawnComponent& component : frame.components) {
+    const Particles& p = component.particles;
+    for (const Column* column : {&p.position, &p.smoothing_length, &p.weight, &p.color,
+                                 &p.color_vector, &p.intensity, &p.sort_field}) {
+      values += column->size();
+    }
+  }
+  return values * sizeof(float);
+}
+
+std::uint64_t estimate_device_bytes(const Frame& frame, const FramePlan& plan,
+                                    const Specialization& specialization,
+                                    const DeviceTraits& traits, double splats) {
+  const FrameBuffers buffers(frame, plan, specialization, traits);
+  const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
+  return uploaded + (plan.needs_sort() ? bytes_in_order(buffers, frame, traits, splats)
+                                       : bytes_for_sums(buffers));
+}
+
+}  // namespace splotchcl

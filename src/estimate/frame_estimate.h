@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What drawing a frame will take, found from its plan and a sample of its particles.
+struct FrameEstimate {
+  std::string device;
+  int compute_units = 0;
+  std::uint64_t device_bytes = 0;    // buffers of the plan's chunks, lists and grids
+  std::uint64_t particle_bytes = 0;  // the particles' columns, mapped from the file or in memory
+  double splats = 0, tile_entries = 0;
+  // Without compiling kernels. None on a GPU, on which no rates were measured.
+  std::optional<double> seconds;
+};
+
+// On the device of which `device` is a part of the name, as in RendererOptions; opens it, but
+// builds and draws nothing. Throws DeviceError and UsageError as a Renderer does.
+FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device);
+
+// Lines for --explain. `drawings` are how often such a frame is drawn: views of a picture, frames
+// of a film.
+std::string explain(const FrameEstimate& estimate, int drawings);
+
+// "0.12 s", "3.4 min", "2.1 h".
+std::string rounded_duration(double seconds);
+
+}  // namespace splotchcl

@@ -1,0 +1,62 @@
+#include "estimate/splat_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "scene/plan/cloud_sample.h"
+
+namespace splotchcl {
+namespace {
+
+// In sigmas.
+double extent_of(const SampledCloud& cloud, const Frame& frame, const FramePlan& plan) {
+  if (frame.kernel.cut) return *frame.kernel.cut;
+  const double edge = cloud.light * static_cast<double>(plan.splats.inverse_edge);
+  return std::max(static_cast<double>(plan.splats.least_extent),
+                  std::sqrt(std::log(std::max(edge, 1.0))));
+}
+
+std::size_t grid_of(const SampledCloud& cloud, const FramePlan& plan) {
+  const std::size_t grids = plan.pyramid.grids.size();
+  if (grids < 2 || cloud.light > static_cast<double>(plan.pyramid.coarse_peak)) return 0;
+  const double least =
+      static_cast<double>(plan.pyramid.coarse_sigma) * std::pow(std::max(cloud.light, 1.0), 0.125);
+  const double octaves = std::log2(cloud.sigma / least);
+  const double index = plan.pyramid.is_blurred ? std::floor(2 * octaves) - 1 : std::floor(octaves);
+  return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(grids - 1)));
+}
+
+// Of the part of [middle - reach, middle + reach] that lies in [first, first + length].
+double length_inside(double middle, double reach, int first, int length) {
+  const double begin = std::max(middle - reach, static_cast<double>(first));
+  const double end = std::min(middle + reach, static_cast<double>(first) + length);
+  return std::max(end - begin, 0.0);
+}
+
+}  // namespace
+
+SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan,
+                              const Specialization& specialization) {
+  SplatWork work;
+  for (const SampledCloud& cloud : sample_clouds(frame)) {
+    const std::size_t g = grid_of(cloud, plan);
+    const double pixel = std::exp2(plan.pyramid.grids[g].level);
+    double sigma = cloud.sigma / pixel;
+    if (g > 0 && plan.pyramid.is_blurred) {
+      sigma = std::sqrt(std::max(sigma * sigma - plan.pyramid.blur[(g + 1) % 2], 0.25));
+    }
+    const double reach = extent_of(cloud, frame, plan) * sigma * pixel;
+    const Rectangle& crop = frame.crop;
+    const double width = length_inside(cloud.x, reach, crop.x, crop.width) / pixel;
+    const double height = length_inside(cloud.y, reach, crop.y, crop.height) / pixel;
+    const double tiles =
+        (1 + width / specialization.tile_width()) * (1 + height / specialization.tile_height());
+    work.splats += cloud.weight;
+    work.tile_entries += cloud.weight * tiles;
+    work.row_parts += cloud.weight * (1 + height) * (1 + width / 8);
+  }
+  return work;
+}
+
+}  // namespace splotchcl
