@@ -305,10 +305,9 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
 
 // Taken before the command and after it.
 void add_verbosity(CLI::App& app, bool& is_verbose, bool& is_quiet) {
-  CLI::Option* const verbose = app.add_flag(
-      "-v,--verbose", is_verbose, wrapped("Say on standard error what is being done, and when"));
-  app.add_flag("-q,--quiet", is_quiet, wrapped("Say nothing but errors: no notes, no progress"))
-      ->excludes(verbose);
+  app.add_flag("-v,--verbose", is_verbose,
+               wrapped("Say on standard error what is being done, and when"));
+  app.add_flag("-q,--quiet", is_quiet, wrapped("Say nothing but errors: no notes, no progress"));
 }
 
 Verbosity chosen_verbosity(bool is_verbose, bool is_quiet) {

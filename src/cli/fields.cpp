@@ -87,6 +87,7 @@ std::string number(const std::optional<FieldStatistics>& statistics,
 }
 
 std::string remark(const NamedField& field) {
+  if (field.values_per_particle == 3) return "vector";
   if (field.values_per_particle > 1) return fmt::format("{} values", field.values_per_particle);
   if (!field.is_derived) return "";
   return field.statistics ? "derived" : "derived when drawn";
@@ -98,9 +99,8 @@ void print_text(const std::vector<NamedField>& fields) {
     name_width = std::max(name_width, field.name.size());
     unit_width = std::max(unit_width, field.unit.size());
   }
-  std::cout << fmt::format("{:4}  {:10}  {:{}}  {:>12}  {:>13}  {:>13}  {:>8}  {:{}}\n", "type",
-                           "name", "field", name_width, "particles", "minimum", "maximum", "bad",
-                           "unit", unit_width);
+  std::cout << fmt::format("{:4}  {:10}  {:{}}  {:>12}  {:>13}  {:>13}  {:>8}  unit\n", "type",
+                           "name", "field", name_width, "particles", "minimum", "maximum", "bad");
   for (const NamedField& field : fields) {
     const std::string bad = field.statistics ? std::to_string(field.statistics->bad) : "-";
     std::string line =
