@@ -13,12 +13,17 @@ std::string count(double number) {
   return number < 1e5 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g} million", number / 1e6);
 }
 
+// Two digits, or all before the point.
+std::string rounded(double number) {
+  return number < 10 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
+}
+
 }  // namespace
 
 std::string rounded_duration(double seconds) {
-  if (seconds < 100) return fmt::format("{:.2g} s", seconds);
-  if (seconds < 6000) return fmt::format("{:.2g} min", seconds / 60);
-  return fmt::format("{:.3g} h", seconds / 3600);
+  if (seconds < 100) return rounded(seconds) + " s";
+  if (seconds < 6000) return rounded(seconds / 60) + " min";
+  return rounded(seconds / 3600) + " h";
 }
 
 std::string explain(const FrameEstimate& estimate, int drawings) {
