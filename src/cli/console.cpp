@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <thread>
 
 namespace splotchcl::cli {
@@ -152,8 +153,14 @@ void Console::show_status(const std::string& text) {
 }
 
 void Console::tell_now_and_then(const std::string& text) {
-  if (!reporter_) reporter_ = std::make_unique<Reporter>(log_->logger);
-  reporter_->set(text);
+  if (!reporter_ && !has_no_thread_) {
+    try {
+      reporter_ = std::make_unique<Reporter>(log_->logger);
+    } catch (const std::system_error&) {
+      has_no_thread_ = true;  // nothing that is done needs the report
+    }
+  }
+  if (reporter_) reporter_->set(text);
 }
 
 void Console::done(const std::string& text) {

@@ -53,6 +53,7 @@ class Console {
   std::string last_stage_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_progress_;
+  bool has_no_thread_ = false;
   std::unique_ptr<Reporter> reporter_;  // off a terminal, once something is being done
 };
 

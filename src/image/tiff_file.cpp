@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
+#include <exception>
 #include <memory>
 
 #include "image/picture_encoders.h"
@@ -20,7 +21,11 @@ constexpr std::size_t most_bytes_of_plain_tiff = std::size_t{4000} * 1000 * 1000
 struct MemoryFile {
   std::vector<unsigned char> bytes;
   std::size_t place = 0;
-  std::string problem = "libtiff does not say why";
+  std::string problem;  // the first that was found
+
+  void fail(const char* why) {
+    if (problem.empty()) problem = why;
+  }
 };
 
 MemoryFile& memory_file(thandle_t handle) {
@@ -38,10 +43,16 @@ tmsize_t read_bytes(thandle_t handle, void* to, tmsize_t count) {
   return static_cast<tmsize_t>(taken);
 }
 
+// libtiff is written in C, which exceptions do not pass.
 tmsize_t write_bytes(thandle_t handle, void* from, tmsize_t count) {
   MemoryFile& file = memory_file(handle);
   const std::size_t end = file.place + static_cast<std::size_t>(count);
-  if (file.bytes.size() < end) file.bytes.resize(end);
+  try {
+    if (file.bytes.size() < end) file.bytes.resize(end);
+  } catch (const std::exception&) {
+    file.fail("out of memory");
+    return 0;
+  }
   std::copy_n(static_cast<const unsigned char*>(from), count,
               file.bytes.begin() + static_cast<std::ptrdiff_t>(file.place));
   file.place = end;
@@ -68,7 +79,7 @@ toff_t size_of(thandle_t handle) {
 int keep_problem(TIFF*, void* handle, const char*, const char* format, std::va_list values) {
   char text[256];
   std::vsnprintf(text, sizeof text, format, values);
-  memory_file(handle).problem = text;
+  memory_file(handle).fail(text);
   return 1;  // libtiff need not print it
 }
 
@@ -130,11 +141,11 @@ std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const 
   if (const Tiff tiff = open(file, image)) {
     describe(tiff.get(), image);
     is_written = write_strips(tiff.get(), image);
-  }
-  if (!is_written) {
+  }  // which completes the file
+  if (!is_written || !file.problem.empty()) {
     throw DataError(path.string() + ": " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) +
-                    " pixels cannot be stored as .tif: " + file.problem);
+                    std::to_string(image.height) + " pixels cannot be stored as .tif: " +
+                    (file.problem.empty() ? "libtiff does not say why" : file.problem));
   }
   return std::move(file.bytes);
 }
