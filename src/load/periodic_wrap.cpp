@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/for_blocks.h"
+#include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

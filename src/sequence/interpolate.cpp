@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/for_blocks.h"
+#include "parallel/for_blocks.h"
 
 namespace splotchcl {
 namespace {

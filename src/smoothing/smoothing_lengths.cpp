@@ -8,7 +8,7 @@
 #include <nanoflann.hpp>
 #include <vector>
 
-#include "common/for_blocks.h"
+#include "parallel/for_blocks.h"
 #include "scene/particle_rules.h"
 #include "splotchcl/error.h"
 

@@ -1,4 +1,4 @@
-#include "common/for_blocks.h"
+#include "parallel/for_blocks.h"
 
 #include <algorithm>
 #include <atomic>
