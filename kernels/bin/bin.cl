@@ -22,6 +22,17 @@ inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
 #endif
 }
 
+#ifdef LIGHT_ORDERED
+// Splats that will be needed soon: asked for early, they are there when they are. OpenCL's own
+// prefetch() does nothing on PoCL.
+#define SPLATS_AHEAD 16
+#ifdef __clang__
+#define ask_for(splat) __builtin_prefetch((const void*)(size_t)(splat))
+#else
+#define ask_for(splat)
+#endif
+#endif
+
 // counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
 // fetched once, here, and kept in order for the scatter.
 __kernel void bin_count(const BinParameters p, __global const Grid* grids,
@@ -35,6 +46,7 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   const uint end = slots_end(p, blocks, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef LIGHT_ORDERED
+    ask_for(splats + order[min(slot + SPLATS_AHEAD, end - 1)]);
     const Splat splat = splats[order[slot]];
     in_order[slot - p.first] = splat;
 #else
