@@ -38,11 +38,21 @@ struct ToleranceShares {
   double arithmetic() const { return pixel_mean + phi + early_stop; }
 };
 
-// Clouds that lie upon one another in one place of the picture.
-struct Crowd {
-  double light = 0;  // or optical depth, of all of them; 0: there is no crowd
-  // Only clouds of such widths do: sigma in pixels.
-  double narrowest_sigma = 0, widest_sigma = 0;
+// What splats of one octave of widths need beyond what each by itself does, because many of them
+// add up where it shows.
+struct WidthNeed {
+  double light = 0;    // at least 0: they count as bright ones, of this light or optical depth
+  double farther = 0;  // added to the square of how many sigma of them are drawn
+};
+
+// By sigma in the picture's pixels, sigma'^2 = sigma^2 + widening: below 1, from 1 to 2, from 2 to
+// 4, and so on; the last also beyond.
+constexpr int width_octaves = 16;
+
+// What the splats of a frame turned out to need when it was drawn: see refine_plan().
+struct SplatNeeds {
+  std::array<WidthNeed, width_octaves> widths;
+  double grid_light = 1;  // of all that lies in one place on a coarse grid
 };
 
 // Where a splat ends and how its pixels are sampled. Widths in pixels.
@@ -53,10 +63,6 @@ struct SplatLimits {
   float least_extent = 0;    // sigmas drawn of a faint splat
   float restored_light = 0;  // part of a faint splat's weight that it gets back
   float inverse_edge = 0;    // 1 / (value at which a splat may end)
-  // Splats of a crowd's widths count as bright as the crowd.
-  float crowd_light = 0, crowd_narrowest = 0, crowd_widest = 0;
-  float crowd_bright = 0;  // its light where that makes them bright splats, else 0
-  float crowd_extent = 0;  // sigmas drawn of them at least
 };
 
 // One grid of pixels: the picture's own, or a coarser one with a guard band around it.
@@ -112,8 +118,10 @@ struct FramePlan {
   int splats_per_particle = 1;  // at most
 
   ToleranceShares shares;
-  Crowd crowd;
+  SplatNeeds needs;
   SplatLimits splats;
+  double erf_error = 0;        // absolute
+  double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   GridPyramid pyramid;
   LayerLimits layers;
 
@@ -126,8 +134,13 @@ struct PlanOptions {
   bool coarse_grids = true;
 };
 
-// Decides everything. Looks at up to 16384 particles: a millisecond or two.
+// Decides everything.
 FramePlan make_plan(const Frame& frame, const PlanOptions& options = {});
+
+// The plan for drawing a frame again whose splats turned out to need more.
+FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeeds& needs);
+// The plan of the highest precision.
+FramePlan extend_plan(const Frame& frame, const FramePlan& plan);
 
 // The light alone, which needs no particles.
 LightPlan choose_light(const Frame& frame);

@@ -45,6 +45,22 @@ struct StageTime {
   double seconds = 0;
 };
 
+// What was found of a frame's errors after it had been drawn, from all of its splats
+// (docs/accuracy.md, "Checked after drawing").
+struct FrameCheck {
+  // The largest error of any pixel over what is promised, estimated; of each drawing in turn. The
+  // frame is drawn again until it is at most 1. Empty where the drawing needs no check.
+  std::vector<double> errors_of_promise;
+  // Where the last one is largest, what makes it up.
+  double ends = 0;   // of splats, in uneven light
+  double even = 0;   // of splats, in even light
+  double peaks = 0;  // errors that are parts of splats' peaks
+  double rest = 0;   // layers and early stop, ordered
+  // Estimated errors of the last drawing, of light, in square blocks of pixels, row by row.
+  int block_pixels = 0, columns = 0, rows = 0;
+  std::vector<float> errors;
+};
+
 struct RenderStats {
   std::string device;
   std::uint64_t particles = 0;      // in the components
@@ -55,6 +71,7 @@ struct RenderStats {
   double build_seconds = 0;        // of the total: compiling kernels, or finding them compiled
   double total_seconds = 0;
   std::vector<StageTime> stages;
+  FrameCheck check;
   std::string note;  // what the user should know of the device; empty: nothing
 };
 

@@ -4,6 +4,9 @@
 #ifndef SPLOTCHCL_SPLAT_H
 #define SPLOTCHCL_SPLAT_H
 
+// Splats are told apart by the octave of their width in pixels (plan.h, width_octaves).
+#define WIDTH_OCTAVES 16
+
 // A number as the sum of two floats (extended.cl).
 struct FloatPair {
   float high, low;

@@ -31,10 +31,9 @@ inline VALUE gaussian(VALUE d, float inverse) {
 #ifdef DEVICE_ERF
 #define error_function erf
 #else
-// erf, absolute error 6e-6 (6e-7 if EXACT), as x p(x^2); constant beyond its range,
-// where 1 - erf is below 7.5e-7 (1.6e-8).
+// erf, absolute error 6e-7, as x p(x^2); constant beyond its range, where 1 - erf is below
+// 1.6e-8.
 inline VALUE error_function(VALUE x) {
-#ifdef FULL_PRECISION
   x = clamp(x, (VALUE)(-4.0f), (VALUE)(4.0f));
   const VALUE u = x * x * 0.125f - 1.0f;
   VALUE p = u * -0.00500595266f + 0.0115974376f;
@@ -50,20 +49,6 @@ inline VALUE error_function(VALUE x) {
   p = p * u + 0.131653945f;
   p = p * u - 0.176575351f;
   p = p * u + 0.353531196f;
-#else
-  x = clamp(x, (VALUE)(-3.5f), (VALUE)(3.5f));
-  const VALUE u = x * x * 0.163265306f - 1.0f;
-  VALUE p = u * 0.00729444705f - 0.0173792432f;
-  p = p * u + 0.0157008865f;
-  p = p * u - 0.0206942303f;
-  p = p * u + 0.0447701136f;
-  p = p * u - 0.0684998583f;
-  p = p * u + 0.088680725f;
-  p = p * u - 0.114010363f;
-  p = p * u + 0.146707403f;
-  p = p * u - 0.200727982f;
-  p = p * u + 0.40387384f;
-#endif
   return x * p;
 }
 #endif

@@ -27,9 +27,9 @@ inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
 
 // How many sigma a splat is drawn: at least so far that the light outside the square does
 // not show in a sum of many, and for a bright one so far that its own edge does not show.
-inline VALUE truncation_extent(VALUE peak, const ProjectParameters p) {
+inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameters p) {
   const VALUE excess = log2_positive(max(peak * p.inverse_edge, (VALUE)(1.0f)));
-  return max((VALUE)(p.least_extent), sqrt(0.693147181f * excess));
+  return sqrt(max((VALUE)(p.least_extent * p.least_extent), 0.693147181f * excess) + farther);
 }
 
 // The width below which a bright splat is taken as means. At the distance where it has faded

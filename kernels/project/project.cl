@@ -126,7 +126,7 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
 #endif
   for (uint i = begin; i < end; i += LANES) {
-    SplatLanes lanes = project_lanes(i, end, p, grids, columns);
+    SplatLanes lanes = project_lanes(i, end, p, &p.width_needs, grids, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
     const INTEGER unclear = lanes.visible & lanes.unclear;
     if (ANY(unclear)) lanes.visible &= are_within_limits(i, end, unclear, columns, p);

@@ -33,6 +33,11 @@ struct DepthKeyParameters {
   int near_exponent;
 };
 
+// Of splats of an octave of widths (plan.h, WidthNeed).
+struct WidthNeeds {
+  float light[WIDTH_OCTAVES], farther[WIDTH_OCTAVES];
+};
+
 // Constants of the projection of one component.
 struct ProjectParameters {
   // The camera relative to the component's origin, as a sum of two.
@@ -66,10 +71,8 @@ struct ProjectParameters {
   float widening;      // sigma'^2 = sigma^2 + widening, in pixels
   float mean_sigma;    // below: the pixel mean by erf, not the widened center value
   float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
-  float crowd_light;   // what splats that lie upon one another add up to; 0: there are none
-  float crowd_bright;  // the same where it makes them bright splats
-  float crowd_extent;  // sigmas drawn of them at least
-  float crowd_narrowest, crowd_widest;  // of sigmas in this range, in pixels
+  int octaves_in_need, has_bright_octaves;  // whose needs are not 0; whether any is of light
+  struct WidthNeeds width_needs;
 
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
@@ -127,6 +130,7 @@ struct ExtendedParameters {
 typedef struct FieldScaling FieldScaling;
 typedef struct WideInteger WideInteger;
 typedef struct DepthKeyParameters DepthKeyParameters;
+typedef struct WidthNeeds WidthNeeds;
 typedef struct ProjectParameters ProjectParameters;
 typedef struct BlockCounts BlockCounts;
 typedef struct ExtendedParameters ExtendedParameters;

@@ -55,13 +55,24 @@ INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float
 
 // How bright a splat is: what decides how exactly it is drawn.
 typedef struct BrightnessLanes {
-  VALUE own_peak;  // the largest of E and A in a pixel
-  VALUE peak;      // or that of the crowd that it lies in
-  INTEGER crowded, bright;
+  VALUE own_peak;    // the largest of E and A in a pixel
+  VALUE crowd_peak;  // or that of all the splats that it lies upon
+  VALUE farther;     // added to the square of its extent
+  INTEGER bright;
 } BrightnessLanes;
 
+// Few octaves need anything.
+inline VALUE value_of_octave(const float* values, int count, INTEGER octave) {
+  VALUE found = (VALUE)(0.0f);
+  for (int k = 0; k < count; ++k)
+    found = choose(found, (VALUE)(values[k]), octave == k);
+  return found;
+}
+
+// `needs` are those of p: as a part of a structure passed by value they would be copied.
 INLINED BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
-                                        VALUE weight, const ProjectParameters p) {
+                                        VALUE weight, const WidthNeeds* needs,
+                                        const ProjectParameters p) {
   BrightnessLanes b;
   VALUE brightest = p.peak_color;
 #ifdef VECTOR_COLORS
@@ -76,10 +87,23 @@ INLINED BrightnessLanes find_brightness(const ParticleLanes particles, const Wid
 #endif
   // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
   b.own_peak = weight * brightest * min((VALUE)(1.0f), 3.2f * own_area);
-  // What counts of a splat in a crowd is what all of them add up to.
-  b.crowded = sigma >= p.crowd_narrowest & sigma <= p.crowd_widest;
-  b.peak = max(b.own_peak, choose((VALUE)(0.0f), (VALUE)(p.crowd_light), b.crowded));
-  b.bright = (b.own_peak > p.bright_peak) | (b.crowded & (INTEGER)(p.crowd_bright > 0.0f ? -1 : 0));
+  b.crowd_peak = b.own_peak;
+  b.farther = (VALUE)(0.0f);
+  b.bright = b.own_peak > p.bright_peak;
+  if (p.octaves_in_need == 0) return b;
+#ifdef ELLIPSES
+  const VALUE width2 = sigma * max(sigma, widths.sigma_x) + p.widening;
+#else
+  const VALUE width2 = sigma * sigma + p.widening;
+#endif
+  const INTEGER octave =
+      clamp((power_of_two(width2) >> 1) + 1, (INTEGER)(0), (INTEGER)(WIDTH_OCTAVES - 1));
+  b.farther = value_of_octave(needs->farther, p.octaves_in_need, octave);
+  if (p.has_bright_octaves) {
+    const VALUE light = value_of_octave(needs->light, p.octaves_in_need, octave);
+    b.crowd_peak = max(b.own_peak, light);
+    b.bright |= light > b.own_peak;
+  }
   return b;
 }
 
@@ -99,7 +123,7 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
   SampledLanes s;
   const VALUE sigma = widths.sigma;
   const VALUE mean_limit =
-      choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.peak, p), brightness.bright);
+      choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
   s.by_mean = sigma < mean_limit;
   s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
   const VALUE narrowing = sigma / s.sigma;
@@ -118,7 +142,7 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
 INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
                            const SampledLanes sampled, const BrightnessLanes brightness,
                            VALUE extent, const ProjectParameters p) {
-  s->grid = choose_grid(sampled.sigma, brightness.peak, p);
+  s->grid = choose_grid(sampled.sigma, brightness.own_peak, p);
   const INTEGER level = p.blurred ? (s->grid + 1) >> 1 : s->grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
@@ -170,7 +194,7 @@ INLINED INTEGER reaches_grid(const SplatLanes s, float width, float height,
 // sigma / (sigma + 2 k).
 INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
                               const ProjectParameters p) {
-  const INTEGER faint = extent <= p.least_extent;
+  const INTEGER faint = extent <= p.least_extent * 1.00001f;
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
   return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
 }
@@ -216,7 +240,8 @@ INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widt
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
 INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
-                                 __global const Grid* grids, const Columns columns) {
+                                 const WidthNeeds* needs, __global const Grid* grids,
+                                 const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
   const ViewLanes view = view_particles(particles, p);
@@ -239,12 +264,11 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   VALUE weight =
       column_weight(particles.weight, widths.h, p) * normalized(particles.intensity, p.intensity);
   if (p.min_radius > 0.0f) weight *= widths.sigma_true / widths.sigma;
-  const BrightnessLanes brightness = find_brightness(particles, widths, weight, p);
+  const BrightnessLanes brightness = find_brightness(particles, widths, weight, needs, p);
   const SampledLanes sampled = choose_sampling(widths, brightness, weight, p);
-  const VALUE crowd_extent = choose((VALUE)(0.0f), (VALUE)(p.crowd_extent), brightness.crowded);
   const VALUE extent = p.kernel_cut > 0.0f
                            ? (VALUE)(p.kernel_cut)
-                           : max(truncation_extent(brightness.own_peak, p), crowd_extent);
+                           : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   s.visible &= reaches_grid(s, width, height, p);
   s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);

@@ -24,6 +24,14 @@ Json plan_to_json(const FramePlan& plan) {
           {"arithmetic_share", plan.shares.arithmetic()}};
 }
 
+Json check_to_json(const FrameCheck& check) {
+  return {{"errors_of_promise", check.errors_of_promise},
+          {"ends", check.ends},
+          {"even", check.even},
+          {"peaks", check.peaks},
+          {"rest", check.rest}};
+}
+
 Json seconds_to_json(const RenderReport& report) {
   return {{"read", report.read_seconds},
           {"draw", report.draw_seconds},
@@ -50,6 +58,7 @@ Json to_json(const RenderReport& report) {
           {"crop", {frame.crop.x, frame.crop.y, frame.crop.width, frame.crop.height}},
           {"tolerance", frame.tolerance},
           {"plan", plan_to_json(report.plan)},
+          {"check", check_to_json(report.stats.check)},
           {"renderer", report.reference ? "reference" : "device"},
           {"device", report.stats.device},
           {"particles", particles_to_json(report.stats)},

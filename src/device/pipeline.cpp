@@ -12,7 +12,8 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       sorter_(device),
       binner_(context_),
       compositor_(context_),
-      resolver_(context_) {}
+      resolver_(context_),
+      certifier_(context_) {}
 
 Image Pipeline::draw() {
   counts_ = {};
@@ -74,6 +75,7 @@ Planes Pipeline::draw_lists(const CountedSplats& counted, Planes planes) {
   for (const TileBand& band : counted.bands) {
     const TileLists lists = binner_.make_lists(counted, band);
     counts_.tile_entries += lists.entry_count;
+    certifier_.collect(lists);
     planes = compositor_.composite(lists, *counted.splats, std::move(planes));
   }
   return planes;

@@ -8,6 +8,7 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/stages/binner.h"
+#include "device/stages/certifier.h"
 #include "device/stages/compositor.h"
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
@@ -33,6 +34,8 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   Image draw();
+  // Of all splats that have been drawn.
+  std::vector<PeakCells> peak_cells() const { return certifier_.cells(); }
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn
 
   const StageContext& context() const { return context_; }
@@ -58,6 +61,7 @@ class Pipeline {
   const Binner binner_;
   const Compositor compositor_;
   const Resolver resolver_;
+  Certifier certifier_;
   DrawCounts counts_;
 };
 

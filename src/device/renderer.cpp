@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "certificate/certificate.h"
+#include "certificate/picture_light.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
@@ -41,6 +43,18 @@ void check_frame(const Frame& frame) {
   }
 }
 
+void note_check(const Certificate& certificate, FrameCheck& check) {
+  check.errors_of_promise.push_back(certificate.error_of_promise);
+  check.ends = certificate.worst.ends;
+  check.even = certificate.worst.even;
+  check.peaks = certificate.worst.peaks;
+  check.rest = certificate.worst.rest;
+  check.block_pixels = PictureLight::block_pixels;
+  check.columns = certificate.columns;
+  check.rows = certificate.rows;
+  check.errors = certificate.errors;
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -55,6 +69,8 @@ struct Renderer::State {
   }
 
   Image render(const Frame& frame, const FramePlan& plan);
+  // Draws, and what was drawn.
+  Image draw(const Frame& frame, const FramePlan& plan, std::vector<PeakCells>& cells);
 
   DeviceContext device;
   ParticleStore particles;
@@ -72,21 +88,44 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   device.pool.reset_peak();
   particles.begin_frame();
 
-  Pipeline pipeline(device, particles, frame, plan);
-  Image image = pipeline.draw();
-  device.queue.finish();
+  FramePlan drawn = plan;
+  Image image;
+  while (true) {
+    std::vector<PeakCells> cells;
+    image = draw(frame, drawn, cells);
+    if (drawn.is_extended()) {
+      stats.check.errors.clear();
+      break;
+    }
+    const Certificate certificate = certify(cells, image, frame, drawn);
+    note_check(certificate, stats.check);
+    if (certificate.keeps_promise()) break;
+    // What converges does so in a step or two.
+    constexpr std::size_t most_drawings = 4;
+    drawn = stats.check.errors_of_promise.size() < most_drawings
+                ? refine_plan(frame, drawn, certificate.needs)
+                : extend_plan(frame, drawn);
+  }
   particles.end_frame();
-
-  stats.particles = pipeline.counts().particles;
-  stats.drawn_particles = pipeline.counts().visible;
-  stats.bad_particles = pipeline.counts().bad;
-  stats.tile_entries = pipeline.counts().tile_entries;
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
   stats.stages = device.timer.times();
   stats.build_seconds = device.programs.build_seconds() - built_before;
   device.timer.clear();
   stats.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return image;
+}
+
+Image Renderer::State::draw(const Frame& frame, const FramePlan& plan,
+                            std::vector<PeakCells>& cells) {
+  Pipeline pipeline(device, particles, frame, plan);
+  Image image = pipeline.draw();
+  cells = pipeline.peak_cells();
+  device.queue.finish();
+  stats.particles = pipeline.counts().particles;
+  stats.drawn_particles = pipeline.counts().visible;
+  stats.bad_particles = pipeline.counts().bad;
+  stats.tile_entries = pipeline.counts().tile_entries;
   return image;
 }
 

@@ -10,6 +10,7 @@ namespace splotchcl::shared {
 #include "kernels/common/splat.h"
 // The others use what stands there.
 #include "kernels/bin/bin.h"
+#include "kernels/certify/certify.h"
 #include "kernels/composite/composite.h"
 #include "kernels/project/project.h"
 #include "kernels/resolve/resolve.h"
@@ -31,7 +32,7 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 106>);
+static_assert(has_words<ProjectParameters, 135>);
 static_assert(has_words<BlockCounts, 2>);
 static_assert(has_words<ExtendedParameters, 68>);
 static_assert(has_words<SortParameters, 4>);
@@ -39,6 +40,8 @@ static_assert(has_words<KeyBits, 2>);
 static_assert(has_words<BinParameters, 13>);
 static_assert(has_words<Segment, 4>);
 static_assert(has_words<CompositeParameters, 7>);
+static_assert(has_words<OctaveCells, 2>);
+static_assert(has_words<CertifyParameters, 72>);
 static_assert(has_words<BlurParameters, 68>);
 static_assert(has_words<RefineParameters, 13>);
 static_assert(has_words<ResolveParameters, 12>);

@@ -142,6 +142,11 @@ ProgramSource Specialization::join() const {
           {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "join.cl"}};
 }
 
+ProgramSource Specialization::certify() const {
+  return {tile_defines() + define_if(kernel_cut_, "KERNEL_CUT"),
+          {"splat.h", "bin.h", "certify.h", "common.cl", "collect.cl"}};
+}
+
 ProgramSource Specialization::coarse_grids() {
   return {"", {"splat.h", "resolve.h", "common.cl", "blur.cl", "refine.cl"}};
 }

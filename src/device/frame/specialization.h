@@ -47,6 +47,7 @@ class Specialization {
   ProgramSource bin() const;
   ProgramSource composite() const;
   ProgramSource join() const;
+  ProgramSource certify() const;
   ProgramSource resolve() const;
   // These are the same for all frames.
   static ProgramSource scan_blocks();

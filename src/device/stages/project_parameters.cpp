@@ -143,11 +143,13 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.widening = limits.widening;
   p.mean_sigma = limits.mean_sigma;
   p.bright_peak = limits.bright_peak;
-  p.crowd_light = limits.crowd_light;
-  p.crowd_bright = limits.crowd_bright;
-  p.crowd_extent = limits.crowd_extent;
-  p.crowd_narrowest = limits.crowd_narrowest;
-  p.crowd_widest = limits.crowd_widest;
+  for (std::size_t octave = 0; octave < plan.needs.widths.size(); ++octave) {
+    const WidthNeed& need = plan.needs.widths[octave];
+    p.width_needs.light[octave] = static_cast<float>(need.light);
+    p.width_needs.farther[octave] = static_cast<float>(need.farther);
+    if (need.light > 0 || need.farther > 0) p.octaves_in_need = static_cast<int>(octave) + 1;
+    p.has_bright_octaves |= need.light > 0;
+  }
   p.least_extent = limits.least_extent;
   p.restored_light = limits.restored_light;
   p.inverse_edge = limits.inverse_edge;

@@ -14,6 +14,14 @@ namespace splotchcl {
 namespace {
 
 // The frames of one picture share their particles.
+// Of several views the one that keeps its promise least well counts.
+void add(const FrameCheck& frame, FrameCheck& total) {
+  if (frame.errors_of_promise.empty()) return;
+  const bool is_worse = total.errors_of_promise.empty() ||
+                        frame.errors_of_promise.back() > total.errors_of_promise.back();
+  if (is_worse) total = frame;
+}
+
 void add(const RenderStats& frame, RenderStats& total) {
   total.device = frame.device;
   total.note = frame.note;
@@ -22,6 +30,7 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
   total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
   total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
+  add(frame.check, total.check);
   total.build_seconds += frame.build_seconds;
   total.total_seconds += frame.total_seconds;
   for (const StageTime& stage : frame.stages) {

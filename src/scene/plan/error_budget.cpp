@@ -56,7 +56,7 @@ ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& 
   const double coarse_grids = ordered ? 0 : 0.25 * tolerance;
   shares.coarse_grids = options.coarse_grids ? coarse_grids : 0;
   const double arithmetic = tolerance - shares.truncation - coarse_grids;
-  shares.early_stop = ordered ? 0.2 * arithmetic : 0;
+  shares.early_stop = ordered ? 0.1 * arithmetic : 0;
   shares.phi = (ordered ? 0.2 : 0.25) * arithmetic;
   shares.pixel_mean = arithmetic - shares.phi - shares.early_stop;
   return shares;
@@ -64,13 +64,21 @@ ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& 
 
 }  // namespace
 
+ErrorBudget make_extended_budget() {
+  ErrorBudget budget;
+  budget.precision = Precision::extended;
+  budget.uses_device_erf = true;
+  budget.shares = extended_shares();
+  return budget;
+}
+
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options) {
   ErrorBudget budget;
   budget.has_sharp_clouds = frame.tolerance > 0 && places_exceed_tolerance(frame);
   if (frame.tolerance == 0 || budget.has_sharp_clouds) {
-    budget.precision = Precision::extended;
-    budget.uses_device_erf = true;
-    budget.shares = extended_shares();
+    const bool has_sharp_clouds = budget.has_sharp_clouds;
+    budget = make_extended_budget();
+    budget.has_sharp_clouds = has_sharp_clouds;
     return budget;
   }
   budget.precision = frame.tolerance < fast_tolerance ? Precision::full : Precision::fast;

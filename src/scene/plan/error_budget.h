@@ -17,6 +17,9 @@ struct ErrorBudget {
 // Looks at a sample of the particles where the tolerance is small: see FramePlan.
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options);
 
+// Of the highest precision, which promises extended_tolerance.
+ErrorBudget make_extended_budget();
+
 // What a relative error of every splat does to the picture, relative to max(1, I). Light that
 // nothing absorbs errs by as much. Otherwise light b behind a depth x off by a part of itself
 // errs by that part of x b exp(-x): of max(1, b exp(-x)) this is at most b / e, or where b is

@@ -40,12 +40,8 @@ void explain_shares(const FramePlan& plan, std::ostream& out) {
   out << "\n  ends of the splats " << shares.truncation << ", coarse grids " << shares.coarse_grids
       << ", arithmetic " << shares.arithmetic() << ":\n"
       << "    center values for pixel means " << shares.pixel_mean << ", exp and phi " << shares.phi
-      << ", early stop " << shares.early_stop << "\n";
-  if (plan.crowd.light > 0) {
-    out << "  clouds of light " << plan.crowd.light << " lie upon one another: those of sigma "
-        << plan.crowd.narrowest_sigma << " to " << plan.crowd.widest_sigma
-        << " pixels are drawn farther and finer\n";
-  }
+      << ", early stop " << shares.early_stop << "\n"
+      << "  checked from all splats when it is drawn, and drawn again where that is not enough\n";
 }
 
 }  // namespace

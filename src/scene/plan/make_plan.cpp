@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 
-#include "scene/plan/crowding.h"
 #include "scene/plan/error_budget.h"
 #include "scene/plan/grid_pyramid.h"
 #include "scene/plan/light_structure.h"
@@ -12,6 +12,46 @@ namespace {
 
 // Copies of a splat on either side of an equirectangular picture (kernels/project).
 constexpr int splats_with_copies = 7;
+
+// Of the device's own, and of the polynomial (kernels/composite/shape.cl), which is cheap beside
+// everything else that a narrow splat costs.
+double erf_error(const FramePlan& plan) {
+  return plan.uses_device_erf ? 2e-7 : 6e-7;
+}
+
+// Narrow splats are those of dense places, where many lie close together, and drawing them
+// farther costs little: most of their cost does not depend on their area. With these, few frames
+// are drawn again (docs/performance.md).
+SplatNeeds first_needs(const FramePlan& plan) {
+  SplatNeeds needs;
+  if (plan.is_extended()) return needs;
+  const std::array<double, 5> farther =
+      plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.9, 1.4, 0.6, 0.0, 0.0};
+  for (std::size_t octave = 0; octave < farther.size(); ++octave)
+    needs.widths[octave].farther = farther[octave];
+  return needs;
+}
+
+GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
+  // Coarse grids are for round splats. Where cut ones lie upon one another, so do their edges.
+  const bool has_coarse_grids = plan.shares.coarse_grids > 0 && !plan.has_ellipses &&
+                                !(frame.kernel.cut && plan.needs.grid_light > 1);
+  if (!has_coarse_grids) return make_single_grid(frame.crop);
+  return make_pyramid(frame.crop, frame.kernel, plan.splats.mean_sigma,
+                      plan.grid_peak_error / plan.needs.grid_light);
+}
+
+// Everything that follows from the precision, the shares and the needs.
+void set_limits(const Frame& frame, FramePlan& plan) {
+  const double background = brightest_background(frame);
+  const double source = brightest_source(frame);
+  const double response = response_to_splats(plan.light, source, background);
+  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light, response);
+  plan.erf_error = erf_error(plan);
+  plan.grid_peak_error = plan.shares.coarse_grids / response;
+  plan.pyramid = choose_pyramid(frame, plan);
+  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
+}
 
 }  // namespace
 
@@ -35,20 +75,32 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   plan.has_sharp_clouds = budget.has_sharp_clouds;
   plan.shares = budget.shares;
 
-  // The extended bound holds for any particles.
-  if (!plan.is_extended()) plan.crowd = find_crowd(frame);
-  const double background = brightest_background(frame);
-  const double source = brightest_source(frame);
-  const double response =
-      is_wide_crowd(plan.crowd) ? 1 : response_to_splats(plan.light, source, background);
-  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.crowd, response);
-  // Coarse grids are for round splats.
-  const bool has_coarse_grids = plan.shares.coarse_grids > 0 && !plan.has_ellipses;
-  plan.pyramid = has_coarse_grids ? make_pyramid(frame.crop, frame.kernel, plan.splats.mean_sigma,
-                                                 plan.shares.coarse_grids / response)
-                                  : make_single_grid(frame.crop);
-  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
+  plan.needs = first_needs(plan);
+  set_limits(frame, plan);
   return plan;
+}
+
+FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeeds& needs) {
+  FramePlan refined = plan;
+  for (std::size_t octave = 0; octave < needs.widths.size(); ++octave) {
+    WidthNeed& need = refined.needs.widths[octave];
+    need.farther += needs.widths[octave].farther;
+    need.light = std::max(need.light, needs.widths[octave].light);
+  }
+  refined.needs.grid_light = std::max(refined.needs.grid_light, needs.grid_light);
+  set_limits(frame, refined);
+  return refined;
+}
+
+FramePlan extend_plan(const Frame& frame, const FramePlan& plan) {
+  FramePlan extended = plan;
+  const ErrorBudget budget = make_extended_budget();
+  extended.precision = budget.precision;
+  extended.uses_device_erf = budget.uses_device_erf;
+  extended.shares = budget.shares;
+  extended.needs = {};
+  set_limits(frame, extended);
+  return extended;
 }
 
 }  // namespace splotchcl

@@ -5,13 +5,16 @@
 
 namespace splotchcl {
 
-// Whether a crowd is one of splats that may lie on coarse grids: beside it a pixel may be
-// dark, and errs by as much as its sum.
-bool is_wide_crowd(const Crowd& crowd);
+// Even light of splats on a lattice, seen along its axis, loses a row of them beyond each side
+// of their squares: up to this times exp(-k^2) of itself (docs/accuracy.md).
+constexpr double lattice_rows = 2;
+
+// By how much of its peak the widened center value of a splat errs at most, from sigma 2 on.
+double center_value_error(double sigma_pixels);
 
 // `response`: what a relative error of every splat does to the picture (error_budget.h).
 SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
-                                const Crowd& crowd, double response);
+                                LightPlan light, double response);
 
 // `brightest_behind`: the most that can shine through a layer.
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,

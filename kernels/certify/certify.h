@@ -1,0 +1,27 @@
+// What host and kernels share of the check after drawing: 4-byte members only (splat.h).
+#ifndef SPLOTCHCL_CERTIFY_H
+#define SPLOTCHCL_CERTIFY_H
+
+// Square cells of one octave of widths in a tile.
+struct OctaveCells {
+  unsigned int first;  // of the tile's
+  int shift;           // cells are 2^shift pixels wide
+};
+
+// Splats of one octave of widths are collected in cells about as wide as they are.
+struct CertifyParameters {
+  unsigned int grid_count, segment_count;
+  unsigned int cells_per_tile;  // of all octaves, peaks and endings
+  struct OctaveCells peaks[WIDTH_OCTAVES], endings[WIDTH_OCTAVES];
+  float widening;     // as in ProjectParameters
+  float blur[2];      // as in ProjectParameters; 0 where nothing is blurred
+  float edge_peak;    // brighter splats are drawn until they have fallen as far as this one
+  float bright_peak;  // no more than this counts of a peak on the picture's own grid
+};
+
+#ifdef __OPENCL_VERSION__
+typedef struct OctaveCells OctaveCells;
+typedef struct CertifyParameters CertifyParameters;
+#endif
+
+#endif

@@ -1,0 +1,139 @@
+#include "certificate/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certificate/octave_errors.h"
+#include "certificate/picture_light.h"
+#include "parallel/for_blocks.h"
+
+namespace splotchcl {
+namespace {
+
+// What is less than this part of the promise is not looked at closely.
+constexpr double negligible_part = 0.02;
+// Where the promise is broken, whatever does more than this part of it is to be drawn better;
+constexpr double least_part = 0.03;
+// as bright splats, which take several times as long, only where all of them do this much;
+constexpr double least_of_peaks = 0.3;
+// and by so much more than what was found to be missing.
+constexpr double margin = 1.5;
+
+// Errors of one octave of splats in one block of pixels, over what is promised there.
+struct Part {
+  double ends = 0, peaks = 0, even = 0;
+  double peak_light = 0;  // the light of the peaks that lie upon one another
+};
+
+PixelBlock pixels_of(const PictureLight& picture, std::size_t block) {
+  constexpr int side = PictureLight::block_pixels;
+  const int x = static_cast<int>(block) % picture.columns * side;
+  const int y = static_cast<int>(block) / picture.columns * side;
+  return {x, x + side, y, y + side};
+}
+
+// All that the approximations of a drawn frame do to its blocks of pixels.
+class FrameErrors {
+ public:
+  FrameErrors(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+              const FramePlan& plan)
+      : picture_(measure_light(image, frame, plan)),
+        promise_(plan.shares.promise),
+        rest_(plan.shares.phi + plan.shares.early_stop) {
+    octaves_.reserve(cells.size());
+    for (const PeakCells& of_octave : cells)
+      octaves_.emplace_back(of_octave, frame, plan);
+  }
+
+  std::size_t block_count() const { return picture_.blocks.size(); }
+
+  int columns() const { return picture_.columns; }
+  int rows() const { return picture_.rows; }
+  // What is promised in a block, of light.
+  double promise_of(std::size_t block) const { return promise_ * picture_.blocks[block].allowed; }
+
+  // Over what is promised there; and of each octave its part.
+  ErrorParts in_block(std::size_t block, std::vector<Part>& parts) const {
+    const BlockLight& light = picture_.blocks[block];
+    const double promise = promise_of(block), response = light.response / promise;
+    const PixelBlock pixels = pixels_of(picture_, block);
+    share_even_light(pixels, light.even / promise, parts);
+    ErrorParts sums;
+    sums.rest = rest_ / promise;
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
+      const double peaks = octaves_[i].of_peaks(pixels, negligible_part / response);
+      parts[i].peaks = response * peaks;
+      parts[i].peak_light = peaks > 0 ? peaks / octaves_[i].peak_error() : 0;
+      sums.ends += parts[i].ends;
+      sums.even += parts[i].even;
+      sums.peaks += parts[i].peaks;
+    }
+    return sums;
+  }
+
+  std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
+
+  void add_needs(const std::vector<Part>& parts, double error, SplatNeeds& needs) const {
+    double peaks = 0;
+    for (const Part& part : parts)
+      peaks += part.peaks;
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
+      if (parts[i].ends > least_part || parts[i].even > least_part)
+        need.farther = std::max(need.farther, std::log(margin * error));
+      if (peaks <= least_of_peaks || parts[i].peaks <= least_part) continue;
+      double& light = octaves_[i].level() > 0 ? needs.grid_light : need.light;
+      light = std::max(light, margin * parts[i].peak_light);
+    }
+  }
+
+ private:
+  // The block's even light, shared out among the octaves by how much light they have there.
+  void share_even_light(const PixelBlock& pixels, double even, std::vector<Part>& parts) const {
+    double light = 0;
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      parts[i].even = octaves_[i].light(pixels);
+      light += parts[i].even;
+    }
+    for (std::size_t i = 0; i < octaves_.size(); ++i)
+      parts[i].even *= light > 0 ? octaves_[i].even_part() * even / light : 0;
+  }
+
+  PictureLight picture_;
+  std::vector<OctaveErrors> octaves_;
+  double promise_, rest_;
+};
+
+}  // namespace
+
+Certificate certify(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+                    const FramePlan& plan) {
+  constexpr std::size_t blocks_at_once = 256;
+  const FrameErrors errors(cells, image, frame, plan);
+  std::vector<ErrorParts> blocks(errors.block_count());
+  for_blocks(blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
+    std::vector<Part> parts = errors.parts();
+    for (std::size_t b = first; b < last; ++b)
+      blocks[b] = errors.in_block(b, parts);
+  });
+
+  Certificate certificate;
+  certificate.columns = errors.columns();
+  certificate.rows = errors.rows();
+  std::vector<Part> parts = errors.parts();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double error = blocks[b].sum();
+    certificate.errors.push_back(static_cast<float>(error * errors.promise_of(b)));
+    if (error > certificate.error_of_promise) {
+      certificate.error_of_promise = error;
+      certificate.worst = blocks[b];
+    }
+    if (error <= 1) continue;
+    errors.in_block(b, parts);
+    errors.add_needs(parts, error, certificate.needs);
+  }
+  return certificate;
+}
+
+}  // namespace splotchcl

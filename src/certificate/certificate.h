@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "certificate/peak_cells.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What the error of a block of pixels is made of, over what is promised there.
+struct ErrorParts {
+  double ends = 0, even = 0, peaks = 0, rest = 0;
+
+  double sum() const { return ends + even + peaks + rest; }
+};
+
+// How well a drawn picture keeps its promise, from all of its splats.
+struct Certificate {
+  double error_of_promise = 0;  // the largest of any block of pixels
+  ErrorParts worst;             // of that block
+  int columns = 0, rows = 0;    // of blocks (PictureLight)
+  std::vector<float> errors;    // of light, per block, row by row
+  // What is to be added to the plan's, where the promise is not kept.
+  SplatNeeds needs;
+  bool keeps_promise() const { return error_of_promise <= 1; }
+};
+
+// docs/accuracy.md ("Checked after drawing") derives it and says what is a bound.
+Certificate certify(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+                    const FramePlan& plan);
+
+}  // namespace splotchcl

@@ -1,0 +1,153 @@
+#include "certificate/octave_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "certificate/picture_light.h"
+#include "scene/plan/splat_limits.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+// Cells this many times as full as those around the pixel are not taken for even light.
+constexpr double uneven = 2;
+// Errors of a peak show at most so many cells away: five pixels of a coarse grid are 2.4 sigma.
+constexpr int peak_spread = 2;
+// The smallest cells are two pixels wide. A block at the picture's edge may reach beyond it, and
+// what is looked at around a cell lies up to three more away.
+constexpr int cells_in_block = PictureLight::block_pixels / 2 + 3;
+// Light is averaged over so many sigma to each side.
+constexpr double light_reach = 1.5;
+
+// Of the splats as they are drawn, and without the widening.
+double widest_sigma(int octave) {
+  return std::exp2(octave);
+}
+
+double narrowest_sigma(int octave) {
+  return octave == 0 ? 0 : std::exp2(octave - 1);
+}
+
+double without_widening(double sigma, const FramePlan& plan) {
+  return std::sqrt(std::max(0.0, sigma * sigma - static_cast<double>(plan.splats.widening)));
+}
+
+// Errors of erf over both axes; and of the widened center value.
+double error_of_peak(int octave, int level, const Frame& frame, const FramePlan& plan) {
+  if (level > 0) return plan.grid_peak_error / plan.needs.grid_light;
+  const double mean_sigma = static_cast<double>(plan.splats.mean_sigma);
+  const double narrowest = without_widening(narrowest_sigma(octave), plan);
+  const double widest = without_widening(widest_sigma(octave), plan);
+  double error = 0;
+  if (narrowest < mean_sigma) error = 2 * 1.8 * std::min(widest, mean_sigma) * plan.erf_error;
+  if (widest > mean_sigma && frame.kernel.sampling == Sampling::mean) {
+    const double sigma = std::max(narrowest, mean_sigma);
+    error = std::max(error, center_value_error(sigma));
+  }
+  return error / std::max(1.0, plan.needs.widths[static_cast<std::size_t>(octave)].light);
+}
+
+double extent2(int octave, const FramePlan& plan) {
+  const auto least_extent = static_cast<double>(plan.splats.least_extent);
+  return least_extent * least_extent + plan.needs.widths[static_cast<std::size_t>(octave)].farther;
+}
+
+// What is left of a splat where it ends. A cut is part of the model.
+double ending_of(int octave, const Frame& frame, const FramePlan& plan) {
+  return frame.kernel.cut ? 0 : std::exp(-extent2(octave, plan));
+}
+
+EndingWindow window_of(int octave, int level, int side, const FramePlan& plan) {
+  const double sigma = std::ldexp(widest_sigma(octave), -level);
+  const double radius = std::sqrt(extent2(octave, plan)) * sigma + 0.5;
+  EndingWindow window;
+  window.reach = static_cast<int>(std::ceil(radius / side));
+  const double nearest = window.reach * side;
+  window.next_weight = std::exp((radius * radius - nearest * nearest) / (sigma * sigma));
+  return window;
+}
+
+}  // namespace
+
+OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan)
+    : octave_(std::min(cells.octave, width_octaves - 1)),
+      level_(cells.level),
+      guard_(cells.guard),
+      ending_side_(cells.endings.side),
+      peak_side_(cells.peaks.side),
+      ending_(ending_of(octave_, frame, plan)),
+      peak_error_(error_of_peak(octave_, level_, frame, plan)),
+      window_(window_of(octave_, level_, ending_side_, plan)),
+      endings_(cells.endings, window_.reach + cells_in_block),
+      peaks_(cells.peaks, peak_spread + cells_in_block) {}
+
+CellRange OctaveErrors::cells_of(const PixelBlock& block, int side) const {
+  // Both are whole numbers of pixels of the grid or of the picture: shifts round down.
+  const auto cell = [&](int pixel) { return ((pixel >> level_) + guard_) / side; };
+  return {cell(block.x0), cell(block.x1 - 1) + 1, cell(block.y0), cell(block.y1 - 1) + 1};
+}
+
+double OctaveErrors::ends_around(const CellRange& cell) const {
+  const double within = endings_.over_near(cell.widened(window_.reach));
+  const double next = endings_.over_near(cell.widened(window_.reach + 1)) - within;
+  const double cells = (2.0 * window_.reach + 1) * (2.0 * window_.reach + 1);
+  const double even = uneven * cells * even_around(cell);
+  return std::max(0.0, within + window_.next_weight * next - even);
+}
+
+// Of the four squares of two cells by two that the cell lies in, the emptiest: a cluster beside
+// the cell is no even light.
+double OctaveErrors::even_around(const CellRange& cell) const {
+  double least = std::numeric_limits<double>::max();
+  for (const int x : {cell.x0 - 1, cell.x0}) {
+    for (const int y : {cell.y0 - 1, cell.y0})
+      least = std::min(least, endings_.over_near({x, x + 2, y, y + 2}));
+  }
+  return least / 4;
+}
+
+double OctaveErrors::of_ends(const PixelBlock& block, double negligible) const {
+  const CellRange range = cells_of(block, ending_side_);
+  const double most = ending_ * endings_.over_near(range.widened(window_.reach + 1));
+  if (most <= negligible) return most;
+  double largest = 0;
+  for (int y = range.y0; y < range.y1; ++y) {
+    for (int x = range.x0; x < range.x1; ++x)
+      largest = std::max(largest, ends_around({x, x + 1, y, y + 1}));
+  }
+  return ending_ * largest;
+}
+
+// Two cells by two, beyond what an even field as full as their surroundings has there.
+double OctaveErrors::peaks_around(int x, int y) const {
+  const CellRange square = {x, x + 2, y, y + 2};
+  const double here = peaks_.over_near(square);
+  const double around = peaks_.over_near(square.widened(2)) - here;
+  return std::max(0.0, here - uneven * 4 * around / 32);
+}
+
+double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const {
+  const CellRange range = cells_of(block, peak_side_).widened(peak_spread);
+  const double most = peak_error_ * peaks_.over_near(range.widened(1));
+  if (most <= negligible) return most;
+  double largest = 0;
+  for (int y = range.y0 - 1; y < range.y1; ++y) {
+    for (int x = range.x0 - 1; x < range.x1; ++x)
+      largest = std::max(largest, peaks_around(x, y));
+  }
+  return peak_error_ * largest;
+}
+
+double OctaveErrors::light(const PixelBlock& block) const {
+  const double sigma = std::ldexp(widest_sigma(octave_), -level_);
+  const int reach = static_cast<int>(std::ceil(light_reach * sigma / peak_side_));
+  const CellRange range = cells_of(block, peak_side_).widened(reach);
+  const double area =
+      static_cast<double>(range.x1 - range.x0) * (range.y1 - range.y0) * peak_side_ * peak_side_;
+  return peaks_.over(range) * pi * sigma * sigma / area;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "certificate/block_sums.h"
+#include "certificate/peak_cells.h"
+#include "scene/plan/splat_limits.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// Pixels x0 .. x1 - 1 in rows y0 .. y1 - 1 of the drawn picture.
+struct PixelBlock {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+};
+
+// Cells around a pixel whose splats may end there: all up to `reach` away, and one farther with
+// what is left of the nearest of them.
+struct EndingWindow {
+  int reach = 0;
+  double next_weight = 0;
+};
+
+// What the approximations of one octave of splats on one grid do to a block of pixels, as errors
+// of a sum of splats (light or optical depth). docs/accuracy.md ("Checked after drawing") derives
+// them.
+class OctaveErrors {
+ public:
+  OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan);
+
+  int octave() const { return octave_; }
+  int level() const { return level_; }
+
+  // By ends of splats, beyond what even light leaves out. Where it is certain to be below
+  // `negligible`, a coarser bound.
+  double of_ends(const PixelBlock& block, double negligible) const;
+  // By errors that are parts of peaks and of one sign, where splats lie upon one another.
+  double of_peaks(const PixelBlock& block, double negligible) const;
+  // Which part of a peak.
+  double peak_error() const { return peak_error_; }
+  // The mean of the splats' light around the block.
+  double light(const PixelBlock& block) const;
+  // The part of even light that ends leave out at most.
+  double even_part() const { return lattice_rows * ending_; }
+
+ private:
+  CellRange cells_of(const PixelBlock& block, int side) const;
+  double ends_around(const CellRange& cell) const;
+  double even_around(const CellRange& cell) const;
+  double peaks_around(int x, int y) const;
+
+  int octave_, level_, guard_;
+  int ending_side_, peak_side_;
+  double ending_, peak_error_;
+  EndingWindow window_;
+  BlockSums endings_, peaks_;
+};
+
+}  // namespace splotchcl

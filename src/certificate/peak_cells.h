@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+namespace splotchcl {
+
+// Sums over square cells, row by row.
+struct CellSums {
+  int side = 0;  // of a cell, in pixels of the grid
+  int columns = 0, rows = 0;
+  std::vector<float> values;
+};
+
+// Splats of one octave of widths on one grid of a drawn frame, in cells about as wide as they
+// are. All splats that were drawn are in it, each once.
+struct PeakCells {
+  int level = 0;   // the grid's pixels are 2^level of the picture's wide
+  int guard = 0;   // pixels of the grid around the picture
+  int octave = 0;  // sigma in the picture's pixels: 2^(octave - 1) to twice that; 0: below 1
+  // Of the splats' peaks: the largest channel of light or optical depth; below a pixel its flux.
+  // Of bright splats on the picture's own grid only what a splat may be without being bright,
+  // since the errors of bright ones are relative to what is there (docs/accuracy.md).
+  CellSums peaks;
+  // What they have fallen to where they end, times exp(least extent^2 + farther).
+  CellSums endings;
+};
+
+}  // namespace splotchcl

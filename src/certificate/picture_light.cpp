@@ -1,0 +1,133 @@
+#include "certificate/picture_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "parallel/for_blocks.h"
+#include "scene/plan/light_structure.h"
+
+namespace splotchcl {
+namespace {
+
+// Light of one channel in the pixels of a block.
+struct Range {
+  double least = std::numeric_limits<double>::max(), most = 0;
+};
+
+// What a block does for an error of 1 in a sum of splats, and of a part of every splat.
+struct Response {
+  double of_sum = 0, of_parts = 0;
+};
+
+// I = q + (background - q) T with T = exp(-x): dI / dx = q - I, and an error of a part of every
+// splat is that times x. `contrast`: the most that q and the background differ.
+Response of_proportional(const Range& light, double source, double contrast) {
+  constexpr double euler = 2.718281828459045;
+  const double low = std::abs(source - light.least), high = std::abs(source - light.most);
+  const bool passes_source = light.least < source && source < light.most;
+  const double least = passes_source ? 0 : std::min(low, high), most = std::max(low, high);
+  // -T ln T is largest where T = 1 / e.
+  const double at = std::clamp(contrast / euler, least, most);
+  return {most, at > 0 ? std::max(0.0, -at * std::log(at / contrast)) : 0};
+}
+
+// A splat in front takes away from what lies behind, which is no brighter than the brightest
+// source, and adds its own light. Errors of a part of every splat do no more than to a single
+// source (docs/accuracy.md).
+Response of_ordered(double brightest_behind, double opacity) {
+  constexpr double euler = 2.718281828459045;
+  return {std::max(1.0, brightest_behind), brightest_behind * std::min(opacity, 1 / euler)};
+}
+
+double brightest_channel(const Image& image) {
+  double brightest = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (i % 4 != 3) brightest = std::max(brightest, static_cast<double>(image.pixels[i]));
+  }
+  return brightest;
+}
+
+// The brightest that shines through a layer. What emits without absorbing has no brightest
+// source, but nothing that is seen is brighter than it is seen somewhere.
+double brightest_behind(const Image& image, const Frame& frame) {
+  return std::min(std::max(brightest_background(frame), brightest_source(frame)),
+                  std::max(1.0, brightest_channel(image)));
+}
+
+struct BlockRanges {
+  std::array<Range, 3> channels;
+  double opacity = 0;  // the largest
+};
+
+BlockRanges ranges_of(const Image& image, int x0, int y0) {
+  constexpr int side = PictureLight::block_pixels;
+  std::array<float, 4> least, most{};
+  least.fill(std::numeric_limits<float>::max());
+  for (int y = y0; y < std::min(y0 + side, image.height); ++y) {
+    for (int x = x0; x < std::min(x0 + side, image.width); ++x) {
+      const float* pixel = image.at(x, y);
+      for (std::size_t c = 0; c < 4; ++c) {
+        least[c] = pixel[c] < least[c] ? pixel[c] : least[c];
+        most[c] = pixel[c] > most[c] ? pixel[c] : most[c];
+      }
+    }
+  }
+  BlockRanges ranges;
+  for (std::size_t c = 0; c < 3; ++c)
+    ranges.channels[c] = {static_cast<double>(least[c]), static_cast<double>(most[c])};
+  ranges.opacity = static_cast<double>(most[3]);
+  return ranges;
+}
+
+// What all blocks of a picture share.
+struct Surroundings {
+  LightPlan light;
+  std::array<double, 3> source;
+  double background, behind;
+};
+
+Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around) {
+  const Range& light = ranges.channels[channel];
+  if (around.light == LightPlan::emission) return {1, light.most};
+  if (around.light == LightPlan::ordered) return of_ordered(around.behind, ranges.opacity);
+  const double source = around.source[channel];
+  return of_proportional(light, source, source + around.background);
+}
+
+BlockLight light_of(const BlockRanges& ranges, const Surroundings& around) {
+  BlockLight block;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Response response = response_of(ranges, c, around);
+    block.response = std::max(block.response, response.of_sum);
+    block.even = std::max(block.even, response.of_parts);
+    least = std::min(least, ranges.channels[c].least);
+  }
+  block.allowed = std::max(1.0, least);
+  return block;
+}
+
+}  // namespace
+
+PictureLight measure_light(const Image& image, const Frame& frame, const FramePlan& plan) {
+  constexpr int side = PictureLight::block_pixels;
+  PictureLight picture;
+  picture.columns = (image.width + side - 1) / side;
+  picture.rows = (image.height + side - 1) / side;
+  const Surroundings around = {
+      plan.light, plan.source, brightest_background(frame),
+      plan.light == LightPlan::ordered ? brightest_behind(image, frame) : 0};
+  const auto columns = static_cast<std::size_t>(picture.columns);
+  picture.blocks.resize(columns * static_cast<std::size_t>(picture.rows));
+  for_blocks(picture.blocks.size(), columns, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b)
+      picture.blocks[b] = light_of(ranges_of(image, static_cast<int>(b % columns) * side,
+                                             static_cast<int>(b / columns) * side),
+                                   around);
+  });
+  return picture;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+#include "certificate/peak_cells.h"
+
+namespace splotchcl {
+
+// Collects what a frame's splats add up to, from the lists that were drawn: the stage `certify`.
+// Not for extended precision, whose bound holds for any splats.
+class Certifier {
+ public:
+  explicit Certifier(const StageContext& context);
+
+  void collect(const TileLists& lists);
+  // Of all lists so far; waits for the device. Octaves without splats are left out.
+  std::vector<PeakCells> cells() const;
+
+ private:
+  void start();
+
+  const StageContext& context_;
+  shared::CertifyParameters parameters_{};
+  compute::program program_;
+  Buffer<float> cells_;
+  bool has_started_ = false;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,161 @@
+#include "certificate/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "reference/frames.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr int size = 128;
+
+Image dark_picture() {
+  Image image;
+  image.width = image.height = size;
+  image.pixels.assign(static_cast<std::size_t>(4) * size * size, 0.0f);
+  return image;
+}
+
+// One octave of splats with sigma from 1 to 2, nothing else. Values are of peaks and endings.
+PeakCells empty_cells() {
+  PeakCells cells;
+  cells.octave = 1;
+  for (CellSums* sums : {&cells.peaks, &cells.endings}) {
+    sums->side = 4;
+    sums->columns = sums->rows = size / 4;
+    sums->values.assign(static_cast<std::size_t>(size / 4) * (size / 4), 0.0f);
+  }
+  return cells;
+}
+
+float& at(CellSums& sums, int x, int y) {
+  return sums.values[static_cast<std::size_t>(y * sums.columns + x)];
+}
+
+// Light that nothing absorbs.
+class CertificateTest : public testing::Test {
+ protected:
+  CertificateTest() {
+    DrawnComponent component = component_of({Cloud{}}, one_color(1, 1, 1));
+    component.absorption = {Absorption::Kind::none, 0};
+    frame_ = frame_of(size, size, {component});
+    plan_ = make_plan(frame_);
+  }
+
+  Certificate certify_cells(const PeakCells& cells) const {
+    return certify({cells}, dark_picture(), frame_, plan_);
+  }
+  // Of a splat of sigma from 1 to 2, where it ends.
+  double ending() const {
+    const auto extent = static_cast<double>(plan_.splats.least_extent);
+    return std::exp(-extent * extent - plan_.needs.widths[1].farther);
+  }
+
+  Frame frame_;
+  FramePlan plan_;
+};
+
+TEST_F(CertificateTest, FindsNothingWhereThereAreNoSplats) {
+  const Certificate certificate = certify({}, dark_picture(), frame_, plan_);
+  EXPECT_TRUE(certificate.keeps_promise());
+  EXPECT_LT(certificate.error_of_promise, 0.2);
+}
+
+TEST_F(CertificateTest, HasAnErrorForEachBlockOfThePicture) {
+  const Certificate certificate = certify_cells(empty_cells());
+  EXPECT_EQ(certificate.columns, size / 16);
+  EXPECT_EQ(certificate.rows, size / 16);
+  EXPECT_EQ(certificate.errors.size(), static_cast<std::size_t>(size / 16) * (size / 16));
+}
+
+TEST_F(CertificateTest, CountsWhatAClusterLeavesOutBesideIt) {
+  PeakCells cells = empty_cells();
+  const double light = 1.5 * frame_.tolerance / ending();
+  at(cells.endings, 10, 10) = static_cast<float>(light);
+  const Certificate certificate = certify_cells(cells);
+  EXPECT_FALSE(certificate.keeps_promise());
+  EXPECT_NEAR(certificate.worst.ends, 1.5, 0.01);
+}
+
+TEST_F(CertificateTest, CountsAClusterOnACornerOfCellsAsAWhole) {
+  PeakCells cells = empty_cells();
+  const double light = 1.5 * frame_.tolerance / ending();
+  for (const int x : {10, 11}) {
+    for (const int y : {10, 11})
+      at(cells.endings, x, y) = static_cast<float>(light / 4);
+  }
+  EXPECT_NEAR(certify_cells(cells).worst.ends, 1.5, 0.01);
+}
+
+TEST_F(CertificateTest, CountsARingOfClustersAroundADarkPixel) {
+  PeakCells cells = empty_cells();
+  const double light = 1.5 * frame_.tolerance / ending();
+  for (const int x : {8, 12}) {
+    for (const int y : {8, 12})
+      at(cells.endings, x, y) = static_cast<float>(light / 4);
+  }
+  EXPECT_NEAR(certify_cells(cells).worst.ends, 1.5, 0.01);
+}
+
+TEST_F(CertificateTest, TakesAnEvenFieldForEven) {
+  PeakCells cells = empty_cells();
+  std::fill(cells.endings.values.begin(), cells.endings.values.end(), 10.0f);
+  std::fill(cells.peaks.values.begin(), cells.peaks.values.end(), 10.0f);
+  const Certificate certificate = certify_cells(cells);
+  const std::size_t middle = static_cast<std::size_t>(size / 16) * 4 + 4;
+  EXPECT_LT(certificate.errors[middle], frame_.tolerance);
+}
+
+TEST_F(CertificateTest, DoesNotTakeTheEdgeOfAnEvenFieldForEven) {
+  PeakCells cells = empty_cells();
+  for (int y = 0; y < cells.endings.rows; ++y) {
+    for (int x = 0; x < cells.endings.columns / 2; ++x)
+      at(cells.endings, x, y) = static_cast<float>(frame_.tolerance / ending());
+  }
+  EXPECT_FALSE(certify_cells(cells).keeps_promise());
+}
+
+TEST_F(CertificateTest, AsksForMoreOfTheOctaveThatErrs) {
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = static_cast<float>(5 * frame_.tolerance / ending());
+  const SplatNeeds needs = certify_cells(cells).needs;
+  EXPECT_GT(needs.widths[1].farther, std::log(5.0));
+  EXPECT_EQ(needs.widths[0].farther, 0);
+  EXPECT_EQ(needs.widths[2].farther, 0);
+}
+
+TEST_F(CertificateTest, IsContentWithAFrameThatWasDrawnAgainAsItAsked) {
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = static_cast<float>(50 * frame_.tolerance / ending());
+  const Certificate first = certify_cells(cells);
+  ASSERT_FALSE(first.keeps_promise());
+  plan_ = refine_plan(frame_, plan_, first.needs);
+  EXPECT_TRUE(certify_cells(cells).keeps_promise());
+}
+
+TEST_F(CertificateTest, AsksForFinerGridsWherePeaksLieUponOneAnother) {
+  PeakCells cells = empty_cells();
+  cells.level = 1;
+  cells.octave = 3;
+  at(cells.peaks, 10, 10) = 100;
+  const Certificate first = certify_cells(cells);
+  ASSERT_FALSE(first.keeps_promise());
+  EXPECT_GE(first.needs.grid_light, 100);
+  plan_ = refine_plan(frame_, plan_, first.needs);
+  EXPECT_TRUE(certify_cells(cells).keeps_promise());
+}
+
+TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {
+  frame_.kernel.cut = 2.0;
+  plan_ = make_plan(frame_);
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = 1e6f;
+  EXPECT_EQ(certify_cells(cells).worst.ends, 0);
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,115 @@
+// What the check after drawing is made from: all splats that were drawn, each once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "device/pictures.h"
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+double sum_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+class CertifierTest : public StageTest, public testing::WithParamInterface<LightPlan> {
+ protected:
+  // Columns of all clouds are alike, and so are their peaks from sigma 1 on.
+  static Frame clouds(double sigma_low, double sigma_high) {
+    CloudSetup setup;
+    setup.count = 500;
+    setup.width = 150;
+    setup.height = 110;
+    setup.sigma_low = sigma_low;
+    setup.sigma_high = sigma_high;
+    setup.column_low = setup.column_high = 0.01;
+    DrawnComponent component = random_clouds(setup);
+    component.palette = one_color(1, 1, 1);
+    if (GetParam() == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
+    if (GetParam() == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 1e6};
+    return frame_of(setup.width, setup.height, {component});
+  }
+
+  std::vector<PeakCells> collected(const Frame& frame, std::uint64_t& drawn) {
+    ParticleStore particles(device());
+    const FramePlan plan = make_plan(frame);
+    Pipeline pipeline(device(), particles, frame, plan);
+    pipeline.draw();
+    drawn = pipeline.counts().visible;
+    return pipeline.peak_cells();
+  }
+};
+
+TEST_P(CertifierTest, CollectsThePeakOfEachSplatOnce) {
+  std::uint64_t drawn = 0;
+  double peaks = 0;
+  for (const PeakCells& cells : collected(clouds(4, 12), drawn))
+    peaks += sum_of(cells.peaks.values);
+  // Center values are widened by 1 / 6 in the square of sigma. What blurred grids make brighter is
+  // taken back as for the widest splats of an octave: up to as much again is left.
+  ASSERT_GT(drawn, 300);
+  const double expected = 0.01 * static_cast<double>(drawn);
+  EXPECT_GE(peaks, 0.98 * expected);
+  EXPECT_LE(peaks, 2 * expected);
+}
+
+TEST_P(CertifierTest, TellsOctavesOfWidthsApart) {
+  std::uint64_t drawn = 0;
+  for (const PeakCells& cells : collected(clouds(4.1, 7.9), drawn))
+    EXPECT_EQ(cells.octave, 3);
+}
+
+TEST_P(CertifierTest, CountsNoMoreOfAnEndThanWhereABrightSplatEnds) {
+  Frame frame = clouds(1.1, 1.8);
+  frame.components[0].brightness = 1e4;
+  std::uint64_t drawn = 0;
+  const FramePlan plan = make_plan(frame);
+  const float least = plan.splats.least_extent;
+  const double edge =
+      std::exp(static_cast<double>(least * least)) / static_cast<double>(plan.splats.inverse_edge);
+  for (const PeakCells& cells : collected(frame, drawn)) {
+    EXPECT_LE(sum_of(cells.endings.values), 1.0001 * edge * static_cast<double>(drawn));
+    EXPECT_GT(sum_of(cells.endings.values), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plans, CertifierTest,
+                         testing::Values(LightPlan::emission, LightPlan::proportional,
+                                         LightPlan::ordered),
+                         [](const auto& info) { return std::string(name(info.param)); });
+
+TEST(FrameCheckTest, DrawsFaintCloudsOnce) {
+  CloudSetup setup;
+  setup.column_low = 0.001;
+  setup.column_high = 0.02;
+  Renderer renderer;
+  renderer.render(frame_of(setup.width, setup.height, {random_clouds(setup)}));
+  EXPECT_EQ(renderer.stats().check.errors_of_promise.size(), 1U);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+}
+
+TEST(FrameCheckTest, DrawsAgainWhatManySplatsInOnePlaceLeaveOut) {
+  DrawnComponent component =
+      component_of(std::vector<Cloud>(20000, Cloud{0.3, 0.2, 1, 3, 0.5}), one_color(1, 1, 1));
+  const Frame frame = frame_of(100, 70, {component});
+  Renderer renderer;
+  const Image image = renderer.render(frame);
+  EXPECT_GE(renderer.stats().check.errors_of_promise.size(), 2U);
+  EXPECT_GT(renderer.stats().check.errors_of_promise.front(), 1);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+  EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
+}
+
+TEST(FrameCheckTest, NeedsNoneAtToleranceZero) {
+  Frame frame = frame_of(100, 70, {random_clouds({})});
+  frame.tolerance = 0;
+  Renderer renderer;
+  renderer.render(frame);
+  EXPECT_TRUE(renderer.stats().check.errors_of_promise.empty());
+}
+
+}  // namespace
+}  // namespace splotchcl::test
