@@ -44,6 +44,8 @@ struct Cosmology {
 struct SnapshotInfo {
   std::string format;                        // "Gadget format 2, big-endian", ...
   std::vector<std::filesystem::path> files;  // at least one; of arrays in memory, their name
+  // Files that it is read from as well: arrays beside it, what its datasets lead to.
+  std::vector<std::filesystem::path> files_beside;
   double time = 0;
   std::optional<double> redshift;
   std::optional<double> box_size;  // side of the periodic box; none: not periodic, or unknown

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "common/output_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -110,7 +111,12 @@ int run_compare(const CompareOptions& options, Console& console) {
   if (options.limit && !(*options.limit >= 0)) {
     throw UsageError(fmt::format("--limit: {} is not a number >= 0", *options.limit));
   }
-  if (options.difference) check_image_path(*options.difference);
+  if (options.difference) {
+    check_image_path(*options.difference);
+    check_outputs({{*options.difference, "--diff"}}, [&] {
+      return std::set<std::filesystem::path>{options.image, options.reference};
+    });
+  }
   const Image image = read_image(options.image);
   const Image reference = read_image(options.reference);
   const ImageDifference difference = measure(options, image, reference, console);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "open_scene/input_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/par_file.h"
@@ -22,6 +24,12 @@ int run_convert(const ConvertOptions& options, Console& console) {
   check_output_path(options.output);
   std::vector<std::string> notes;
   const Scene scene = read_par_file(options.par, options.settings, notes);
+  check_outputs({{options.output, "--output"}}, [&] {
+    InputFiles named;  // none of which need be there yet
+    named.add(options.par);
+    named.add_named_files(scene);
+    return named.all();
+  });
   for (const std::string& note : notes)
     console.note(note);
   const std::string text =

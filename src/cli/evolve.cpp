@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "cli/commands.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "film/frames/film_drawer.h"
 #include "film/movie/frame_range.h"
 #include "film/movie/numbered_files.h"
+#include "open_scene/input_files.h"
 #include "pictures/other_scenes.h"
 #include "snapshot/cached_snapshot.h"
 #include "snapshot/load_memory.h"
@@ -79,6 +82,9 @@ class TurningScene {
     notes_ = std::move(opened.notes);
     const std::vector<std::string>& of_data = opened.snapshot->info().notes;
     notes_.insert(notes_.end(), of_data.begin(), of_data.end());
+    files_read_ = [file = *options.scene, scene = scene_, snapshot = opened.snapshot] {
+      return splotchcl::files_read(file, scene, *snapshot);
+    };
     for (const Component& component : scene_.components) {
       if (is_same_file(component.snapshot, options.galaxy)) paths_.insert(component.snapshot);
     }
@@ -94,6 +100,7 @@ class TurningScene {
 
   const Scene& scene() const { return scene_; }
   OtherScenes& other_scenes() { return other_scenes_; }
+  std::set<std::filesystem::path> files_read() const { return files_read_(); }
   // What the user should know of the scene and its data.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -115,6 +122,7 @@ class TurningScene {
   const TurningGalaxy& galaxy_;
   Scene scene_;
   std::vector<std::string> notes_;
+  std::function<std::set<std::filesystem::path>()> files_read_;
   bool is_main_ = false;
   std::set<std::string> paths_;  // of the galaxy, as components name it
   std::shared_ptr<const Snapshot> surroundings_;
@@ -136,7 +144,9 @@ class Evolution {
     const auto start = std::make_shared<CachedSnapshot>(open_snapshot(options_.galaxy));
     const TurningGalaxy galaxy(start, turning_settings(options_));
     if (const auto warning = turning_warning(options_.duration_myr)) console_.note(*warning);
-    if (pictures_) begin_drawing(galaxy);
+    if (pictures_) scene_.emplace(options_, galaxy);
+    check_files(part, *start);
+    if (pictures_) begin_drawing();
     for (const int frame : part) {
       console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
       const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame, options_));
@@ -161,8 +171,27 @@ class Evolution {
     return frames;
   }
 
-  void begin_drawing(const TurningGalaxy& galaxy) {
-    scene_.emplace(options_, galaxy);
+  // Nothing that is read is written.
+  void check_files(const std::vector<int>& frames, const Snapshot& galaxy) const {
+    std::vector<OutputFile> outputs;
+    for (const int frame : frames) {
+      if (snapshots_) outputs.push_back({snapshots_->at(frame), "--snapshots"});
+      if (!pictures_) continue;
+      const ImageSettings& image = scene_->scene().image;
+      for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
+        outputs.push_back({picture_path(pictures_->at(frame), size.suffix), "--output"});
+    }
+    check_outputs(outputs, [&] {
+      InputFiles inputs;
+      inputs.add(galaxy);
+      if (options_.rotation_curve) inputs.add(*options_.rotation_curve);
+      std::set<std::filesystem::path> all = inputs.all();
+      if (scene_) all.merge(scene_->files_read());
+      return all;
+    });
+  }
+
+  void begin_drawing() {
     const ImageSettings& image = scene_->scene().image;
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
       check_image_size(pictures_->at(0), size.width, size.height);

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
 
 namespace splotchcl::cli {
 
 int run_galaxy(const GalaxyOptions& options, Console& console) {
   check_output_path(options.output);
+  check_outputs({{options.output, "--output"}}, [&] {
+    std::set<std::filesystem::path> inputs = {options.image};
+    if (options.rotation_curve) inputs.insert(*options.rotation_curve);
+    return inputs;
+  });
   GalaxySettings settings = options.settings;
   settings.rotation = options.rotation_curve ? read_rotation_curve(*options.rotation_curve)
                                              : RotationCurve::flat(options.speed, options.core);

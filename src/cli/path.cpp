@@ -5,6 +5,8 @@
 #include <cstddef>
 
 #include "cli/commands.h"
+#include "common/output_files.h"
+#include "film/frames/film_manifest.h"
 #include "film/frames/film_scene.h"
 #include "film/path_plot/path_plot.h"
 #include "scene/constants.h"
@@ -58,6 +60,8 @@ void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
 int run_path(const PathOptions& options, Console& console) {
   check_image_path(options.output);
   FilmScene film(options.scene, options.settings);
+  check_outputs({{options.output, "--output"}},
+                [&] { return film_files_read(options.scene, film.scene(), film.path()); });
   console.status("reading");
   film.decide();
   const Scene start = film.scene_at(0);

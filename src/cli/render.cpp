@@ -6,7 +6,9 @@
 #include "cli/commands.h"
 #include "cli/explanation.h"
 #include "cli/render_stats.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "open_scene/input_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"
@@ -81,13 +83,16 @@ Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, 
 }
 
 // The pictures' files by suffix, and whether each could be written.
-void check_outputs(const std::filesystem::path& output, const Scene& scene, int view_width,
-                   int view_height) {
+std::vector<OutputFile> check_pictures(const std::filesystem::path& output, const Scene& scene,
+                                       int view_width, int view_height) {
+  std::vector<OutputFile> files;
   for (const PictureSize& size : picture_sizes(scene, view_width, view_height)) {
     const std::filesystem::path path = picture_path(output, size.suffix);
     check_image_path(path);
     check_image_size(path, size.width, size.height);
+    files.push_back({path, "--output"});
   }
+  return files;
 }
 
 // Why a first run takes so much longer than the next.
@@ -118,11 +123,14 @@ int run_render(const RenderOptions& options, Console& console) {
   for (const std::string& note : source.notes)
     console.note(note);
   const ImageSettings& picture = source.scene.image;
+  std::vector<OutputFile> outputs;
   if (output) {
     const bool cropped = wanted.width > 0;
-    check_outputs(*output, source.scene, cropped ? wanted.width : picture.width,
-                  cropped ? wanted.height : picture.height);
+    outputs = check_pictures(*output, source.scene, cropped ? wanted.width : picture.width,
+                             cropped ? wanted.height : picture.height);
   }
+  if (options.stats) outputs.push_back({*options.stats, "--stats"});
+  check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
   std::optional<FrameDrawer> drawer;
   if (output) {
     if (!options.reference) console.status("starting the device");

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <ctime>
 #include <optional>
 #include <random>
 #include <system_error>
@@ -25,6 +28,12 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return folder.empty() ? "." : folder;
 }
 
+// There is something, but neither a file nor a folder.
+bool is_stream(const std::filesystem::path& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
 std::filesystem::path follow_links(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_symlink(path, error)) return path;
@@ -33,10 +42,44 @@ std::filesystem::path follow_links(const std::filesystem::path& path) {
 }
 
 // Hidden, and different for programs that write the same picture at the same time.
-std::filesystem::path temporary_name(const std::filesystem::path& target) {
+std::filesystem::path temporary_name(const std::filesystem::path& target, bool is_stream) {
   const std::string unique =
       std::to_string(::getpid()) + "-" + std::to_string(std::random_device()());
-  return folder_of(target) / ("." + target.filename().string() + "." + unique + ".part");
+  const std::filesystem::path folder =
+      is_stream ? std::filesystem::temp_directory_path() : folder_of(target);
+  return folder / ("." + target.filename().string() + "." + unique + ".part");
+}
+
+// While it lives, a FIFO that nobody reads any more answers with an error, not with a signal.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    ::sigemptyset(&pipe_);
+    ::sigaddset(&pipe_, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec at_once = {};
+    ::sigtimedwait(&pipe_, nullptr, &at_once);  // one that has come meanwhile
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+ private:
+  ::sigset_t pipe_ = {}, before_ = {};
+};
+
+// The error's number, or 0.
+int write_all(int descriptor, const char* next, std::size_t bytes) {
+  while (bytes > 0) {
+    const ssize_t written = ::write(descriptor, next, bytes);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    next += written;
+    bytes -= static_cast<std::size_t>(written);
+  }
+  return 0;
 }
 
 // What open() would only call "no such file or folder".
@@ -77,12 +120,13 @@ bool is_running(pid_t process) {
 
 }  // namespace
 
-void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names) {
+void remove_leftovers(const std::filesystem::path& folder,
+                      const std::function<bool(const std::string&)>& is_meant) {
   std::error_code error;
   std::vector<std::filesystem::path> leftovers;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const auto leftover = read_temporary_name(entry.path().filename().string());
-    if (leftover && names.count(leftover->target) > 0 && !is_running(leftover->process)) {
+    if (leftover && is_meant(leftover->target) && !is_running(leftover->process)) {
       leftovers.push_back(entry.path());
     }
   }
@@ -95,8 +139,12 @@ void check_output_path(const std::filesystem::path& path) {
 }
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
-    : path_(path), target_(follow_links(path)), temporary_(temporary_name(target_)) {
+    : path_(path),
+      is_stream_(is_stream(path)),
+      target_(is_stream_ ? path : follow_links(path)),
+      temporary_(temporary_name(target_, is_stream_)) {
   check_folder(path_, target_);
+  if (is_stream_ && ::access(target_.c_str(), W_OK) != 0) fail(errno);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
 }
@@ -107,16 +155,8 @@ UnfinishedFile::~UnfinishedFile() {
 }
 
 void UnfinishedFile::write(const void* data, std::size_t bytes) {
-  const char* next = static_cast<const char*>(data);
-  while (bytes > 0) {
-    const ssize_t written = ::write(descriptor_, next, bytes);
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      fail(errno);
-    }
-    next += written;
-    bytes -= static_cast<std::size_t>(written);
-  }
+  const int error = write_all(descriptor_, static_cast<const char*>(data), bytes);
+  if (error != 0) fail(error);
 }
 
 void UnfinishedFile::finish() {
@@ -125,8 +165,27 @@ void UnfinishedFile::finish() {
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail(errno);
+  if (is_stream_) return copy_into_stream();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+}
+
+void UnfinishedFile::copy_into_stream() {
+  const NoPipeSignal no_signal;
+  const int from = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  // Waits for a reader of a FIFO, as every program does.
+  const int to = from < 0 ? -1 : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  int error = to < 0 ? errno : 0;
+  std::array<char, 1 << 16> bytes;
+  ssize_t count = 0;
+  while (error == 0 && (count = ::read(from, bytes.data(), bytes.size())) > 0)
+    error = write_all(to, bytes.data(), static_cast<std::size_t>(count));
+  if (error == 0 && count < 0) error = errno;
+  if (from >= 0) ::close(from);
+  if (to >= 0 && ::close(to) != 0 && error == 0) error = errno;
+  if (error != 0) {
+    throw DataError(path_.string() + ": cannot be written: " + reason(error));
+  }
 }
 
 void UnfinishedFile::fail(int error_number) const {

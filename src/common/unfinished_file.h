@@ -2,22 +2,26 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <set>
+#include <functional>
 #include <string>
 
 namespace splotchcl {
 
 // Creates a file beside `path` and removes it. Throws DataError when that fails: the folder
-// is missing or not writable, or `path` is itself a folder.
+// is missing or not writable, or `path` is itself a folder. Of a FIFO or a device only asks
+// whether it may be written.
 void check_output_path(const std::filesystem::path& path);
 
-// Removes the unfinished files of these names that killed processes left in a folder. Those of
-// processes that still run here stay.
-void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names);
+// Removes the unfinished files that killed processes left in a folder, of those names for which
+// `is_meant` says so. Those of processes that still run here stay.
+void remove_leftovers(const std::filesystem::path& folder,
+                      const std::function<bool(const std::string& name)>& is_meant);
 
 // A file that appears under its name only when it is complete. Until finish() it has a
 // temporary name in the same folder, and is removed when it is abandoned. A symbolic link
-// stays: what it points to is replaced. Throws DataError.
+// stays: what it points to is replaced. What is no regular file, such as a FIFO or a device, is not
+// replaced: finish() writes into it what has been kept in the folder for temporary files. Throws
+// DataError.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& path);
@@ -31,9 +35,11 @@ class UnfinishedFile {
   void finish();
 
  private:
+  void copy_into_stream();
   [[noreturn]] void fail(int error_number) const;
 
   std::filesystem::path path_;    // as the user named it, for messages
+  bool is_stream_;                // a FIFO or a device
   std::filesystem::path target_;  // where it will be
   std::filesystem::path temporary_;
   int descriptor_ = -1;

@@ -37,6 +37,11 @@ Column find_sizes_by_neighbors(const SnapshotInfo& info, int type, const Column&
     return search(type, position, periodic_box, how);
   }
   const SmoothingLengthCache cache(info, type, position, periodic_box, how.neighbors);
+  if (cache.is_in_the_way()) {
+    say(fmt::format("the smoothing lengths of type {} are not kept: {} is another file; move it",
+                    type, cache.path().string()));
+    return search(type, position, periodic_box, how);
+  }
   if (const auto kept = cache.read()) {
     say(fmt::format("the smoothing lengths of type {} are those kept in {}", type,
                     cache.path().string()));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -64,6 +65,16 @@ std::optional<Column> SmoothingLengthCache::read() const {
   if (!is_the_same) return std::nullopt;
   const auto* const first = reinterpret_cast<const float*>(file->data() + header_bytes);
   return Column(file, first, count_);
+}
+
+bool SmoothingLengthCache::is_in_the_way() const {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path_, ignored)) return false;
+  if (!std::filesystem::is_regular_file(path_, ignored)) return true;
+  const auto file = MappedFile::open(path_);
+  // A file of ours may have been cut.
+  const auto there = static_cast<std::size_t>(std::min<std::uint64_t>(file->size(), mark.size()));
+  return there > 0 && std::memcmp(file->data(), mark.data(), there) != 0;
 }
 
 void SmoothingLengthCache::write(const Column& lengths) const {

@@ -22,6 +22,9 @@ class SmoothingLengthCache {
   // None where there is no such file, or it is of other positions or damaged.
   std::optional<Column> read() const;
 
+  // Whether a file of this name is anything else, which is not overwritten.
+  bool is_in_the_way() const;
+
   // Throws DataError when the file cannot be written.
   void write(const Column& lengths) const;
 

@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::array<const char*, 3> endings = {"", ".hdf5", ".h5"};
 
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 fs::path with_suffix(fs::path path, const std::string& suffix) {
   return path += suffix;
 }
@@ -88,14 +92,38 @@ fs::path find_by_base_name(const fs::path& path) {
   return found.front();
 }
 
-bool ExistingFiles::have(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+const std::set<std::string>& ExistingFiles::names_in(const fs::path& folder) {
   const auto [found, is_new] = names_.try_emplace(folder);
   std::set<std::string>& names = found->second;
-  if (is_new && fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (is_new && fs::is_directory(folder, ignored)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
       names.insert(entry.path().filename().string());
   }
+  return names;
+}
+
+std::vector<fs::path> ExistingFiles::files_of(const fs::path& path) {
+  const std::set<std::string>& names = names_in(folder_of(path));
+  const std::string own = path.filename().string();
+  const std::optional<MemberName> member = parse_member_name(path.filename());
+  const std::string base =
+      member && names.count(own) > 0 ? member->base.string() : path.filename().string();
+  std::vector<fs::path> files;
+  // Of base.*, those that have a number; of base, which is no file, those that have an ending, too.
+  for (auto name = names.lower_bound(base);
+       name != names.end() && name->compare(0, base.size(), base) == 0; ++name) {
+    const std::optional<MemberName> other = parse_member_name(*name);
+    const bool is_member = other && other->base == base;
+    const bool is_completed =
+        names.count(own) == 0 && (*name == own + ".hdf5" || *name == own + ".h5");
+    if (*name == own || is_member || is_completed) files.push_back(path.parent_path() / *name);
+  }
+  return files;
+}
+
+bool ExistingFiles::have(const fs::path& path) {
+  const std::set<std::string>& names = names_in(folder_of(path));
   const std::string name = path.filename().string();
   if (name.empty()) return !names.empty();
   for (const std::string number : {"", ".0"}) {

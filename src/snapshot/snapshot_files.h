@@ -31,8 +31,13 @@ std::filesystem::path find_by_base_name(const std::filesystem::path& path);
 class ExistingFiles {
  public:
   bool have(const std::filesystem::path& path);
+  // All files that are there of the set that a path is one of, or stands for. Without a set, the
+  // file itself.
+  std::vector<std::filesystem::path> files_of(const std::filesystem::path& path);
 
  private:
+  const std::set<std::string>& names_in(const std::filesystem::path& folder);
+
   std::map<std::filesystem::path, std::set<std::string>> names_;  // by folder
 };
 

@@ -84,6 +84,15 @@ TEST_F(MissingSizes, ThatWereDamagedAreFoundAnew) {
   }
 }
 
+TEST_F(MissingSizes, AreNotKeptInAFileOfSomethingElse) {
+  write(1);
+  const std::string mine = "my own notes on this snapshot";
+  std::ofstream(folder_ / "snap.type1.smoothing_lengths") << mine;
+  lengths({keep_});
+  EXPECT_THAT(notes_, Contains(HasSubstr("is another file")));
+  EXPECT_EQ(read_text(folder_ / "snap.type1.smoothing_lengths"), mine);
+}
+
 TEST_F(MissingSizes, OfAPartOfTheParticlesAreNotKept) {
   write(1);
   lengths({keep_, "read.every=2"});

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/output_files.h"
 #include "film/frames/film_drawer.h"
 #include "film/frames/film_manifest.h"
 #include "film/frames/film_scene.h"
@@ -64,6 +65,7 @@ class Film {
     check_pictures(files_, start_);
     frames_ = select_frames(options.frames, scene_.path().frame_count());
     part_ = select_part(options.part, frames_);
+    check_files();
   }
 
   FilmResult make() {
@@ -81,6 +83,18 @@ class Film {
  private:
   void status(const std::string& what) const {
     if (report_.status) report_.status(what);
+  }
+
+  // Nothing that is read is written.
+  void check_files() const {
+    std::vector<OutputFile> outputs;
+    for (const std::filesystem::path& path : files_.outputs(frames_))
+      outputs.push_back({path, "--output"});
+    const auto inputs = [this] {
+      return film_files_read(options_.scene, scene_.scene(), scene_.path());
+    };
+    check_outputs(outputs, inputs);
+    if (files_.is_film()) check_own_folder(files_.folder(), "--output", inputs);
   }
 
   // The last part has made the film already, or nobody has begun it.
@@ -130,15 +144,15 @@ class Film {
     const FrameFiles::Lock lock(files_);
     if (!lock) return result(FilmState::joined_by_another);
     if (files_.is_film()) join();
-    files_.close();
+    files_.close(frames_);
     return result(FilmState::complete);
   }
 
   void join() const {
     status("joining the frames");
     for (const PictureSize& size : sizes_of(start_)) {
-      Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height,
-                      files_.folder());
+      files_.remove_unfinished_film(size.suffix);
+      Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height);
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         if (report_.progress) {
           report_.progress("joining the frames",

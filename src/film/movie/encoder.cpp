@@ -1,14 +1,14 @@
 #include "film/movie/encoder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <poll.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstddef>
 #include <cstdlib>
 #include <map>
@@ -16,11 +16,9 @@
 #include <string>
 #include <system_error>
 
-#include "common/text_file.h"
 #include "common/words.h"
+#include "film/movie/child_process.h"
 #include "splotchcl/error.h"
-
-extern char** environ;
 
 namespace splotchcl {
 namespace {
@@ -58,6 +56,11 @@ std::vector<std::string> codec_arguments(Codec codec, int rate_factor) {
   return {};
 }
 
+// ffmpeg takes what stands before a colon for a protocol.
+std::string as_file(const std::filesystem::path& path) {
+  return "file:" + path.string();
+}
+
 std::vector<std::string> arguments(const std::filesystem::path& path, const MovieSettings& settings,
                                    int width, int height, const std::filesystem::path& unfinished) {
   std::vector<std::string> all = {
@@ -81,7 +84,7 @@ std::vector<std::string> arguments(const std::filesystem::path& path, const Movi
   }
   all.push_back(containers.at(lower_ending(path)));
   all.emplace_back("-y");
-  all.push_back(unfinished.string());
+  all.push_back(as_file(unfinished));
   return all;
 }
 
@@ -89,29 +92,30 @@ std::string reason(int error_number) {
   return std::generic_category().message(error_number);
 }
 
-// The program's standard input is `input`, what it says goes to `log`.
-pid_t start(const std::vector<std::string>& words, int input, const std::filesystem::path& log) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words)
-    arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0666);
-  // In a group of its own, Ctrl-C reaches this program alone, which then decides.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t process = -1;
-  const int error =
-      ::posix_spawnp(&process, "ffmpeg", &files, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw DataError("ffmpeg cannot be started: " + reason(error));
-  return process;
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+// A number that changes whenever the file is written to.
+std::uint64_t state_of(const std::filesystem::path& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) return 0;
+  return static_cast<std::uint64_t>(status.st_size) * 1000003U +
+         static_cast<std::uint64_t>(status.st_mtim.tv_sec) * 1000000007U +
+         static_cast<std::uint64_t>(status.st_mtim.tv_nsec);
+}
+
+// The last "frame=N" of what ffmpeg's -progress writes.
+std::uint64_t frames_in(const std::string& progress) {
+  const std::string key = "frame=";
+  const std::size_t last = progress.rfind(key);
+  std::uint64_t frames = 0;
+  if (last == std::string::npos) return 0;
+  std::from_chars(progress.data() + last + key.size(), progress.data() + progress.size(), frames);
+  return frames;
 }
 
 }  // namespace
@@ -139,12 +143,17 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
   }
 }
 
+struct Encoder::Process {
+  Process(const std::vector<std::string>& words, int input)
+      : ffmpeg(words, {input, -1, messages.descriptor()}) {}
+
+  ScratchText messages;
+  ChildProcess ffmpeg;
+};
+
 Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& settings, int width,
-                 int height, const std::filesystem::path& scratch)
-    : path_(path) {
-  const std::string unique = std::to_string(::getpid()) + "." + path.filename().string();
-  unfinished_ = scratch / ("unfinished." + unique);
-  log_ = scratch / ("messages." + unique + ".txt");
+                 int height, std::chrono::milliseconds patience)
+    : path_(path), patience_(patience), film_(path) {
   // A socket rather than a pipe: one whose other end is gone answers with an error, not with
   // a signal.
   int ends[2];
@@ -153,7 +162,8 @@ Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& setting
   }
   input_ = ends[0];
   try {
-    process_ = start(arguments(path, settings, width, height, unfinished_), ends[1], log_);
+    process_ = std::make_unique<Process>(
+        arguments(path, settings, width, height, film_.temporary_path()), ends[1]);
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);
@@ -163,53 +173,93 @@ Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& setting
 }
 
 Encoder::~Encoder() {
-  wait_for_end();
-  std::error_code ignored;
-  std::filesystem::remove(unfinished_, ignored);
-  std::filesystem::remove(log_, ignored);
+  end_input();
 }
 
 void Encoder::add(const std::vector<std::uint8_t>& picture) {
   const std::uint8_t* next = picture.data();
   std::size_t left = picture.size();
   while (left > 0) {
-    const ssize_t sent = ::send(input_, next, left, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) fail();
+    wait_until_it_reads();
+    const ssize_t sent = ::send(input_, next, left, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK)) continue;
+    if (sent < 0) end_in_failure();
     next += sent;
     left -= static_cast<std::size_t>(sent);
+  }
+  ++frames_;
+}
+
+void Encoder::wait_until_it_reads() {
+  const auto deadline = std::chrono::steady_clock::now() + patience_;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    pollfd socket = {input_, POLLOUT, 0};
+    const int ready = ::poll(&socket, 1, std::max(0, static_cast<int>(left.count())));
+    if (ready > 0) return;
+    if (ready == 0) {
+      process_->ffmpeg.kill();
+      fail_stuck("read nothing");
+    }
+    if (errno != EINTR) throw DataError("no connection to ffmpeg: " + reason(errno));
   }
 }
 
 void Encoder::finish() {
-  if (!wait_for_end()) fail();
-  std::error_code error;
-  std::filesystem::rename(unfinished_, path_, error);
-  if (error) throw DataError(path_.string() + ": cannot be written: " + error.message());
+  end_input();
+  switch (process_->ffmpeg.wait(patience_, [this] { return state_of(film_.temporary_path()); })) {
+    case ChildProcess::End::stuck:
+      fail_stuck("wrote nothing");
+    case ChildProcess::End::failure:
+      fail(process_->messages.text());
+    case ChildProcess::End::success:
+      break;
+  }
+  check_film_is_whole();
+  film_.finish();
 }
 
-bool Encoder::wait_for_end() {
+// ffmpeg itself reads what it has written: the container, not every pixel.
+void Encoder::check_film_is_whole() {
+  const ScratchText progress, messages;
+  ChildProcess ffmpeg({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-i",
+                       as_file(film_.temporary_path()), "-map", "0:v:0", "-c", "copy", "-progress",
+                       "pipe:1", "-f", "null", "-"},
+                      {-1, progress.descriptor(), messages.descriptor()});
+  const auto end = ffmpeg.wait(patience_, [&] { return frames_in(progress.text()); });
+  const std::uint64_t found = frames_in(progress.text());
+  if (end == ChildProcess::End::success && found == frames_) return;
+  const std::string said = one_line(messages.text());
+  throw DataError(
+      fmt::format("{}: ffmpeg made a film in which it finds {} frames, expected {}{}; see that the "
+                  "ffmpeg that is found first works, and try again",
+                  path_.string(), found, frames_, said.empty() ? "" : fmt::format(" ({})", said)));
+}
+
+void Encoder::end_input() {
   if (input_ >= 0) ::close(input_);
   input_ = -1;
-  if (process_ < 0) return false;
-  int status = -1;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-  }
-  process_ = -1;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-void Encoder::fail() {
-  wait_for_end();
-  std::string said;
-  try {
-    said = read_text_file(log_);
-  } catch (const Error&) {
-    // It said nothing.
-  }
-  while (!said.empty() && said.back() == '\n')
-    said.pop_back();
-  std::replace(said.begin(), said.end(), '\n', ' ');
+// It has closed its end: it says why when it ends.
+void Encoder::end_in_failure() {
+  end_input();
+  const auto end =
+      process_->ffmpeg.wait(patience_, [this] { return state_of(film_.temporary_path()); });
+  if (end == ChildProcess::End::stuck) fail_stuck("closed its input and did not end");
+  fail(process_->messages.text());
+}
+
+void Encoder::fail_stuck(const std::string& what) const {
+  throw DataError(fmt::format(
+      "{}: ffmpeg {} for {} s and was ended; the frames that were drawn are kept: see that ffmpeg "
+      "works, and try again",
+      path_.string(), what, std::chrono::duration_cast<std::chrono::seconds>(patience_).count()));
+}
+
+void Encoder::fail(const std::string& messages) const {
+  const std::string said = one_line(messages);
   throw DataError(path_.string() + ": ffmpeg could not make the film: " +
                   (said.empty() ? "it ended without a word" : said));
 }

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <sys/types.h>
-
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "common/unfinished_file.h"
 #include "splotchcl/movie.h"
 
 namespace splotchcl {
@@ -19,12 +21,12 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
                 int height);
 
 // Makes a film of pictures through a process of ffmpeg. The same pictures give the same
-// bytes. The film appears under its name when it is complete.
+// bytes. The film appears under its name when it is complete and ffmpeg can read it.
 class Encoder {
  public:
-  // `scratch`: a folder on the same file system, for the unfinished film. Throws DataError.
+  // An ffmpeg that gets on with nothing for as long as `patience` is ended. Throws DataError.
   Encoder(const std::filesystem::path& path, const MovieSettings& settings, int width, int height,
-          const std::filesystem::path& scratch);
+          std::chrono::milliseconds patience = std::chrono::minutes(5));
   ~Encoder();
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
@@ -34,12 +36,21 @@ class Encoder {
   void finish();
 
  private:
-  [[noreturn]] void fail();
-  bool wait_for_end();  // true: it did its work
+  struct Process;
 
-  std::filesystem::path path_, unfinished_, log_;
+  void wait_until_it_reads();
+  void check_film_is_whole();
+  void end_input();
+  [[noreturn]] void end_in_failure();
+  [[noreturn]] void fail_stuck(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& messages) const;
+
+  std::filesystem::path path_;
+  std::chrono::milliseconds patience_;
+  UnfinishedFile film_;
+  std::unique_ptr<Process> process_;
   int input_ = -1;
-  pid_t process_ = -1;
+  std::uint64_t frames_ = 0;
 };
 
 }  // namespace splotchcl

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -20,6 +21,10 @@
 
 namespace splotchcl {
 namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
 
 NumberedFiles numbered_images(const std::filesystem::path& output) {
   if (std::optional<NumberedFiles> images = NumberedFiles::find(output)) return *images;
@@ -40,6 +45,18 @@ std::string difference(const std::string& found, const std::string& expected) {
     if (line_a != line_b || (!has_a && !has_b)) break;
   }
   return fmt::format("made with '{}' where this film has '{}'", line_a, line_b);
+}
+
+// A picture of any of a film's frames: frame_000012_left.png.
+bool is_frame_of_film(const std::string& name, const std::vector<std::string>& suffixes) {
+  const std::string begin = "frame_";
+  if (name.compare(0, begin.size(), begin) != 0) return false;
+  std::size_t end = begin.size();
+  while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0)
+    ++end;
+  const std::string rest = name.substr(end);
+  return end > begin.size() && std::any_of(suffixes.begin(), suffixes.end(),
+                                           [&](const auto& s) { return rest == s + ".png"; });
 }
 
 }  // namespace
@@ -73,6 +90,19 @@ void FrameFiles::check() const {
       check_image_path(picture(0, suffix));
     }
   }
+}
+
+std::vector<std::filesystem::path> FrameFiles::outputs(const std::vector<int>& frames) const {
+  std::vector<std::filesystem::path> all = {manifest_};
+  for (const std::string& suffix : suffixes_) {
+    if (is_film_) {
+      all.push_back(film(suffix));
+    } else {
+      for (const int frame : frames)
+        all.push_back(picture(frame, suffix));
+    }
+  }
+  return all;
 }
 
 bool FrameFiles::is_begun() const {
@@ -129,16 +159,38 @@ void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
     for (const std::string& suffix : suffixes_)
       names.insert(picture(frame, suffix).filename().string());
   }
-  splotchcl::remove_leftovers(folder_, names);
+  splotchcl::remove_leftovers(folder_,
+                              [&](const std::string& name) { return names.count(name) > 0; });
 }
 
-void FrameFiles::close() {
+void FrameFiles::remove_unfinished_film(const std::string& suffix) const {
+  const std::filesystem::path path = film(suffix);
+  splotchcl::remove_leftovers(folder_of(path), [name = path.filename().string()](
+                                                   const std::string& n) { return n == name; });
+}
+
+void FrameFiles::close(const std::vector<int>& frames) {
+  remove_leftovers(frames);
+  const std::string manifest = manifest_.filename().string();
+  splotchcl::remove_leftovers(folder_of(manifest_),
+                              [&](const std::string& name) { return name == manifest; });
   std::error_code ignored;
-  if (is_film_) {
-    std::filesystem::remove_all(folder_, ignored);
-  } else {
-    std::filesystem::remove(manifest_, ignored);
+  if (is_film_) remove_frames();
+  std::filesystem::remove(manifest_, ignored);
+  if (is_film_) std::filesystem::remove(folder_, ignored);  // unless something else lies in it
+}
+
+// Only what is a film's own goes: the folder may have been there before.
+void FrameFiles::remove_frames() const {
+  const auto is_own = [this](const std::string& name) { return is_frame_of_film(name, suffixes_); };
+  splotchcl::remove_leftovers(folder_, is_own);
+  std::vector<std::filesystem::path> own;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    if (is_own(entry.path().filename().string())) own.push_back(entry.path());
   }
+  for (const std::filesystem::path& path : own)
+    std::filesystem::remove(path, ignored);
 }
 
 FrameFiles::Lock::Lock(const FrameFiles& files) {

@@ -25,6 +25,8 @@ class FrameFiles {
   std::filesystem::path picture(int frame, const std::string& suffix) const;
   const std::filesystem::path& folder() const { return folder_; }
 
+  // All that is written and stays for a time, but for the frames of a film.
+  std::vector<std::filesystem::path> outputs(const std::vector<int>& frames) const;
   // Throws DataError where nothing can be written.
   void check() const;
   // Whether there are frames of a film that is not complete.
@@ -37,8 +39,11 @@ class FrameFiles {
   bool has(int frame) const;
   // Removes what is left of these frames where a process was killed while it wrote them.
   void remove_leftovers(const std::vector<int>& frames) const;
-  // The frames are where they belong: removes manifest and folder.
-  void close();
+  // Removes what is left of a film where a process was killed while it made it.
+  void remove_unfinished_film(const std::string& suffix) const;
+  // The frames are where they belong: removes the manifest, what killed processes left of these
+  // frames, and, of a film, all frames and their folder.
+  void close(const std::vector<int>& frames);
 
   // Only one process at a time holds it; false: another one does.
   class Lock {
@@ -54,6 +59,8 @@ class FrameFiles {
   };
 
  private:
+  void remove_frames() const;
+
   std::filesystem::path output_, folder_, manifest_;
   std::optional<NumberedFiles> images_;  // none for a film
   std::vector<std::string> suffixes_;

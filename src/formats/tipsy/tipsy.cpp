@@ -170,6 +170,8 @@ void TipsySnapshot::find_start() {
 }
 
 void TipsySnapshot::describe_types() {
+  for (const TipsyArray& array : arrays_)
+    info_.files_beside.push_back(array.file->path());
   for (std::size_t i = 0; i < header_.counts.size(); ++i) {
     if (header_.counts[i] == 0) continue;
     ParticleTypeInfo type;

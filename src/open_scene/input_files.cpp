@@ -1,0 +1,70 @@
+#include "open_scene/input_files.h"
+
+#include "scene_file/file_names.h"
+#include "snapshot/snapshot_files.h"
+#include "snapshot/snapshot_list.h"
+#include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/snapshot_file.h"
+
+namespace splotchcl {
+
+void InputFiles::add(const Snapshot& snapshot) {
+  named_.insert(snapshot.info().files.begin(), snapshot.info().files.end());
+  named_.insert(snapshot.info().files_beside.begin(), snapshot.info().files_beside.end());
+}
+
+void InputFiles::add_snapshots(const Scene& scene) {
+  if (scene.time.is_set()) {
+    for (const ListedSnapshot& snapshot : list_snapshots(scene.time))
+      named_.insert(snapshot.path);
+  } else {
+    add(*open_snapshot_for(scene.snapshot, scene.read));
+  }
+}
+
+void InputFiles::add_named_files(const Scene& scene) {
+  Scene copy = scene;
+  scene_file::change_file_names(copy, [this](const std::string& name) {
+    named_.insert(name);
+    return name;
+  });
+  const std::string& other = scene.finish.cross_fade.scene;
+  if (other.empty() || !others_.insert(other).second) return;
+  Scene fades_to = read_scene_file(other);
+  fades_to.path = {};  // only its own films have frames
+  add_snapshots(fades_to);
+  add_named_files(fades_to);
+}
+
+std::set<std::filesystem::path> InputFiles::all() const {
+  std::set<std::filesystem::path> files = named_;
+  ExistingFiles existing;
+  std::error_code ignored;
+  for (const std::filesystem::path& name : named_) {
+    const auto members = existing.files_of(name);
+    files.insert(members.begin(), members.end());
+    if (std::filesystem::is_directory(name, ignored)) {
+      const auto& in_folder = open_snapshot(name)->info().files;
+      files.insert(in_folder.begin(), in_folder.end());
+    }
+  }
+  for (const PaletteInfo& palette : list_palettes()) {
+    if (!palette.file.empty()) files.insert(palette.file);
+  }
+  return files;
+}
+
+std::set<std::filesystem::path> files_read(const std::filesystem::path& file, const Scene& scene,
+                                           const Snapshot& snapshot) {
+  InputFiles inputs;
+  inputs.add(file);
+  inputs.add(snapshot);
+  if (scene.time.is_set()) inputs.add_snapshots(scene);
+  inputs.add_named_files(scene);
+  return inputs.all();
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,90 @@
+// Films are made by another program, which may do anything: here by scripts in its place.
+#include "film/movie/encoder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "splotchcl/error.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FakeEncoder : public ::testing::Test {
+ protected:
+  FakeEncoder() : path_before_(std::getenv("PATH")) {
+    std::filesystem::create_directory(folder_ / "bin");
+    ::setenv("PATH", ((folder_ / "bin").string() + ":" + path_before_).c_str(), 1);
+  }
+  ~FakeEncoder() override { ::setenv("PATH", path_before_.c_str(), 1); }
+
+  void make_ffmpeg(const std::string& script) const {
+    const std::filesystem::path program = folder_ / "bin" / "ffmpeg";
+    std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  }
+  // What the film's failure says.
+  std::string failure(int frames = 1) const {
+    try {
+      Encoder encoder(folder_ / "film.mp4", {}, 640, 480, std::chrono::milliseconds(300));
+      for (int i = 0; i < frames; ++i)
+        encoder.add(std::vector<std::uint8_t>(3 * 640 * 480));
+      encoder.finish();
+    } catch (const DataError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+  // Nothing but the folder with the script.
+  bool left_nothing() const { return folder_.count_files() == 1; }
+
+  testing::TemporaryFolder folder_;
+  std::string path_before_;
+};
+
+TEST_F(FakeEncoder, ThatNeverReadsIsEnded) {
+  make_ffmpeg("exec sleep 1000");
+  EXPECT_THAT(failure(10), HasSubstr("read nothing"));
+  EXPECT_TRUE(left_nothing());
+}
+
+TEST_F(FakeEncoder, ThatNeverEndsIsEndedWithWhatItStarted) {
+  make_ffmpeg("sleep 1000 & echo $! > \"$(dirname \"$0\")/child\"; cat > /dev/null; wait");
+  EXPECT_THAT(failure(), HasSubstr("wrote nothing"));
+  const std::string child = testing::read_text(folder_ / "bin" / "child");
+  // It may still wait for somebody to take note of its end.
+  const std::string status =
+      testing::read_text("/proc/" + child.substr(0, child.find('\n')) + "/status");
+  EXPECT_TRUE(status.empty() || status.find("State:\tZ") != std::string::npos) << status;
+  EXPECT_TRUE(left_nothing());
+}
+
+TEST_F(FakeEncoder, ThatWritesNothingMakesNoFilm) {
+  make_ffmpeg("cat > /dev/null");
+  EXPECT_THAT(failure(), HasSubstr("finds 0 frames, expected 1"));
+  EXPECT_TRUE(left_nothing());
+}
+
+TEST_F(FakeEncoder, ThatFailsSaysWhy) {
+  make_ffmpeg("echo no such codec >&2; exit 1");
+  EXPECT_THAT(failure(10), HasSubstr("no such codec"));
+  EXPECT_TRUE(left_nothing());
+}
+
+TEST(RealEncoder, MakesAFilmWhoseNameLooksLikeAnAddress) {
+  if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
+  const testing::TemporaryFolder folder;
+  Encoder encoder(folder / "http:film.mp4", {}, 64, 48);
+  for (int i = 0; i < 3; ++i)
+    encoder.add(std::vector<std::uint8_t>(3 * 64 * 48));
+  encoder.finish();
+  EXPECT_EQ(folder.count_files(), 1U);
+}
+
+}  // namespace
+}  // namespace splotchcl
