@@ -71,7 +71,8 @@ int main(int argc, char** argv) {
   splotchcl_particles* particles = splotchcl_particles_new();
   int width = 0, height = 0;
   if (splotchcl_scene_picture_size(scene, 0, &width, &height, &error)) return fail(&error);
-  float* image = malloc(sizeof(float) * 4 * (size_t)width * (size_t)height);
+  const size_t floats = 4 * (size_t)width * (size_t)height;
+  float* image = malloc(sizeof(float) * floats);
   if (!image || !particles) return 1;
 
   make_ball();
@@ -84,7 +85,7 @@ int main(int argc, char** argv) {
       return fail(&error);
     /* What the first picture chooses from the data, such as its exposure, holds for all. */
     if (picture == 0 && splotchcl_scene_decide(scene, particles, &error)) return fail(&error);
-    if (splotchcl_draw(renderer, scene, particles, &image, 1, &error)) return fail(&error);
+    if (splotchcl_draw(renderer, scene, particles, &image, &floats, 1, &error)) return fail(&error);
     snprintf(path, sizeof path, "%s/collapse_%d.png", folder, picture);
     if (splotchcl_write_image(path, image, width, height, 2, &error)) return fail(&error);
     printf("%s\n", path);

@@ -22,20 +22,25 @@ class ArraySnapshot : public Snapshot {
   // Floats are borrowed: they stay the caller's and must outlive the snapshot. A simulation sets
   // its fields once, and calls changed() before the next picture. Doubles are copied as floats,
   // positions relative to the origin. A field that is set again replaces the earlier one.
-  // Throws UsageError for a type outside 0 to 31, for other numbers of values, and for a count
-  // that differs from that of the type's other fields.
+  // Throws UsageError, and changes nothing, for a type outside 0 to 31, for other numbers of
+  // values, for an array that is not aligned, for more particles than memory can hold, and for a
+  // count that differs from that of the type's other fields.
   void set_field(int type, const std::string& field, const float* values, std::uint64_t count,
                  int values_per_particle = 1);
   void set_field(int type, const std::string& field, const double* values, std::uint64_t count,
                  int values_per_particle = 1);
-  // The same mass for all of a type, in the unit that a field "mass" would have.
+  // The same mass for all of a type, in the unit that a field "mass" would have. Throws UsageError
+  // for a type outside 0 to 31, and for what is no finite number >= 0.
   void set_mass(int type, double mass);
   // What the arrays hold has changed: nothing that was found from it is used again.
   void changed() const;
-  // Leaves a type's fields out, so that its count may change.
+  // Leaves a type's fields out, so that its count may change. Throws UsageError for a type outside
+  // 0 to 31.
   void clear(int type);
 
-  void set_box_size(double size);  // the side of a periodic box, in the unit of positions
+  // The side of a periodic box, in the unit of positions; 0: there is none. Throws UsageError for
+  // what is no finite number >= 0.
+  void set_box_size(double size);
   void set_time(double time);      // in the simulation's unit, for texts in pictures
   // What positions are relative to, in their unit: floats are taken as offsets from it, doubles
   // as positions from which it is subtracted. Throws UsageError when double positions are set
@@ -48,7 +53,7 @@ class ArraySnapshot : public Snapshot {
   Vec3 position_origin() const override { return origin_; }
 
  private:
-  ParticleTypeInfo& type_info(int type);
+  void replace(ParticleTypeInfo info);
   void add_field(int type, const std::string& field, std::uint64_t count, int values_per_particle,
                  const Column& column);
 

@@ -12,8 +12,9 @@
  * Functions that can fail take a last argument `error`, which may be null; after a success its
  * code is 0 and its message empty. Those that return an int return 0, 1 (the data or the device
  * failed) or 2 (the call or the scene is wrong), those that return a pointer null. A null pointer
- * where something is needed is a wrong call. Nothing is kept behind the caller's back: objects
- * may be used from any thread, each from one at a time. Free functions take null.
+ * where something is needed is a wrong call, and so are values that cannot be: what can be seen to
+ * be wrong is refused with code 2, and changes nothing. Nothing is kept behind the caller's back:
+ * objects may be used from any thread, each from one at a time. Free functions take null.
  *
  * Texts are UTF-8 and end with a zero byte. Lengths, masses and other values are in whatever
  * units the caller's arrays have; the scene's camera is in the same unit of length.
@@ -72,20 +73,22 @@ splotchcl_particles* splotchcl_particles_new(void);
  * picture. Doubles are copied, as floats.
  * A type needs "position"; all fields of a type have the same count. A particle with a value
  * that is not finite, a smoothing length not above 0, or a weight below 0 is left out of
- * pictures. Code 2 for a type, a number of values or a count that cannot be. */
+ * pictures. Code 2 for a type, a number of values or a count that cannot be, and for an array that
+ * is not aligned. */
 int splotchcl_particles_set_floats(splotchcl_particles* particles, int type, const char* field,
                                    const float* values, uint64_t count, int values_per_particle,
                                    splotchcl_error* error);
 int splotchcl_particles_set_doubles(splotchcl_particles* particles, int type, const char* field,
                                     const double* values, uint64_t count, int values_per_particle,
                                     splotchcl_error* error);
-/* The same mass for all of a type, in place of a field "mass". */
+/* The same mass for all of a type, in place of a field "mass": a finite number >= 0. */
 int splotchcl_particles_set_mass(splotchcl_particles* particles, int type, double mass,
                                  splotchcl_error* error);
 /* Forgets a type's fields. Needed before its number of particles changes. */
-void splotchcl_particles_clear(splotchcl_particles* particles, int type);
-/* The side of a periodic box, in the unit of positions. 0: there is none. */
-void splotchcl_particles_set_box_size(splotchcl_particles* particles, double size);
+int splotchcl_particles_clear(splotchcl_particles* particles, int type, splotchcl_error* error);
+/* The side of a periodic box, in the unit of positions: a finite number > 0. 0: there is none. */
+int splotchcl_particles_set_box_size(splotchcl_particles* particles, double size,
+                                     splotchcl_error* error);
 void splotchcl_particles_free(splotchcl_particles* particles);
 
 /* `device` is a part of an OpenCL device's name, in any case of letters; null: a GPU, else the
@@ -99,17 +102,19 @@ void splotchcl_renderer_free(splotchcl_renderer* renderer);
 
 /* Draws every picture of the scene. images[i] takes 4 * width * height floats of picture i (see
  * splotchcl_scene_picture_size): rows from the top, and for each pixel red, green, blue (linear
- * light, 1 is the display's white, more is kept) and alpha, the opacity from 0 to 1. `count` is
- * the number of images, which must be that of the scene's pictures. On an error no image has been
- * touched. */
+ * light, 1 is the display's white, more is kept) and alpha, the opacity from 0 to 1. capacities[i]
+ * is the number of floats that images[i] has room for: less than the picture needs is refused, with
+ * code 2, before anything is drawn. `count` is the number of images, which must be that of the
+ * scene's pictures. On an error no image has been touched. */
 int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
-                   const splotchcl_particles* particles, float* const* images, size_t count,
-                   splotchcl_error* error);
+                   const splotchcl_particles* particles, float* const* images,
+                   const size_t* capacities, size_t count, splotchcl_error* error);
 
 /* Stores a picture of 4 * width * height floats as splotchcl_draw makes it. The path's ending
  * chooses the format (png, exr, tif, jpg, ...): formats of 8 bits hold value^(1/gamma), exr and tif
- * linear light. The file appears under its name only when it is complete. Code 2 for an ending
- * that is not known, 1 for a file that cannot be written. */
+ * linear light. Sides are from 1 to 65536, gamma is a finite number > 0. The file appears under its
+ * name only when it is complete. Code 2 for an ending that is not known, 1 for a file that cannot
+ * be written. */
 int splotchcl_write_image(const char* path, const float* rgba, int width, int height, double gamma,
                           splotchcl_error* error);
 

@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/error.h"
@@ -31,10 +35,12 @@ namespace {
 
 constexpr int done = 0, failed = 1, called_wrong = 2;
 
+// What a compiler says has several lines.
 int report(splotchcl_error* error, int code, const char* message) {
   if (error == nullptr) return code;
   error->code = code;
   std::snprintf(error->message, sizeof error->message, "%s", message);
+  std::replace(std::begin(error->message), std::end(error->message), '\n', ' ');
   return code;
 }
 
@@ -47,9 +53,11 @@ int guarded(splotchcl_error* error, Work&& work) noexcept {
   } catch (const splotchcl::UsageError& failure) {
     return report(error, called_wrong, failure.what());
   } catch (const std::bad_alloc&) {
-    return report(error, failed, "out of memory");
+    return report(error, failed, "out of memory; fewer particles or a smaller picture need less");
   } catch (const std::exception& failure) {
     return report(error, failed, failure.what());
+  } catch (...) {
+    return report(error, failed, "an unknown failure; please report it");
   }
 }
 
@@ -71,6 +79,33 @@ const splotchcl::ArraySnapshot& arrays_now(const splotchcl_particles* particles)
   const splotchcl::ArraySnapshot& arrays = require(particles, "the particles")->arrays;
   arrays.changed();
   return arrays;
+}
+
+std::vector<splotchcl::PictureSize> sizes_of(const splotchcl_scene* scene) {
+  const splotchcl::ImageSettings& image = require(scene, "the scene")->scene.image;
+  return splotchcl::picture_sizes(scene->scene, image.width, image.height);
+}
+
+// Memory of the caller's for every picture.
+void check_images(const std::vector<splotchcl::PictureSize>& sizes, float* const* images,
+                  const std::size_t* capacities, std::size_t count) {
+  if (count != sizes.size()) {
+    throw splotchcl::UsageError("memory for " + std::to_string(count) +
+                                " images, but the scene has " + std::to_string(sizes.size()) +
+                                " pictures; see splotchcl_scene_picture_count");
+  }
+  require(images, "the array of images");
+  require(capacities, "the array of capacities");
+  for (std::size_t i = 0; i < count; ++i) {
+    require(images[i], "an image");
+    const std::size_t needed =
+        4 * static_cast<std::size_t>(sizes[i].width) * static_cast<std::size_t>(sizes[i].height);
+    if (capacities[i] >= needed) continue;
+    throw splotchcl::UsageError(
+        "image " + std::to_string(i) + " has room for " + std::to_string(capacities[i]) +
+        " floats, expected " + std::to_string(needed) + " for " + std::to_string(sizes[i].width) +
+        "x" + std::to_string(sizes[i].height) + " pixels; see splotchcl_scene_picture_size");
+  }
 }
 
 // A scene whose particles are the caller's needs no file of them.
@@ -104,22 +139,23 @@ int splotchcl_scene_set(splotchcl_scene* scene, const char* key_and_value, splot
 }
 
 size_t splotchcl_scene_picture_count(const splotchcl_scene* scene) {
-  if (scene == nullptr) return 0;
-  const splotchcl::ImageSettings& image = scene->scene.image;
-  return splotchcl::picture_sizes(scene->scene, image.width, image.height).size();
+  std::size_t count = 0;
+  guarded(nullptr, [&] { count = sizes_of(scene).size(); });
+  return count;
 }
 
 int splotchcl_scene_picture_size(const splotchcl_scene* scene, size_t picture, int* width,
                                  int* height, splotchcl_error* error) {
   return guarded(error, [&] {
-    const splotchcl::ImageSettings& image = require(scene, "the scene")->scene.image;
-    const auto sizes = splotchcl::picture_sizes(scene->scene, image.width, image.height);
+    const auto sizes = sizes_of(scene);
+    require(width, "the width");
+    require(height, "the height");
     if (picture >= sizes.size()) {
       throw splotchcl::UsageError("picture " + std::to_string(picture) + " of a scene that has " +
                                   std::to_string(sizes.size()) + ", counted from 0");
     }
-    *require(width, "the width") = sizes[picture].width;
-    *require(height, "the height") = sizes[picture].height;
+    *width = sizes[picture].width;
+    *height = sizes[picture].height;
   });
 }
 
@@ -165,12 +201,13 @@ int splotchcl_particles_set_mass(splotchcl_particles* particles, int type, doubl
   return guarded(error, [&] { require(particles, "the particles")->arrays.set_mass(type, mass); });
 }
 
-void splotchcl_particles_clear(splotchcl_particles* particles, int type) {
-  if (particles != nullptr) particles->arrays.clear(type);
+int splotchcl_particles_clear(splotchcl_particles* particles, int type, splotchcl_error* error) {
+  return guarded(error, [&] { require(particles, "the particles")->arrays.clear(type); });
 }
 
-void splotchcl_particles_set_box_size(splotchcl_particles* particles, double size) {
-  if (particles != nullptr) particles->arrays.set_box_size(size);
+int splotchcl_particles_set_box_size(splotchcl_particles* particles, double size,
+                                     splotchcl_error* error) {
+  return guarded(error, [&] { require(particles, "the particles")->arrays.set_box_size(size); });
 }
 
 void splotchcl_particles_free(splotchcl_particles* particles) {
@@ -195,23 +232,16 @@ void splotchcl_renderer_free(splotchcl_renderer* renderer) {
 }
 
 int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
-                   const splotchcl_particles* particles, float* const* images, size_t count,
-                   splotchcl_error* error) {
+                   const splotchcl_particles* particles, float* const* images,
+                   const size_t* capacities, size_t count, splotchcl_error* error) {
   return guarded(error, [&] {
-    const std::size_t expected = splotchcl_scene_picture_count(require(scene, "the scene"));
-    if (count != expected) {
-      throw splotchcl::UsageError("memory for " + std::to_string(count) +
-                                  " images, but the scene has " + std::to_string(expected) +
-                                  " pictures; see splotchcl_scene_picture_count");
-    }
-    require(images, "the array of images");
-    for (std::size_t i = 0; i < count; ++i)
-      require(images[i], "an image");
+    check_images(sizes_of(scene), images, capacities, count);
     const splotchcl::DrawnFrame drawn =
         require(renderer, "the renderer")->drawer.draw(scene->scene, arrays_now(particles));
-    renderer->notes.clear();
+    std::string notes;
     for (const std::string& note : drawn.all_notes())
-      renderer->notes += note + "\n";
+      notes += note + "\n";
+    renderer->notes = std::move(notes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::vector<float>& pixels = drawn.pictures.at(i).image.pixels;
       std::copy(pixels.begin(), pixels.end(), images[i]);
@@ -224,9 +254,15 @@ int splotchcl_write_image(const char* path, const float* rgba, int width, int he
   return guarded(error, [&] {
     require(path, "the path");
     require(rgba, "the image");
-    if (width < 1 || height < 1) {
+    constexpr int longest_side = 65536;
+    if (width < 1 || height < 1 || width > longest_side || height > longest_side) {
       throw splotchcl::UsageError("an image of " + std::to_string(width) + "x" +
-                                  std::to_string(height) + " pixels, expected at least 1x1");
+                                  std::to_string(height) + " pixels, expected sides from 1 to " +
+                                  std::to_string(longest_side));
+    }
+    if (!std::isfinite(gamma) || !(gamma > 0)) {
+      throw splotchcl::UsageError("a gamma of " + std::to_string(gamma) +
+                                  ", expected a finite number > 0");
     }
     splotchcl::check_image_path(path);
     splotchcl::Image image(width, height);

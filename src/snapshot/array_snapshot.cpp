@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
@@ -11,13 +14,17 @@
 namespace splotchcl {
 namespace {
 
-void check(int type, const std::string& field, int values_per_particle, const void* values,
-           std::uint64_t count) {
+void check_type(int type, const std::string& what) {
   constexpr int most_types = 32;
-  if (type < 0 || type >= most_types) {
-    throw UsageError(
-        fmt::format("field {}: particle type {}, expected 0 to {}", field, type, most_types - 1));
-  }
+  if (type >= 0 && type < most_types) return;
+  throw UsageError(
+      fmt::format("{}: particle type {}, expected 0 to {}", what, type, most_types - 1));
+}
+
+template <typename Value>
+void check(int type, const std::string& field, int values_per_particle, const Value* values,
+           std::uint64_t count) {
+  check_type(type, fmt::format("field {}", field));
   if (field.empty()) throw UsageError(fmt::format("type {}: a field without a name", type));
   if (values_per_particle != 1 && values_per_particle != 3) {
     throw UsageError(fmt::format("field {} of type {}: {} values per particle, expected 1 or 3",
@@ -31,6 +38,27 @@ void check(int type, const std::string& field, int values_per_particle, const vo
     throw UsageError(
         fmt::format("field {} of type {}: a null pointer for {} particles", field, type, count));
   }
+  if (reinterpret_cast<std::uintptr_t>(values) % alignof(Value) != 0) {
+    throw UsageError(fmt::format(
+        "field {} of type {}: the values do not lie at a multiple of {} bytes, expected an array "
+        "of {} as the compiler lays it out",
+        field, type, alignof(Value), sizeof(Value) == sizeof(float) ? "floats" : "doubles"));
+  }
+  // No array is longer than what a difference of two pointers can say.
+  constexpr std::uint64_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Value);
+  if (count > most / static_cast<std::uint64_t>(values_per_particle)) {
+    throw UsageError(fmt::format(
+        "field {} of type {}: {} particles of {} values do not fit into memory, expected up to {}",
+        field, type, count, values_per_particle,
+        most / static_cast<std::uint64_t>(values_per_particle)));
+  }
+}
+
+// What a type is where none of its fields has been set.
+ParticleTypeInfo empty_type(int type) {
+  ParticleTypeInfo info;
+  info.type = type;
+  return info;
 }
 
 }  // namespace
@@ -40,18 +68,22 @@ ArraySnapshot::ArraySnapshot(const std::string& name_for_messages) {
   info_.files = {name_for_messages};
 }
 
-ParticleTypeInfo& ArraySnapshot::type_info(int type) {
+// In the order of types.
+void ArraySnapshot::replace(ParticleTypeInfo info) {
   const auto place = std::find_if(info_.types.begin(), info_.types.end(),
-                                  [type](const ParticleTypeInfo& t) { return t.type >= type; });
-  if (place != info_.types.end() && place->type == type) return *place;
-  ParticleTypeInfo added;
-  added.type = type;
-  return *info_.types.insert(place, added);
+                                  [&](const ParticleTypeInfo& t) { return t.type >= info.type; });
+  if (place != info_.types.end() && place->type == info.type) {
+    *place = std::move(info);
+  } else {
+    info_.types.insert(place, std::move(info));
+  }
 }
 
+// Where it throws, all is as it was.
 void ArraySnapshot::add_field(int type, const std::string& field, std::uint64_t count,
                               int values_per_particle, const Column& column) {
-  ParticleTypeInfo& info = type_info(type);
+  const ParticleTypeInfo* const known = info_.find_type(type);
+  ParticleTypeInfo info = known == nullptr ? empty_type(type) : *known;
   const bool is_alone =
       info.fields.empty() || (info.fields.size() == 1 && info.fields.front().file_name == field);
   if (!is_alone && count != info.count) {
@@ -68,6 +100,7 @@ void ArraySnapshot::add_field(int type, const std::string& field, std::uint64_t 
   name_fields(info);
   changed();
   columns_[{type, field}] = column;
+  replace(std::move(info));
 }
 
 void ArraySnapshot::set_field(int type, const std::string& field, const float* values,
@@ -91,8 +124,15 @@ void ArraySnapshot::set_field(int type, const std::string& field, const double* 
 }
 
 void ArraySnapshot::set_mass(int type, double mass) {
-  type_info(type).table_mass = mass;
+  check_type(type, "a mass");
+  if (!std::isfinite(mass) || mass < 0) {
+    throw UsageError(fmt::format("the mass of type {}: {}, expected a number >= 0", type, mass));
+  }
+  const ParticleTypeInfo* const known = info_.find_type(type);
+  ParticleTypeInfo info = known == nullptr ? empty_type(type) : *known;
+  info.table_mass = mass;
   changed();
+  replace(std::move(info));
 }
 
 void ArraySnapshot::changed() const {
@@ -102,6 +142,7 @@ void ArraySnapshot::changed() const {
 }
 
 void ArraySnapshot::clear(int type) {
+  check_type(type, "to be cleared");
   changed();
   info_.types.erase(std::remove_if(info_.types.begin(), info_.types.end(),
                                    [type](const ParticleTypeInfo& t) { return t.type == type; }),
@@ -111,7 +152,12 @@ void ArraySnapshot::clear(int type) {
 }
 
 void ArraySnapshot::set_box_size(double size) {
-  info_.box_size = size;
+  if (!std::isfinite(size) || size < 0) {
+    throw UsageError(
+        fmt::format("the box size: {}, expected the side of a periodic box, or 0 for none", size));
+  }
+  changed();
+  info_.box_size = size > 0 ? std::optional(size) : std::nullopt;
 }
 
 void ArraySnapshot::set_time(double time) {

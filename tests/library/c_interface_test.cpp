@@ -56,7 +56,16 @@ class CInterface : public ::testing::Test {
   }
   int draw() {
     float* const images[] = {image_.data()};
-    return splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), images, 1, &error_);
+    const std::size_t capacities[] = {image_.size()};
+    return splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), images, capacities, 1,
+                          &error_);
+  }
+  // Refused as a wrong call, with one line.
+  void expect_refused(int code, const std::string& why) const {
+    EXPECT_EQ(code, 2) << why;
+    EXPECT_EQ(error_.code, 2) << why;
+    EXPECT_THAT(error_.message, HasSubstr(why));
+    EXPECT_EQ(std::strchr(error_.message, '\n'), nullptr);
   }
 
   std::vector<float> position_ = {0, 0, 0, 1, 0.5F, 0.3F};
@@ -126,16 +135,98 @@ TEST_F(CInterface, ErrorsAreCodesAndOneLine) {
 
 TEST_F(CInterface, ImagesThatDoNotFitTheSceneAreRefused) {
   float* const images[] = {image_.data(), image_.data()};
-  EXPECT_EQ(splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), images, 2, &error_), 2);
-  EXPECT_THAT(error_.message, HasSubstr("2 images"));
+  const std::size_t capacities[] = {image_.size(), image_.size()};
+  expect_refused(splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), images, capacities,
+                                2, &error_),
+                 "2 images");
   float* const nothing[] = {nullptr};
-  EXPECT_EQ(splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), nothing, 1, &error_),
-            2);
+  expect_refused(splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), nothing,
+                                capacities, 1, &error_),
+                 "null pointer");
   EXPECT_EQ(image_[0], -1.0F);
 }
 
+TEST_F(CInterface, MemoryTooSmallForAPictureIsRefused) {
+  image_.resize(image_.size() - 1);
+  expect_refused(draw(), "room for 3071 floats, expected 3072");
+  EXPECT_EQ(image_[0], -1.0F);
+  float* const images[] = {image_.data()};
+  expect_refused(
+      splotchcl_draw(renderer_.get(), scene_.get(), particles_.get(), images, nullptr, 1, &error_),
+      "capacities");
+}
+
+TEST_F(CInterface, CountsThatOverflowAreRefused) {
+  const std::vector<double> doubles(6);
+  const std::uint64_t too_many[] = {UINT64_MAX, UINT64_MAX / 3 + 1, UINT64_MAX / 12 + 1,
+                                    std::uint64_t{1} << 62};
+  for (const std::uint64_t count : too_many) {
+    splotchcl_particles* const p = particles_.get();
+    expect_refused(
+        splotchcl_particles_set_floats(p, 2, "position", position_.data(), count, 3, &error_),
+        "do not fit into memory");
+    expect_refused(
+        splotchcl_particles_set_doubles(p, 2, "position", doubles.data(), count, 3, &error_),
+        "do not fit into memory");
+  }
+  EXPECT_EQ(draw(), 0) << error_.message;
+}
+
+TEST_F(CInterface, TypesThatAreNoneAreRefused) {
+  splotchcl_particles* const p = particles_.get();
+  for (const int type : {-1, 32, 1 << 30}) {
+    expect_refused(splotchcl_particles_set_floats(p, type, "mass", position_.data(), 2, 1, &error_),
+                   "type");
+    expect_refused(splotchcl_particles_set_mass(p, type, 1, &error_), "type");
+    expect_refused(splotchcl_particles_clear(p, type, &error_), "type");
+  }
+}
+
+TEST_F(CInterface, ArraysThatAreNotAlignedAreRefused) {
+  const auto* const bytes = reinterpret_cast<const char*>(position_.data());
+  expect_refused(
+      splotchcl_particles_set_floats(particles_.get(), 1, "mass",
+                                     reinterpret_cast<const float*>(bytes + 1), 2, 1, &error_),
+      "multiple of 4 bytes");
+}
+
+TEST_F(CInterface, NumbersThatAreNoneAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, infinity, -infinity, -1.0}) {
+    expect_refused(splotchcl_particles_set_mass(particles_.get(), 1, wrong, &error_), "mass");
+    expect_refused(splotchcl_particles_set_box_size(particles_.get(), wrong, &error_), "box");
+    expect_refused(splotchcl_write_image("never.png", image_.data(), 8, 8, wrong, &error_),
+                   "gamma");
+  }
+  expect_refused(splotchcl_write_image("never.png", image_.data(), 8, 8, 0, &error_), "gamma");
+  expect_refused(splotchcl_write_image("never.png", image_.data(), 1 << 30, 1 << 30, 1, &error_),
+                 "65536");
+  EXPECT_EQ(splotchcl_particles_set_box_size(particles_.get(), 0, &error_), 0);
+}
+
+TEST(CInterfaceNull, IsAWrongCallForEveryFunction) {
+  splotchcl_error error;
+  int width = 0;
+  EXPECT_EQ(splotchcl_scene_from_text(nullptr, &error), nullptr);
+  EXPECT_EQ(error.code, 2);
+  EXPECT_EQ(splotchcl_scene_from_file(nullptr, &error), nullptr);
+  EXPECT_EQ(error.code, 2);
+  EXPECT_EQ(splotchcl_scene_set(nullptr, nullptr, nullptr), 2);
+  EXPECT_EQ(splotchcl_scene_picture_count(nullptr), 0U);
+  EXPECT_EQ(splotchcl_scene_picture_size(nullptr, 0, &width, nullptr, nullptr), 2);
+  EXPECT_EQ(splotchcl_scene_decide(nullptr, nullptr, nullptr), 2);
+  EXPECT_EQ(splotchcl_particles_set_floats(nullptr, 0, nullptr, nullptr, 0, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_particles_set_doubles(nullptr, 0, nullptr, nullptr, 0, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_particles_set_mass(nullptr, 0, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_particles_clear(nullptr, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_particles_set_box_size(nullptr, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_draw(nullptr, nullptr, nullptr, nullptr, nullptr, 0, nullptr), 2);
+  EXPECT_EQ(splotchcl_write_image(nullptr, nullptr, 0, 0, 0, nullptr), 2);
+}
+
 TEST_F(CInterface, ATypeWithoutParticlesIsNamed) {
-  splotchcl_particles_clear(particles_.get(), 1);
+  splotchcl_particles_clear(particles_.get(), 1, &error_);
   EXPECT_NE(draw(), 0);
   EXPECT_THAT(error_.message, HasSubstr("no particles of type 1"));
 }

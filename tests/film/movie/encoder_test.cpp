@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "splotchcl/error.h"
 #include "temporary_folder.h"
@@ -57,10 +58,15 @@ TEST_F(FakeEncoder, ThatNeverEndsIsEndedWithWhatItStarted) {
   make_ffmpeg("sleep 1000 & echo $! > \"$(dirname \"$0\")/child\"; cat > /dev/null; wait");
   EXPECT_THAT(failure(), HasSubstr("wrote nothing"));
   const std::string child = testing::read_text(folder_ / "bin" / "child");
-  // It may still wait for somebody to take note of its end.
-  const std::string status =
-      testing::read_text("/proc/" + child.substr(0, child.find('\n')) + "/status");
-  EXPECT_TRUE(status.empty() || status.find("State:\tZ") != std::string::npos) << status;
+  const std::string status = "/proc/" + child.substr(0, child.find('\n')) + "/status";
+  // Its end may take a moment, and then wait for somebody to take note of it.
+  const auto has_ended = [&status] {
+    const std::string text = testing::read_text(status);
+    return text.empty() || text.find("State:\tZ") != std::string::npos;
+  };
+  for (int i = 0; i < 500 && !has_ended(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_TRUE(has_ended());
   EXPECT_TRUE(left_nothing());
 }
 
