@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/palette_preview.h"
+#include "common/output_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/palette_file.h"
@@ -75,6 +76,14 @@ void print_json(const std::vector<ListedPalette>& palettes) {
   std::cout << list.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
 }
 
+std::set<std::filesystem::path> files_read(const PalettesOptions& options) {
+  std::set<std::filesystem::path> files(options.names.begin(), options.names.end());
+  for (const PaletteInfo& info : list_palettes()) {
+    if (!info.file.empty()) files.insert(info.file);
+  }
+  return files;
+}
+
 void write_preview(const std::filesystem::path& path, const std::vector<ListedPalette>& listed) {
   std::vector<Palette> palettes;
   for (const ListedPalette& one : listed) {
@@ -87,7 +96,10 @@ void write_preview(const std::filesystem::path& path, const std::vector<ListedPa
 }  // namespace
 
 int run_palettes(const PalettesOptions& options, Console& console) {
-  if (options.preview) check_image_path(*options.preview);
+  if (options.preview) {
+    check_image_path(*options.preview);
+    check_outputs({{*options.preview, "--preview"}}, [&] { return files_read(options); });
+  }
   const std::vector<ListedPalette> palettes = choose(options.names, console);
   if (options.preview) write_preview(*options.preview, palettes);
   if (options.json) {

@@ -31,10 +31,7 @@ class FileDescriptor {
   int value_;
 };
 
-}  // namespace
-
-std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& path) {
-  const FileDescriptor file(path);
+struct stat status_of(const FileDescriptor& file, const std::filesystem::path& path) {
   if (file.value() < 0) {
     throw DataError(fmt::format("{}: cannot be opened: {}; check the path and its permissions",
                                 path.string(), std::strerror(errno)));
@@ -47,6 +44,18 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
   if (!S_ISREG(status.st_mode)) {
     throw DataError(fmt::format("{}: not a regular file; give the path of a file", path.string()));
   }
+  return status;
+}
+
+}  // namespace
+
+void require_regular_file(const std::filesystem::path& path) {
+  (void)status_of(FileDescriptor(path), path);
+}
+
+std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& path) {
+  const FileDescriptor file(path);
+  const struct stat status = status_of(file, path);
   const auto size = static_cast<std::uint64_t>(status.st_size);
   std::shared_ptr<MappedFile> mapped(new MappedFile(path, size));
   mapped->device_ = status.st_dev;

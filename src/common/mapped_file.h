@@ -10,6 +10,10 @@
 
 namespace splotchcl {
 
+// Throws DataError when the file is missing, or is a FIFO, a device or a folder: libraries that
+// open files by their names would wait for one, or never come to its end.
+void require_regular_file(const std::filesystem::path& path);
+
 // A file's bytes as read-only memory. Always held by shared_ptr, so that a Column may
 // point straight into the file and keep it mapped for as long as it lives.
 class MappedFile {

@@ -160,6 +160,15 @@ TextMask Font::draw(const std::string& text, double size_pixels, TextAlignment a
   mask.box_height = static_cast<int>(std::ceil(box_height));
   mask.width = mask.box_width + 2 * margin;
   mask.height = mask.box_height + 2 * margin;
+  constexpr double most_pixels = 1 << 25;
+  if (static_cast<double>(mask.width) * mask.height > most_pixels) {
+    throw UsageError(
+        fmt::format("the text \"{}...\" takes {}x{} pixels, expected at most {:.0f} in all; make "
+                    "it shorter, or "
+                    "its letters smaller",
+                    text.substr(0, text.find_first_of(" \n")).substr(0, 20), mask.width,
+                    mask.height, most_pixels));
+  }
   mask.coverage.resize(static_cast<std::size_t>(mask.width) *
                        static_cast<std::size_t>(mask.height));
   for (std::size_t i = 0; i < lines.size(); ++i) {

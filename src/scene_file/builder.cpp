@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/nearest_name.h"
+#include "scene_file/key_depth.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 
@@ -85,6 +86,11 @@ SceneBuilder::SceneBuilder(Scene scene, const std::string& name_for_messages)
 void SceneBuilder::read_text(const std::string& text) {
   is_reading_file_ = true;
   assigned_.clear();
+  if (const int line = find_deep_key(text); line > 0) {
+    throw UsageError(fmt::format(
+        "{}:{}: found a key of very many parts (a.b.c...), expected one of a scene file's keys",
+        origins_.name, line));
+  }
   toml::table root;
   try {
     root = toml::parse(text);
@@ -178,6 +184,11 @@ void SceneBuilder::assign_components(const Value& value) {
     refuse(value.where, "component", describe(value.node),
            is_reading_file_ ? "a table for each component: write [[component]] above its keys"
                             : "the component's number or name too, such as component.0.palette");
+  }
+  constexpr std::size_t most = 1000;
+  if (components->size() > most) {
+    refuse(where_in_file((*components)[most].source()), "component",
+           fmt::format("{} components", components->size()), fmt::format("at most {}", most));
   }
   for (const toml::node& node : *components) {
     const std::size_t i = scene_.components.size();

@@ -17,15 +17,22 @@ Key finish_key(const std::string& path, const ValueType<V>& type, Member member,
 
 // Text that is empty where there is none.
 template <class Member>
-Key text_key(const std::string& path, Member member, const Text& text_of_key) {
+Key text_key(const std::string& path, const ValueType<std::string>& type, Member member,
+             const Text& text_of_key) {
   return key<FinishSettings, std::string>(
-      "finish." + path, text(),
+      "finish." + path, type,
       [member](const FinishSettings& finish) {
         const std::string& value = member(finish);
         return value.empty() ? std::nullopt : std::optional(value);
       },
       [member](FinishSettings& finish, const std::string& value) { member(finish) = value; },
       text_of_key);
+}
+
+// Each letter is drawn.
+ValueType<std::string> shown_words() {
+  constexpr std::size_t most_bytes = 2000, most_lines = 50;
+  return words(most_bytes, most_lines);
 }
 
 ValueType<Anchor> anchor() {
@@ -72,7 +79,7 @@ template <class Member>
 Keys text_keys(const std::string& name, Member member, const std::string& what,
                const std::string& size) {
   return {
-      text_key(name + ".text", [member](auto& f) -> auto& { return member(f).text; },
+      text_key(name + ".text", shown_words(), [member](auto& f) -> auto& { return member(f).text; },
                {what + " Placeholders such as `{redshift:.2f}` take values of the snapshot.", "",
                 "none"}),
       finish_key(
@@ -86,7 +93,7 @@ Keys text_keys(const std::string& name, Member member, const std::string& what,
 
 Keys all_text_keys() {
   Keys keys = {
-      text_key("font", [](auto& f) -> auto& { return f.font; },
+      text_key("font", text(), [](auto& f) -> auto& { return f.font; },
                {"The font of all text: a name such as DejaVuSans-Bold, or a font file (.ttf, "
                 ".otf). A relative path starts at the scene file's folder."}),
       finish_key("text_size", text_height(), [](auto& f) -> auto& { return f.text_size; },
@@ -134,7 +141,7 @@ Keys bar_keys() {
       finish_key("scale_bar.length", number(more_than(0)),
                  [](auto& f) -> auto& { return f.scale_bar.length; },
                  {"The length that is drawn.", "length", "a round one, a fifth of the picture"}),
-      text_key("scale_bar.unit", [](auto& f) -> auto& { return f.scale_bar.unit; },
+      text_key("scale_bar.unit", shown_words(), [](auto& f) -> auto& { return f.scale_bar.unit; },
                {"What is written after the number.", "", "the unit of the snapshot's positions"}),
   };
 }
@@ -173,7 +180,7 @@ Keys inset_keys() {
 
 Keys fade_keys() {
   return {
-      text_key("cross_fade.scene", [](auto& f) -> auto& { return f.cross_fade.scene; },
+      text_key("cross_fade.scene", text(), [](auto& f) -> auto& { return f.cross_fade.scene; },
                {"A scene file whose picture is mixed into this one. It is drawn in this scene's "
                 "size, and with this scene's camera where it has none. A relative path starts at "
                 "the scene file's folder.",

@@ -9,6 +9,7 @@
 #include "common/nearest_name.h"
 #include "common/words.h"
 #include "scene_file/check.h"
+#include "scene_file/key_depth.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 
@@ -80,6 +81,7 @@ Setting split_setting(const std::string& setting) {
 }
 
 toml::table parse_value(const std::string& text) {
+  if (find_deep_key(text) > 0) return toml::table{{"value", text}};
   try {
     toml::table table = toml::parse("value = " + text);
     if (table.size() == 1 && table.contains("value")) return table;

@@ -188,6 +188,18 @@ ValueType<std::string> text() {
   return {"a string that is not empty", read, write_text};
 }
 
+ValueType<std::string> words(std::size_t most_bytes, std::size_t most_lines) {
+  const auto read = [=](const toml::node& node) -> std::optional<std::string> {
+    const std::optional<std::string> value = node.value_exact<std::string>();
+    if (!value || value->empty() || value->size() > most_bytes) return std::nullopt;
+    const auto breaks = std::count(value->begin(), value->end(), '\n');
+    return static_cast<std::size_t>(breaks) < most_lines ? value : std::nullopt;
+  };
+  return {fmt::format("a string that is not empty, of at most {} bytes and {} lines", most_bytes,
+                      most_lines),
+          read, write_text};
+}
+
 ValueType<std::array<double, 3>> three_numbers(const Range& range, const std::string& order) {
   return {fmt::format("{}, each {}", order, range.description()),
           [range](const toml::node& node) { return read_three_numbers(node, range); },

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
-#include <fstream>
 #include <string>
+#include <string_view>
 
+#include "common/mapped_file.h"
 #include "common/words.h"
 #include "splotchcl/error.h"
 
@@ -30,20 +31,15 @@ std::uint64_t parse_id(const std::string& text, const std::filesystem::path& pat
 }  // namespace
 
 std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream file(path);
-  if (!file || !std::filesystem::is_regular_file(path, ignored)) {
-    throw DataError(fmt::format(
-        "{}: cannot be read, expected a text file of identifiers, one on a line; check the path",
-        path.string()));
-  }
+  const auto file = MappedFile::open(path);
+  std::string_view rest(reinterpret_cast<const char*>(file->data()), file->size());
   std::vector<std::uint64_t> ids;
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    const std::string text = trimmed(line.substr(0, line.find('#')));
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::string text = trimmed(std::string(line.substr(0, line.find('#'))));
     if (!text.empty()) ids.push_back(parse_id(text, path, number));
   }
-  if (file.bad()) throw DataError(path.string() + ": reading failed; check the file");
   if (ids.empty()) {
     throw DataError(path.string() + ": found no identifier, expected one on each line");
   }

@@ -94,6 +94,11 @@ TEST_F(KeptInputs, AreTheUsersOwnPalettes) {
   EXPECT_EQ(read_text(folder_ / "palettes/mine.txt"), read_text(folder_ / "own.txt"));
 }
 
+TEST_F(KeptInputs, OfPalettesAreTheFilesThatAreShown) {
+  run("cp own.txt own.png");
+  expect_refused("palettes ./own.png --preview own.png", "--preview");
+}
+
 TEST_F(KeptInputs, OfAFilmAreKeptByItsFramesAndItsFolder) {
   run("cp sky.png frame_1.png");
   expect_refused(

@@ -57,6 +57,15 @@ TEST(Placeholders, WithAFormatThatDoesNotFitAreRefused) {
   EXPECT_THAT(refusal("{time", snapshot()), HasSubstr("finish.title.text"));
 }
 
+// Each of them once asked for as many letters as it says.
+TEST(Placeholders, ThatAskForVeryManyLettersAreRefused) {
+  for (const std::string text : {"{time:.999999999f}", "{time:999999999}", "{time:{frame}}",
+                                 "{{{time:.1000f}}}", "{snapshot:5000}"}) {
+    EXPECT_THAT(refusal(text, snapshot()), HasSubstr("at most 99")) << text;
+  }
+  EXPECT_EQ(replaced("{{1000000}} {time:8.3f}"), "{1000000}    0.250");
+}
+
 TEST(Placeholders, WithoutAValueAreRefused) {
   SnapshotInfo without = snapshot();
   without.redshift.reset();

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -10,6 +11,8 @@
 
 namespace splotchcl {
 namespace {
+
+using ::testing::HasSubstr;
 
 // Whatever the text, it is a scene or it is refused in one line; any other exception,
 // and any crash, fails the test.
@@ -35,6 +38,59 @@ class DamagedSceneFiles : public ::testing::Test {
   }
   std::mt19937 random_{1};
 };
+
+std::string deep_key(std::size_t parts) {
+  std::string key = "a";
+  for (std::size_t i = 1; i < parts; ++i)
+    key += ".a";
+  return key;
+}
+
+// A table inside a table for each part: all of them once ran out of stack.
+TEST(DeepKeys, AreRefusedWhateverTheirDepth) {
+  for (const std::size_t parts : {20U, 1000U, 200000U}) {
+    const std::string key = deep_key(parts);
+    for (const std::string& text :
+         {key + " = 1", "[" + key + "]", "[[" + key + "]]", "camera = { " + key + " = 1 }",
+          "title = '''\n'''\n'a' . \"b\\\"\" ." + key + " = 1"}) {
+      EXPECT_THROW(parse_scene(text, "scene.toml"), UsageError) << parts;
+      expect_scene_or_message(text);
+    }
+    EXPECT_THROW(apply_settings(Scene(), {"image.size={" + key + "=1}"}), UsageError);
+    EXPECT_THROW(apply_settings(Scene(), {key + "=1"}), UsageError);
+  }
+}
+
+TEST(DeepKeys, AreNotDotsInTextsRemarksAndNumbers) {
+  const std::string dots(100, '.');
+  const Scene scene =
+      parse_scene("# " + dots + "\nsnapshot = 'x'\n[finish.title]\ntext = \"" + dots +
+                      "\"\n[path.fly]\nthrough = [[1.5, 2.5, 3.5], [1.5, 2.5, 3.5], "
+                      "[1.5, 2.5, 3.5], [1.5, 2.5, 3.5], [1.5, 2.5, 3.5]]\n",
+                  "scene.toml");
+  EXPECT_EQ(scene.finish.title.text, dots);
+}
+
+TEST(LongScenes, HaveLimitsOnTextsAndComponents) {
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      parse_scene(text, "scene.toml");
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string title = "snapshot = 'x'\n[finish.title]\ntext = \"";
+  EXPECT_THAT(message(title + std::string(2000000, 'm') + "\"\n"), HasSubstr("at most 2000 bytes"));
+  std::string lines;
+  for (int i = 0; i < 60; ++i)
+    lines += "m\\n";
+  EXPECT_THAT(message(title + lines + "\"\n"), HasSubstr("50 lines"));
+  std::string components = "snapshot = 'x'\n";
+  for (int i = 0; i < 5000; ++i)
+    components += "[[component]]\n";
+  EXPECT_THAT(message(components), HasSubstr("at most 1000"));
+}
 
 TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenTruncated) {
   test::RandomScenes scenes(3);

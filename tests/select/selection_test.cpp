@@ -240,7 +240,7 @@ TEST_F(SelectionByIds, RefusesAnEmptyListAndAMissingOne) {
   EXPECT_THAT(refusal(listing("# none\n"), gas_row()), HasSubstr("found no identifier"));
   Component component = gas();
   component.select.id_file = (folder_ / "lost.txt").string();
-  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("lost.txt: cannot be read"));
+  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("lost.txt: cannot be opened"));
 }
 
 TEST(Conditions, AreRefusedWhereTheyAreNone) {

@@ -19,6 +19,7 @@ namespace {
 struct Member {
   std::filesystem::path path;
   GadgetHeader own_header;
+  Hdf5Links links;
   std::map<int, std::vector<Hdf5Field>> fields;  // of the types with particles
 
   const GadgetHeader& header() const { return own_header; }
@@ -44,6 +45,13 @@ Member read_member(const std::filesystem::path& path, std::vector<std::string>& 
     if (member.header().counts[type] == 0) continue;
     const auto number = static_cast<int>(type);
     member.fields[number] = find_hdf5_fields(file, member.header(), number, notes);
+  }
+  member.links = file.links();
+  for (const std::string& other : member.links.refused) {
+    notes.push_back(
+        fmt::format("what lies in {} is left out: links are followed to files in the snapshot's "
+                    "own folder only",
+                    other));
   }
   return member;
 }
@@ -73,6 +81,10 @@ class GadgetHdf5Snapshot : public Snapshot {
 
 GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
   members_ = read_members(path, read_member, info_);
+  for (const Member& member : members_) {
+    info_.files_beside.insert(info_.files_beside.end(), member.links.followed.begin(),
+                              member.links.followed.end());
+  }
   read_dialect();
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);

@@ -26,27 +26,6 @@ std::optional<std::uint64_t> bytes_of(const Hdf5Dataset& dataset) {
   return bytes;
 }
 
-// Where HDF5 looks for a file that a virtual dataset names; a place that does not exist
-// where it finds none.
-std::filesystem::path find_source(const std::filesystem::path& virtual_file,
-                                  const std::filesystem::path& name) {
-  const std::filesystem::path folder = virtual_file.parent_path();
-  std::error_code ignored;
-  for (const auto& place : {folder / name, folder / name.filename(), name}) {
-    if (std::filesystem::exists(place, ignored)) return place;
-  }
-  return folder / name;
-}
-
-// A name of a source, by either of HDF5's functions for them.
-template <typename Get>
-std::string source_name(Get&& get, hid_t properties, std::size_t source) {
-  const ssize_t length = get(properties, source, nullptr, 0);
-  std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
-  get(properties, source, name.data(), name.size() + 1);
-  return name;
-}
-
 struct Filter {
   H5Z_filter_t id;
   std::string name;
@@ -119,7 +98,7 @@ void Hdf5File::check_source(const std::string& dataset, const std::filesystem::p
                             const std::string& source, int depth) const {
   constexpr int deepest = 8;
   const bool is_self = file == "." || file == path_.filename();
-  const std::filesystem::path place = is_self ? path_ : find_source(path_, file);
+  const std::filesystem::path place = is_self ? path_ : find_virtual_source(path_, file);
   std::error_code ignored;
   if (depth < deepest && std::filesystem::exists(place, ignored)) {
     const Hdf5File parts(place);
@@ -140,7 +119,7 @@ bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t properties, int d
   std::uint64_t mapped = 0;
   bool is_open = false;  // as long as its sources are
   for (std::size_t i = 0; i < sources; ++i) {
-    const std::string file = source_name(H5Pget_virtual_filename, properties, i);
+    const std::string file = virtual_source_name(H5Pget_virtual_filename, properties, i);
     const Space part(H5Pget_virtual_vspace(properties, i));
     const hssize_t values = H5Sget_select_npoints(part.id());
     if (values == static_cast<hssize_t>(H5S_UNLIMITED) || values < 0) is_open = true;
@@ -150,7 +129,8 @@ bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t properties, int d
       is_open = true;
       continue;
     }
-    check_source(dataset.path, file, source_name(H5Pget_virtual_dsetname, properties, i), depth);
+    check_source(dataset.path, file, virtual_source_name(H5Pget_virtual_dsetname, properties, i),
+                 depth);
   }
   return is_open || (bytes && *bytes <= mapped);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "common/mapped_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -74,8 +75,10 @@ bool Hdf5File::has_signature(const std::byte* data, std::uint64_t size) {
   return false;
 }
 
-Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
+Hdf5File::Hdf5File(const std::filesystem::path& path)
+    : path_(path), links_(std::make_unique<Hdf5Links>()), rules_(*links_) {
   const Hdf5Silence silence;
+  require_regular_file(path);
   const PropertyList properties = access_properties();
   file_ = Hdf5Handle<H5Fclose>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.id()));
   if (!file_.is_valid()) fail("HDF5 cannot open it");
@@ -84,14 +87,15 @@ Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
 std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t wanted) const {
   struct Search {
     H5I_type_t wanted;
+    hid_t properties;
     std::vector<std::string> names;
-  } search = {wanted, {}};
-  const Group handle(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT));
+  } search = {wanted, rules_.of_links(), {}};
+  const Group handle(H5Gopen2(file_.id(), group.c_str(), rules_.of_groups()));
   if (!handle.is_valid()) fail(fmt::format("group {} cannot be opened", group));
   const auto visit = [](hid_t id, const char* name, const H5L_info_t*, void* data) -> herr_t {
     auto& found = *static_cast<Search*>(data);
     // A link may lead nowhere; what does not exist is not listed.
-    const Object object(H5Oopen(id, name, H5P_DEFAULT));
+    const Object object(H5Oopen(id, name, found.properties));
     if (object.is_valid() && H5Iget_type(object.id()) == found.wanted) {
       found.names.emplace_back(name);
     }
@@ -114,10 +118,10 @@ bool Hdf5File::has(const std::string& object) const {
   // Each step of the path must exist before the next may be asked for.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string step = object.substr(0, end);
-    if (H5Lexists(file_.id(), step.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (H5Lexists(file_.id(), step.c_str(), rules_.of_links()) <= 0) return false;
     if (end == std::string::npos) break;
   }
-  return H5Oexists_by_name(file_.id(), object.c_str(), H5P_DEFAULT) > 0;
+  return H5Oexists_by_name(file_.id(), object.c_str(), rules_.of_links()) > 0;
 }
 
 std::vector<std::string> Hdf5File::groups(const std::string& group) const {
@@ -135,8 +139,9 @@ std::vector<Hdf5Dataset> Hdf5File::datasets(const std::string& group) const {
 }
 
 Hdf5File::Dataset Hdf5File::open_dataset(const std::string& path) const {
-  Dataset handle(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT));
+  Dataset handle(H5Dopen2(file_.id(), path.c_str(), rules_.of_datasets()));
   if (!handle.is_valid()) fail(fmt::format("dataset {} cannot be opened", path));
+  check_virtual_sources(path_, handle.id(), *links_);
   return handle;
 }
 
@@ -160,7 +165,7 @@ Hdf5Dataset Hdf5File::dataset(const std::string& path) const {
 Hdf5File::Attribute Hdf5File::open_attribute(const std::string& object,
                                              const std::string& name) const {
   if (!has(object)) return {};
-  const Object owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));
+  const Object owner(H5Oopen(file_.id(), object.c_str(), rules_.of_links()));
   if (H5Aexists(owner.id(), name.c_str()) <= 0) return {};
   return Attribute(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT));
 }

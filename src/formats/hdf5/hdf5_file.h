@@ -4,36 +4,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "formats/hdf5/hdf5_handle.h"
+#include "formats/hdf5/hdf5_links.h"
+
 namespace splotchcl {
-
-// Closes an HDF5 identifier of the kind that `Close` is for.
-template <herr_t (*Close)(hid_t)>
-class Hdf5Handle {
- public:
-  Hdf5Handle() = default;
-  explicit Hdf5Handle(hid_t id) : id_(id) {}
-  ~Hdf5Handle() { reset(); }
-  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
-  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
-    reset();
-    id_ = std::exchange(other.id_, H5I_INVALID_HID);
-    return *this;
-  }
-  hid_t id() const { return id_; }
-  bool is_valid() const { return id_ >= 0; }
-
- private:
-  void reset() {
-    if (id_ >= 0) Close(id_);
-    id_ = H5I_INVALID_HID;
-  }
-  hid_t id_ = H5I_INVALID_HID;
-};
 
 // While one lives, HDF5 does not print its errors: ours say what is wrong.
 class Hdf5Silence {
@@ -70,6 +49,8 @@ class Hdf5File {
   static bool has_signature(const std::byte* data, std::uint64_t size);
 
   const std::filesystem::path& path() const { return path_; }
+  // Where what has been asked for led, out of the file.
+  const Hdf5Links& links() const { return *links_; }
   bool has(const std::string& object) const;
   std::vector<std::string> groups(const std::string& group) const;    // names, sorted
   std::vector<Hdf5Dataset> datasets(const std::string& group) const;  // sorted by name
@@ -120,6 +101,8 @@ class Hdf5File {
   [[noreturn]] void fail(const std::string& what) const;
 
   std::filesystem::path path_;
+  std::unique_ptr<Hdf5Links> links_;  // where the rules find it
+  Hdf5LinkRules rules_;
   Hdf5Handle<H5Fclose> file_;
 };
 

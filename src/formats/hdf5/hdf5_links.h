@@ -1,0 +1,47 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "formats/hdf5/hdf5_handle.h"
+
+namespace splotchcl {
+
+// Where a file's external links and virtual datasets lead.
+struct Hdf5Links {
+  std::set<std::filesystem::path> followed;
+  std::set<std::string> refused;  // as the file spells them
+};
+
+// Properties with which HDF5 follows external links only to regular files in the folder of the file
+// that has them, or below it: a file from anywhere shall not have others opened, or wait for a
+// FIFO. What is found is added to `links`, which must stay where it is for as long.
+class Hdf5LinkRules {
+ public:
+  explicit Hdf5LinkRules(Hdf5Links& links);
+
+  hid_t of_links() const { return of_links_.id(); }
+  hid_t of_groups() const { return of_groups_.id(); }
+  hid_t of_datasets() const { return of_datasets_.id(); }
+
+ private:
+  Hdf5Handle<H5Pclose> of_links_, of_groups_, of_datasets_;
+};
+
+// A name of a source of a virtual dataset, by either of HDF5's functions for them.
+std::string virtual_source_name(ssize_t (*get)(hid_t, std::size_t, char*, std::size_t),
+                                hid_t properties, std::size_t source);
+
+// Where HDF5 looks for a file that a virtual dataset names; a place that does not exist where it
+// finds none.
+std::filesystem::path find_virtual_source(const std::filesystem::path& virtual_file,
+                                          const std::filesystem::path& name);
+
+// Before HDF5 asks how large a virtual dataset is, for which it may open all its files. Throws
+// DataError for one that is no regular file.
+void check_virtual_sources(const std::filesystem::path& file, hid_t dataset, Hdf5Links& links);
+
+}  // namespace splotchcl
