@@ -23,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 // Notes and errors are a line each, whatever a library put into them.
 std::string one_line(std::string text) {
+  constexpr std::size_t longest = 4000;  // a name in a file may have millions of letters
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -1,10 +1,15 @@
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 
 #include "cli/command_line.h"
 #include "cli/console.h"
+#include "common/crash_guard.h"
+#include "common/quiet_errors.h"
 #include "common/shrink_guard.h"
 #include "splotchcl/error.h"
 
@@ -30,12 +35,32 @@ int run(int argc, char** argv, splotchcl::cli::Console& console) {
   return failed;
 }
 
+int run(int argc, char** argv) {
+  splotchcl::cli::Console console;
+  return run(argc, argv, console);
+}
+
+// Without what libraries do when a program ends: HDF5 tries to close damaged files again and again,
+// and says so.
+[[noreturn]] void leave(int code) {
+  std::fflush(nullptr);
+  ::_exit(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // A write beyond the limit on file sizes becomes an error that is reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);
   splotchcl::guard_mapped_files();
-  splotchcl::cli::Console console;
-  return run(argc, argv, console);
+  splotchcl::guard_crashes();
+  splotchcl::let_errors_be_quiet();
+  try {
+    leave(run(argc, argv));
+  } catch (...) {
+    // Not even a message has found memory.
+    std::fputs("splotchcl: out of memory; fewer particles or a smaller picture need less\n",
+               stderr);
+    leave(failed);
+  }
 }

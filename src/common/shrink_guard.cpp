@@ -8,6 +8,9 @@
 #include <atomic>
 #include <cstring>
 
+#include "common/quiet_errors.h"
+#include "common/unfinished_file.h"
+
 namespace splotchcl {
 namespace {
 
@@ -25,7 +28,7 @@ std::array<Mapping, 1024>& mappings() {
 
 // Only what POSIX lets a signal handler do: no memory, no streams.
 void say(const char* text) {
-  static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text)));
+  static_cast<void>(!::write(error_descriptor(), text, std::strlen(text)));
 }
 
 void say(std::uint64_t number) {
@@ -50,6 +53,7 @@ void end_for_shrunken_file(const Mapping& mapping) {
   say(" bytes, expected ");
   say(mapping.size.load());
   say("; wait until it is completely written and try again\n");
+  remove_unfinished_files();
   ::_exit(1);
 }
 

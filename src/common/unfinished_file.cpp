@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <ctime>
 #include <optional>
 #include <random>
@@ -70,6 +72,36 @@ class NoPipeSignal {
   ::sigset_t pipe_ = {}, before_ = {};
 };
 
+// Signal handlers can only look at global data.
+struct Unfinished {
+  enum State { free, taken, named };
+  std::atomic<State> state{free};
+  std::array<char, 4096> path{};
+};
+std::array<Unfinished, 64> unfinished;
+
+void remember_unfinished(const std::string& path) {
+  for (Unfinished& one : unfinished) {
+    Unfinished::State expected = Unfinished::free;
+    if (path.size() >= one.path.size() ||
+        !one.state.compare_exchange_strong(expected, Unfinished::taken)) {
+      continue;
+    }
+    std::memcpy(one.path.data(), path.c_str(), path.size() + 1);
+    one.state = Unfinished::named;
+    return;
+  }
+}
+
+void forget_unfinished(const std::string& path) {
+  for (Unfinished& one : unfinished) {
+    if (one.state == Unfinished::named && path == one.path.data()) {
+      one.state = Unfinished::free;
+      return;
+    }
+  }
+}
+
 // The error's number, or 0.
 int write_all(int descriptor, const char* next, std::size_t bytes) {
   while (bytes > 0) {
@@ -120,6 +152,12 @@ bool is_running(pid_t process) {
 
 }  // namespace
 
+void remove_unfinished_files() noexcept {
+  for (Unfinished& one : unfinished) {
+    if (one.state == Unfinished::named) ::unlink(one.path.data());
+  }
+}
+
 void remove_leftovers(const std::filesystem::path& folder,
                       const std::function<bool(const std::string&)>& is_meant) {
   std::error_code error;
@@ -147,11 +185,14 @@ UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
   if (is_stream_ && ::access(target_.c_str(), W_OK) != 0) fail(errno);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
+  remember_unfinished(temporary_);
 }
 
 UnfinishedFile::~UnfinishedFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  forget_unfinished(temporary_);
 }
 
 void UnfinishedFile::write(const void* data, std::size_t bytes) {
@@ -167,6 +208,7 @@ void UnfinishedFile::finish() {
   if (::close(descriptor) != 0) fail(errno);
   if (is_stream_) return copy_into_stream();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  forget_unfinished(temporary_);
   temporary_.clear();
 }
 

@@ -17,6 +17,10 @@ void check_output_path(const std::filesystem::path& path);
 void remove_leftovers(const std::filesystem::path& folder,
                       const std::function<bool(const std::string& name)>& is_meant);
 
+// What a signal handler may call before it ends the program: removes all unfinished files of this
+// process. Beyond 64 at a time they stay.
+void remove_unfinished_files() noexcept;
+
 // A file that appears under its name only when it is complete. Until finish() it has a
 // temporary name in the same folder, and is removed when it is abandoned. A symbolic link
 // stays: what it points to is replaced. What is no regular file, such as a FIFO or a device, is not

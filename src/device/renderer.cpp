@@ -134,7 +134,8 @@ Renderer::Renderer(const RendererOptions& options) {
   try {
     state_ = std::make_unique<State>(options);
   } catch (const compute::opencl_error& error) {
-    throw DeviceError("cannot open the OpenCL device: " + error.error_string());
+    throw DeviceError("cannot open the OpenCL device: " + error.error_string() +
+                      "; see that its driver works, or choose another device");
   }
 }
 Renderer::~Renderer() = default;
@@ -151,7 +152,8 @@ Image Renderer::render(const Frame& frame, const FramePlan& plan) {
     return state_->render(frame, plan);
   } catch (const compute::opencl_error& error) {
     throw DeviceError("device " + state_->device.device.name() +
-                      " failed: " + error.error_string());
+                      " failed: " + error.error_string() +
+                      "; draw fewer particles or a smaller picture, or choose another device");
   }
 }
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "common/mapped_file.h"
+#include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
 #include "image/image_library.h"
@@ -143,14 +145,20 @@ void write_image(const std::filesystem::path& path, const Image& image,
 }
 
 Image read_image(const std::filesystem::path& path) {
+  require_regular_file(path);
+  const QuietErrors quiet;
   return image_library().read(path);
 }
 
 Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options) {
+  require_regular_file(path);
+  const QuietErrors quiet;
   return image_library().read_linear(path, options);
 }
 
 ImageFileInfo read_image_info(const std::filesystem::path& path) {
+  require_regular_file(path);
+  const QuietErrors quiet;
   return image_library().read_info(path);
 }
 

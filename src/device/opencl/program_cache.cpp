@@ -46,7 +46,10 @@ compute::program build(const compute::context& context, const std::string& text,
     program.build(build_options);
   } catch (const compute::opencl_error& error) {
     throw DeviceError("device " + context.get_device().name() + " cannot compile " + names + ": " +
-                      error.error_string() + "\n" + program.build_log());
+                      error.error_string() +
+                      "; see that there is memory and room in the folder for temporary files, or "
+                      "choose another device: " +
+                      program.build_log());
   }
   return program;
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "common/quiet_errors.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
@@ -64,12 +65,14 @@ std::vector<std::string> DrawnFrame::all_notes() const {
 struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
     if (!options.by_reference) {
+      const QuietErrors quiet;
       renderer.emplace(RendererOptions{options.device, CompositeShape::automatic});
     }
   }
 
   Image draw_view(const Frame& view, RenderStats& total) {
     if (!renderer) return draw_with_reference(view, total);
+    const QuietErrors quiet;
     Image image = renderer->render(view);
     add(renderer->stats(), total);
     return image;

@@ -1,0 +1,45 @@
+#include "common/crash_guard.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+#include "common/quiet_errors.h"
+#include "common/unfinished_file.h"
+
+namespace splotchcl {
+namespace {
+
+// Only what POSIX lets a signal handler do: no memory, no streams.
+extern "C" void handle_crash(int) {
+  constexpr char text[] =
+      "splotchcl: a library failed so that the program had to end: most likely memory ran out, or "
+      "a "
+      "file is damaged; try fewer particles, a smaller picture, or another copy of the file\n";
+  remove_unfinished_files();
+  static_cast<void>(!::write(error_descriptor(), text, std::strlen(text)));
+  ::_exit(1);
+}
+
+}  // namespace
+
+void guard_crashes() {
+  if (std::getenv("SPLOTCHCL_CORE") != nullptr) return;
+  // A stack that has run out cannot hold the handler's frame.
+  static std::array<char, 64 * 1024> memory;
+  stack_t stack = {};
+  stack.ss_sp = memory.data();
+  stack.ss_size = memory.size();
+  ::sigaltstack(&stack, nullptr);
+  struct sigaction action = {};
+  action.sa_handler = handle_crash;
+  action.sa_flags = SA_ONSTACK;
+  ::sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGILL})
+    ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace splotchcl

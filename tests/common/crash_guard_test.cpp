@@ -1,0 +1,69 @@
+#include "common/crash_guard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "common/quiet_errors.h"
+#include "common/unfinished_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using ::testing::ExitedWithCode;
+
+TEST(CrashGuard, EndsAnAbortedProgramWithALine) {
+  EXPECT_EXIT(
+      {
+        guard_crashes();
+        std::abort();
+      },
+      ExitedWithCode(1), "^splotchcl: a library failed.*\n$");
+}
+
+TEST(CrashGuard, TakesUnfinishedFilesAway) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EXIT(
+      {
+        guard_crashes();
+        UnfinishedFile file(folder / "picture");
+        file.write("half", 4);
+        std::raise(SIGSEGV);
+      },
+      ExitedWithCode(1), "a library failed");
+  EXPECT_EQ(folder.count_files(), 0U);
+}
+
+TEST(CrashGuard, SpeaksWhereLibrariesAreQuiet) {
+  EXPECT_EXIT(
+      {
+        guard_crashes();
+        let_errors_be_quiet();
+        const QuietErrors quiet;
+        std::fputs("a library's own line\n", stderr);
+        std::abort();
+      },
+      ExitedWithCode(1), "^splotchcl: a library failed");
+}
+
+TEST(QuietErrors, AreHeardAgainAfterwards) {
+  EXPECT_EXIT(
+      {
+        let_errors_be_quiet();
+        {
+          const QuietErrors quiet;
+          const QuietErrors more;
+          std::fputs("not heard\n", stderr);
+        }
+        std::fputs("heard\n", stderr);
+        std::exit(0);
+      },
+      ExitedWithCode(0), "^heard\n$");
+}
+
+}  // namespace
+}  // namespace splotchcl
