@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct FilmOptions {
   bool by_reference = false;
   std::string frames;      // FIRST:END:STEP; empty: all of the path
   std::string part;        // K/N, the K-th of N runs of frames; empty: all
+  // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
+  std::optional<std::filesystem::path> stats;
   bool only_join = false;  // makes the film of frames that are drawn already
 };
 

@@ -110,6 +110,7 @@ class Watch {
 FilmOptions film_options(const MovieOptions& options) {
   FilmOptions film;
   film.scene = options.scene;
+  film.stats = options.stats;
   film.output = *options.output;
   film.settings = settings_of(options);
   film.device = options.device;

@@ -105,6 +105,8 @@ TEST_F(KeptInputs, OfAFilmAreKeptByItsFramesAndItsFolder) {
       "movie scene.toml --reference -o frame_%d.png --set "
       "image.background_image=frame_1.png",
       "--output");
+  expect_refused("movie scene.toml --reference -o f_%d.png --stats ids.json", "--stats");
+  expect_refused("movie scene.toml --reference -o f_%d.png --stats f_2.png", "--stats");
   run("mkdir film.mp4.frames; cp sky.png film.mp4.frames/sky.png");
   const std::string before = read_text(folder_ / "film.mp4.frames/sky.png");
   const ProgramResult result = splotchcl_in(folder_,

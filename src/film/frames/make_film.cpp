@@ -90,6 +90,7 @@ class Film {
     std::vector<OutputFile> outputs;
     for (const std::filesystem::path& path : files_.outputs(frames_))
       outputs.push_back({path, "--output"});
+    if (options_.stats) outputs.push_back({*options_.stats, "--stats"});
     const auto inputs = [this] {
       return film_files_read(options_.scene, scene_.scene(), scene_.path());
     };
