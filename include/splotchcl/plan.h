@@ -65,7 +65,7 @@ struct SplatLimits {
   float inverse_edge = 0;    // 1 / (value at which a splat may end)
 };
 
-// One grid of pixels: the picture's own, or a coarser one with a guard band around it.
+// One grid of pixels of the whole picture: its own, or a coarser one with a guard band around it.
 struct PictureGrid {
   int level = 0;              // its pixels are 2^level of the picture's wide
   int width = 0, height = 0;  // pixels, with the guard band
@@ -94,6 +94,18 @@ struct GridPyramid {
   float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
 };
 
+// Which splats are so sharp that single precision of their places would show. A splat whose place
+// is off by a pixel errs by its slope per sigma (kernels/project/sharp_places.cl).
+struct PlaceLimits {
+  // Roundings of a place in single precision, beside those of what is across the view.
+  float error = 0, error_per_pixel = 0;
+  // sigma per slope and rounding below which places are taken in extended numbers
+  float sharp_width = 0;
+  // sigma per slope below which the frame is drawn again in them, or ln of a peak above which it
+  // is; 0: it never is
+  float too_sharp_width = 0, most_fading = 0;
+};
+
 // How layers are put together.
 struct LayerLimits {
   float phi_short = 0, phi_series = 0;  // optical depths up to which 2 and 4 terms serve
@@ -108,9 +120,6 @@ struct FramePlan {
   Precision precision = Precision::fast;
   // The polynomial of erf would not hold the promise.
   bool uses_device_erf = false;
-  // Clouds are so sharp for a small tolerance that their places in single precision would
-  // not hold it: the reason for Precision::extended where the tolerance is not 0.
-  bool has_sharp_clouds = false;
   // Some particles have colors of their own.
   bool has_vector_colors = false;
   // Equirectangular pictures: splats are wider than high, and have copies beside the picture.
@@ -122,6 +131,7 @@ struct FramePlan {
   SplatLimits splats;
   double erf_error = 0;        // absolute
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
+  PlaceLimits places;
   GridPyramid pyramid;
   LayerLimits layers;
 

@@ -67,6 +67,8 @@ struct RenderStats {
   std::uint64_t bad_particles = 0;  // left out: as reference::count_bad counts them
   std::uint64_t drawn_particles = 0;
   std::uint64_t tile_entries = 0;  // splats summed over tiles
+  // Particles were too sharp for the plan's precision: drawn again in extended precision.
+  bool drawn_most_exactly = false;
   std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded
   double build_seconds = 0;        // of the total: compiling kernels, or finding them compiled
   double total_seconds = 0;

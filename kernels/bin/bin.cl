@@ -2,14 +2,35 @@
 // splats; block and tile fix where each entry goes, so lists keep the splats' order and
 // never depend on timing.
 
+// Those of a grid's tiles that are in memory.
+INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
+  const int column = grid.first_x / TILE_WIDTH, row = grid.first_y / TILE_HEIGHT;
+  const int4 part = (int4)(max(range.x, column), min(range.y, column + grid.tiles_x - 1),
+                           max(range.z, row), min(range.w, row + grid.tiles_y - 1));
+  return part.z > part.w ? (int4)(0, -1, 0, -1) : part;
+}
+
 // Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
-// empty x range where there is none.
-inline int4 tile_range(const Splat splat, const Grid grid) {
-  const int2 columns = pixel_range(splat.x, RADIUS_X(splat), grid.width);
-  const int2 rows = pixel_range(splat.y, splat.radius, grid.height);
-  if (columns.x > columns.y || rows.x > rows.y) return (int4)(0, -1, 0, -1);
-  return (int4)(columns.x / TILE_WIDTH, columns.y / TILE_WIDTH, rows.x / TILE_HEIGHT,
-                rows.y / TILE_HEIGHT);
+// empty x range where there is none. With room for the rounding of the center; compositing knows it
+// better. First pixels are turned round, so that first and last ones are found alike: the last
+// whole number below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to
+// the camera may lie anywhere.
+INLINED int4 tile_range(const Splat splat, const Grid grid) {
+  const float unit = unit_of(splat, grid);
+  const float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
+                        (float2)((float)grid.middle_x, (float)grid.middle_y);
+  const float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
+  const float2 size = (float2)((float)grid.width, (float)grid.height);
+  const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
+  const float4 clamped =
+      min(max(ends, (float4)(-size, -1.0f, -1.0f)), (float4)(0.0f, 0.0f, size - 1.0f));
+  const int4 truncated = convert_int4(clamped);
+  const int4 pixels = truncated + (convert_float4(truncated) > clamped);
+  const int2 first = -pixels.xy, last = pixels.zw;
+  if (first.x > last.x || first.y > last.y) return (int4)(0, -1, 0, -1);
+  const int4 range = (int4)((uint)first.x / TILE_WIDTH, (uint)last.x / TILE_WIDTH,
+                            (uint)first.y / TILE_HEIGHT, (uint)last.y / TILE_HEIGHT);
+  return grid.is_part ? tiles_in_memory(range, grid) : range;
 }
 
 inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks, uint block) {
@@ -52,11 +73,11 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
 #else
     const Splat splat = splats[slot];
 #endif
-    const Grid grid = grids[splat.component_and_grid >> 16];
+    const Grid grid = grids[grid_of(splat)];
     const int4 range = tile_range(splat, grid);
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
-        ++count[grid.first_tile + (uint)(ty * grid.tiles_x + tx)];
+        ++count[grid.corner_tile + (uint)(ty * grid.tiles_x + tx)];
       }
     }
   }
@@ -190,7 +211,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #else
     const Splat splat = splats[slot];
 #endif
-    const Grid grid = grids[splat.component_and_grid >> 16];
+    const Grid grid = grids[grid_of(splat)];
     const int4 range = tile_range(splat, grid);
     if (range.x > range.y) continue;
 #ifdef EXTENDED_NUMBERS
@@ -201,13 +222,15 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     entry.slot = slot;
 #endif
 #else
+    const int bits = place_bits_of(splat, grid);
+    const float unit = unit_of(splat, grid);
     TileSplat entry;
     entry.sigma = splat.sigma;
     entry.radius = splat.radius;
 #ifdef ELLIPSES
     entry.along_x = splat.along_x;
 #endif
-    const ComponentColors colors = component_colors[splat.component_and_grid & 0xffffu];
+    const ComponentColors colors = component_colors[component_of(splat)];
 #ifdef LIGHT_ORDERED
     amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
 #else
@@ -215,17 +238,19 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #endif
 #endif
     // Of the band that lists are made of, the tiles of this row.
-    const int first = (int)p.first_tile - (int)grid.first_tile;
-    const int last = (int)p.end_tile - (int)grid.first_tile - 1;
+    const int first = (int)(p.first_tile - grid.corner_tile);
+    const int last = (int)(p.end_tile - grid.corner_tile) - 1;
     for (int ty = range.z; ty <= range.w; ++ty) {
       const int row = ty * grid.tiles_x;
       const int end_x = min(range.y, last - row);
       for (int tx = max(range.x, first - row); tx <= end_x; ++tx) {
 #ifndef EXTENDED_NUMBERS
-        entry.x = splat.x - (float)(tx * TILE_WIDTH);
-        entry.y = splat.y - (float)(ty * TILE_HEIGHT);
+        const int middle_x = tx * TILE_WIDTH + TILE_WIDTH / 2;
+        const int middle_y = ty * TILE_HEIGHT + TILE_HEIGHT / 2;
+        entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
+        entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
 #endif
-        const uint tile = grid.first_tile + (uint)(row + tx);
+        const uint tile = grid.corner_tile + (uint)(row + tx);
         entries[(size_t)starts[tile] + count[tile]++] = entry;
       }
     }

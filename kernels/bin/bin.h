@@ -2,7 +2,7 @@
 #ifndef SPLOTCHCL_BIN_H
 #define SPLOTCHCL_BIN_H
 
-// A splat in the list of one tile, positions relative to the tile's corner, amplitudes at
+// A splat in the list of one tile, positions relative to the tile's middle, amplitudes at
 // the splat's center.
 struct TileSplat {
 #ifdef EXTENDED_NUMBERS

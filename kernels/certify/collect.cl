@@ -29,10 +29,10 @@ typedef struct Reach {
 
 inline Reach reach_of(const Grid grid, int column, int row) {
   Reach reach;
-  reach.x0 = column == 0 ? -INFINITY : 0.0f;
-  reach.x1 = column == grid.tiles_x - 1 ? INFINITY : (float)TILE_WIDTH;
-  reach.y0 = row == 0 ? -INFINITY : 0.0f;
-  reach.y1 = row == grid.tiles_y - 1 ? INFINITY : (float)TILE_HEIGHT;
+  reach.x0 = column == 0 ? -INFINITY : -0.5f * TILE_WIDTH;
+  reach.x1 = column == grid.tiles_x - 1 ? INFINITY : 0.5f * TILE_WIDTH;
+  reach.y0 = row == 0 ? -INFINITY : -0.5f * TILE_HEIGHT;
+  reach.y1 = row == grid.tiles_y - 1 ? INFINITY : 0.5f * TILE_HEIGHT;
   return reach;
 }
 
@@ -41,7 +41,7 @@ INLINED uint cell_at(const OctaveCells cells, int x, int y) {
          (uint)(x >> cells.shift);
 }
 
-inline int pixel_at(float center, float last) {
+inline int nearest_pixel(float center, float last) {
   return (int)smaller(larger(center, 0.0f), last);
 }
 
@@ -56,8 +56,8 @@ INLINED void collect_splat(__global const TileSplat* splat, const CertifyParamet
   const float width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : blur);
   const int power = ((as_int(width2) >> 23) - 127) >> 1;
   const int octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
-  const int x = pixel_at(splat->x, (float)(TILE_WIDTH - 1));
-  const int y = pixel_at(splat->y, (float)(TILE_HEIGHT - 1));
+  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, (float)(TILE_WIDTH - 1));
+  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, (float)(TILE_HEIGHT - 1));
   cells[cell_at(p->peaks[octave], x, y)] += smaller(peak, most_peak);
   cells[cell_at(p->endings[octave], x, y)] += smaller(peak, p->edge_peak);
 }

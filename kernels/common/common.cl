@@ -21,6 +21,24 @@ inline size_t first_float(const Grid grid) {
   return (size_t)grid.first_float_low | ((size_t)grid.first_float_high << 32);
 }
 
+// Where a pixel of one of its planes is.
+inline size_t pixel_at(const Grid grid, uint plane, int x, int y) {
+  return first_float(grid) + (size_t)plane * grid.plane_size +
+         (size_t)(y - grid.first_y) * grid.stride + (size_t)(x - grid.first_x);
+}
+
+// Eight pixels of a row, or as many as there are.
+inline void store_first(float8 values, int count, __global float* pixels) {
+  if (count >= 8) {
+    vstore8(values, 0, pixels);
+    return;
+  }
+  float lanes[8];
+  vstore8(values, 0, lanes);
+  for (int k = 0; k < count; ++k)
+    pixels[k] = lanes[k];
+}
+
 // The grid that a tile belongs to. Grids are few, coarse ones small.
 inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile) {
   uint g = 0;
@@ -29,11 +47,36 @@ inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile)
   return g;
 }
 
-// First and last pixel whose centre (index + 1/2) lies within `radius` of `centre`,
+INLINED uint component_of(const Splat splat) {
+  return splat.component_and_grid & 0xffffu;
+}
+INLINED uint grid_of(const Splat splat) {
+  return (splat.component_and_grid >> 16) & 0xffu;
+}
+// The splat's units are 2^-place_bits pixels.
+INLINED int place_bits_of(const Splat splat, const Grid grid) {
+  return grid.place_bits - (int)(splat.component_and_grid >> 24);
+}
+
+// In pixels of the grid: a power of two.
+INLINED float unit_of(const Splat splat, const Grid grid) {
+  return as_float(as_uint(grid.unit) + ((splat.component_and_grid >> 24) << 23));
+}
+
+// How far from the corner of `pixel` a splat lies along one axis, in pixels, with these units:
+// exact in integers, so that near by no digit is lost.
+INLINED float from_pixel(int place, int pixel, int middle, int place_bits, float unit) {
+  const int from_middle = pixel - middle;
+  // A splat of units of a pixel and more is wider than they are by far.
+  if (place_bits <= 0) return (float)place * unit - (float)from_middle;
+  return (float)(place - (from_middle << place_bits)) * unit;
+}
+
+// First and last pixel whose center (index + first_center) lies within `radius` of `center`,
 // clamped to [0, size - 1]; first > last where there is none. Clamped before the
 // conversion: a splat close to the camera may lie anywhere.
-inline int2 pixel_range(float center, float radius, int size) {
-  const float low = center - radius - 0.5f, high = center + radius - 0.5f;
+INLINED int2 pixel_range(float center, float radius, float first_center, int size) {
+  const float low = center - radius - first_center, high = center + radius - first_center;
   const float end = (float)size;
   const float first = low > 0.0f ? (low < end ? low : end) : 0.0f;
   const float last = high < end - 1.0f ? (high > -1.0f ? high : -1.0f) : end - 1.0f;

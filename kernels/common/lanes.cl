@@ -7,6 +7,7 @@
 #define AS_VALUE as_float8
 #define AS_INTEGER as_int8
 #define TO_VALUE convert_float8
+#define TO_INTEGER convert_int8
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
 #define ANY(mask) any(mask)
@@ -17,6 +18,7 @@
 #define AS_VALUE as_float
 #define AS_INTEGER as_int
 #define TO_VALUE convert_float
+#define TO_INTEGER convert_int
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
 // A scalar comparison gives 1 where a vector's gives -1; select() wants the top bit of

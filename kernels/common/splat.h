@@ -13,14 +13,22 @@ struct FloatPair {
 };
 
 // One grid of the picture: grid 0 has the picture's own pixels, those of level l pixels 2^l
-// times as wide, with a guard band around the picture. Planes are padded to whole tiles.
+// times as wide, with a guard band around the picture. All of this is the whole picture's, so
+// that a crop has its bits; in memory are the tiles that the crop needs.
 struct Grid {
-  int width, height;  // pixels, with the guard band
-  int guard;          // pixels
-  float mean_sigma;   // narrower splats take the pixel mean by erf; 0: none does
-  int tiles_x, tiles_y;
+  int width, height;       // pixels, with the guard band
+  int guard;               // pixels
+  int middle_x, middle_y;  // the pixel from whose corner places of splats count
+  int place_bits;          // in units of 2^-place_bits pixels
+  float mean_sigma;        // narrower splats take the pixel mean by erf; 0: none does
+  float unit;              // that is, of so many pixels
+  float room;              // pixels by which a place may be off where tiles are chosen
+  int first_x, first_y;    // the first pixel in memory, the corner of a tile
+  int tiles_x, tiles_y;    // in memory
+  int is_part;             // of the grid's tiles some are not
   unsigned int first_tile;
-  unsigned int stride, plane_size;                 // floats
+  unsigned int corner_tile;         // the number of the tile at (0, 0), as if it were in memory
+  unsigned int stride, plane_size;  // floats
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
 };
 
@@ -33,15 +41,17 @@ struct OwnColor {
   float rgb[3];
 };
 
-// A projected particle, positions and widths in pixels of its grid.
+// A projected particle, widths in pixels of its grid. Its centre is in fixed point (Grid), so that
+// it is known as well anywhere in the picture; so far beside it that the integers cannot hold it,
+// in coarser units by a power of two.
 struct Splat {
-  float x, y;
+  int x, y;
   float sigma;                      // widened, unless pixel means are taken; negative: of a
                                     // bright splat, whose means keep more digits (shape.cl)
   float radius;                     // drawn up to here
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
-  unsigned int component_and_grid;  // component | grid << 16
+  unsigned int component_and_grid;  // component | grid << 16 | power of the coarser unit << 24
 #ifdef ELLIPSES
   struct WidthAlongX along_x;
 #endif

@@ -8,8 +8,6 @@ struct CompositeParameters {
   float phi_short;   // optical depth up to which two terms of phi's series serve
   float phi_series;  // and four
   float opaque;      // stop where every pixel's opacity is at least this; > 1: never
-  // The crop's corner in the picture, in whose pixels extended splats lie.
-  float crop_x, crop_y;
 };
 
 #ifdef __OPENCL_VERSION__

@@ -216,8 +216,9 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const Segment segment = segments[get_group_id(0)];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
-  const float corner_x = p.crop_x + (float)(in_grid % (uint)grid.tiles_x * TILE_WIDTH);
-  const float corner_y = p.crop_y + (float)(in_grid / (uint)grid.tiles_x * TILE_HEIGHT);
+  const uint first_x = (uint)grid.first_x, first_y = (uint)grid.first_y;
+  const float corner_x = (float)(first_x + in_grid % (uint)grid.tiles_x * TILE_WIDTH);
+  const float corner_y = (float)(first_y + in_grid / (uint)grid.tiles_x * TILE_HEIGHT);
   __global float* own = own_planes(planes, grid, segment.tile, item);
   Pixels pixels = segment.partial == NO_PARTIAL ? load_pixels(own, grid.plane_size) : no_pixels();
   for (uint first = segment.begin; first < segment.end; first += BATCH) {

@@ -4,6 +4,9 @@
 #define ROW (TILE_WIDTH + 8)
 // Planes at distances of 4096 bytes would share lines of the cache.
 #define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
+// The first pixel's center, from the tile's middle.
+#define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
+#define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
 // Eight floats at any address in one access: vstore8 may become two, and a processor cannot
 // forward two stores to the load of the next splat's row.
 #ifdef __clang__
@@ -155,8 +158,8 @@ inline void update_window(float* tile, Window window, float8 across, const float
                           __global const TileSplat* splat, float deepest,
                           const CompositeParameters p) {
 #ifdef KERNEL_CUT
-  const float8 dx = (float)window.x + 0.5f - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float dy = (float)window.y + 0.5f - splat->y;
+  const float8 dx = (float)window.x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float dy = (float)window.y + FIRST_Y - splat->y;
   const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif
@@ -193,8 +196,8 @@ inline float8 seven_means(float first, float sigma) {
 
 inline void add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
                       const CompositeParameters p) {
-  const int2 rows = pixel_range(splat->y, splat->radius, TILE_HEIGHT);
-  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), TILE_WIDTH);
+  const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
+  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return;
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   float deepest = 0.0f;
@@ -211,7 +214,8 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     window.rows = 3;
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
-    const float dx = (float)window.x - splat->x, dy = (float)window.y - splat->y;
+    const float dx = (float)window.x + (FIRST_X - 0.5f) - splat->x;
+    const float dy = (float)window.y + (FIRST_Y - 0.5f) - splat->y;
     const float8 edges = error_function(
         ((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) / sigma);
     const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
@@ -235,7 +239,8 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     float along[8];
-    const float dx = (float)window.x + 0.5f - splat->x, dy = (float)window.y + 0.5f - splat->y;
+    const float dx = (float)window.x + FIRST_X - splat->x,
+                dy = (float)window.y + FIRST_Y - splat->y;
     float8 across;
     if (sigma < mean_sigma) {
       across = seven_means(dx, sigma);
@@ -252,9 +257,9 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     return;
   }
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
-  fill_axis(along_x, (float)columns.x + 0.5f - splat->x, columns_count, sigma_x, inverse_x,
+  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, columns_count, sigma_x, inverse_x,
             mean_sigma);
-  fill_axis(along_y, (float)rows.x + 0.5f - splat->y, rows_count, sigma, inverse, mean_sigma);
+  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, rows_count, sigma, inverse, mean_sigma);
   window.y = rows.x;
   window.rows = rows_count;
   const float* along = along_y;
@@ -262,7 +267,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
 #ifdef KERNEL_CUT
     // The disc's part of these columns.
     const float nearest =
-        clamp(splat->x, (float)window.x + 0.5f, (float)window.x + 7.5f) - splat->x;
+        clamp(splat->x, (float)window.x + FIRST_X, (float)window.x + (FIRST_X + 7.0f)) - splat->x;
 #ifdef ELLIPSES
     const float part_of_radius = nearest / splat->along_x.radius;
     const float half_height =
@@ -270,7 +275,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
 #else
     const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
 #endif
-    const int2 part = pixel_range(splat->y, half_height, TILE_HEIGHT);
+    const int2 part = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
     window.y = part.x;
     window.rows = part.y - part.x + 1;
     along = along_y + (part.x - rows.x);

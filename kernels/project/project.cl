@@ -3,10 +3,11 @@
 
 // SplatLanes as arrays, to be written one by one.
 typedef struct SplatArrays {
-  int visible[LANES], grid[LANES];
-  float x[LANES], y[LANES], sigma[LANES], radius[LANES], weight[LANES], color[LANES];
+  int visible[LANES];
+  int x[LANES], y[LANES], component_and_grid[LANES];
+  float sigma[LANES], radius[LANES], weight[LANES], color[LANES];
 #ifdef ELLIPSES
-  float sigma_x[LANES], radius_x[LANES];
+  float pixel_x[LANES], sigma_x[LANES], radius_x[LANES];
 #endif
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
@@ -21,17 +22,17 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 #endif
 #ifndef EXTENDED_NUMBERS
 #ifdef ELLIPSES
-  STORE(s.x, a->x);
+  STORE(s.x, a->pixel_x);
   STORE(s.radius_x, a->radius_x);
 #endif
 #ifdef OUTPUT_SPLATS
-  STORE(s.x, a->x);
-  STORE(s.y, a->y);
+  STORE(s.place.x, a->x);
+  STORE(s.place.y, a->y);
+  STORE(s.component_and_grid, a->component_and_grid);
   STORE(s.sigma, a->sigma);
   STORE(s.radius, a->radius);
   STORE(s.weight, a->weight);
   STORE(s.color, a->color);
-  STORE(s.grid, a->grid);
 #ifdef ELLIPSES
   STORE(s.sigma_x, a->sigma_x);
 #endif
@@ -45,9 +46,10 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 }
 
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
-INLINED void write_splat(__global Splat* splat, const SplatArrays* a, uint k, uint component) {
+INLINED void write_splat(__global Splat* splat, const SplatArrays* a, uint k) {
   splat->x = a->x[k];
   splat->y = a->y[k];
+  splat->component_and_grid = (uint)a->component_and_grid[k];
   splat->sigma = a->sigma[k];
   splat->radius = a->radius[k];
   splat->weight = a->weight[k];
@@ -61,7 +63,6 @@ INLINED void write_splat(__global Splat* splat, const SplatArrays* a, uint k, ui
   splat->own_color.rgb[1] = a->green[k];
   splat->own_color.rgb[2] = a->blue[k];
 #endif
-  splat->component_and_grid = component | ((uint)a->grid[k] << 16);
 }
 #endif
 
@@ -89,9 +90,9 @@ inline uint field_key(float value) {
 #endif
 // What extended precision needs beyond that (project_extended.cl).
 #ifdef EXTENDED_NUMBERS
-#define EXTENDED_PARAMETERS                                                       \
-  , const ExtendedParameters e, __global const ComponentColors *component_colors, \
-      __global const float *knots, __global ExtendedSplat *extended_splats
+#define EXTENDED_PARAMETERS                                                        \
+  , __global const ComponentColors *component_colors, __global const float *knots, \
+      __global ExtendedSplat *extended_splats
 #else
 #define EXTENDED_PARAMETERS
 #endif
@@ -99,7 +100,7 @@ inline uint field_key(float value) {
 // counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
 // splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
 // the 16 bits below them where depths are keys, and the identity permutation, too.
-__kernel void project(const ProjectParameters p, __global const Grid* grids,
+__kernel void project(const ProjectParameters p, const ExtendedParameters e,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
@@ -121,52 +122,53 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   const uint end = min(begin + p.block_particles, p.end_particle);
   const uint numbered = p.first_block + block;
   const uint first_slot = offsets[numbered];
-  uint slot = first_slot, bad_count = 0;
+  uint slot = first_slot, bad_count = 0, too_sharp_count = 0;
 #ifdef OUTPUT_KEYS
   const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
 #endif
   for (uint i = begin; i < end; i += LANES) {
-    SplatLanes lanes = project_lanes(i, end, p, &p.width_needs, grids, columns);
+    SplatLanes lanes = project_lanes(i, end, p, &p.width_needs, e, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
-    const INTEGER unclear = lanes.visible & lanes.unclear;
-    if (ANY(unclear)) lanes.visible &= are_within_limits(i, end, unclear, columns, p);
+    const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
+    if (ANY(unclear)) {
+      const INTEGER within = are_within_limits(i, end, unclear, columns, p);
+      lanes.visible &= within;
+      lanes.too_sharp &= within;
+    }
+    if (ANY(lanes.too_sharp)) too_sharp_count += count_true(lanes.too_sharp);
     if (!ANY(lanes.visible)) continue;
     SplatArrays found;
     spread(lanes, &found);
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
 #ifdef EXTENDED_NUMBERS
-      Splat rounded;
+      Splat splat;
       ExtendedSplat extended;
-      if (!extended_splat(i + k, p, e, grids, columns, component_colors, knots, &rounded,
-                          &extended)) {
+      if (!extended_splat(i + k, p, e, columns, component_colors, knots, &splat, &extended)) {
         continue;
       }
-      rounded.component_and_grid = p.component;
 #endif
 #ifdef ELLIPSES
 #ifdef EXTENDED_NUMBERS
-      const float x = rounded.x, radius_x = rounded.along_x.radius;
+      const float x = pixels_from_middle(splat.x, splat, p), radius_x = splat.along_x.radius;
 #else
-      const float x = found.x[k], radius_x = found.radius_x[k];
+      const float x = found.pixel_x[k], radius_x = found.radius_x[k];
 #endif
-      const int2 copies = copies_in_picture(x, radius_x, (float)grids[0].width, p.period);
+      const int2 copies = copies_in_picture(x, radius_x, p);
       for (int copy = copies.x; copy <= copies.y; ++copy) {
 #endif
-#ifdef EXTENDED_NUMBERS
 #ifdef OUTPUT_SPLATS
-        splats[slot] = rounded;
+#ifdef EXTENDED_NUMBERS
+        splats[slot] = splat;
         extended_splats[slot] = extended;
 #ifdef ELLIPSES
-        const Extended copied_x = copy_of(copy, extended, e);
-        splats[slot].x = high_part(extended_difference(copied_x, extended_of(e.crop_x)));
-        extended_splats[slot].x = pair_of(copied_x);
+        extended_splats[slot].x = pair_of(copy_of(copy, extended, e));
 #endif
+#else
+        write_splat(splats + slot, &found, k);
 #endif
-#elif defined(OUTPUT_SPLATS)
-      write_splat(splats + slot, &found, k, p.component);
 #ifdef ELLIPSES
-      splats[slot].x = found.x[k] + (float)copy * p.period;
+        splats[slot].x += steps_to_copy(splats[slot], copy, p);
 #endif
 #endif
 #ifdef OUTPUT_KEYS
@@ -187,4 +189,5 @@ __kernel void project(const ProjectParameters p, __global const Grid* grids,
   }
   counts[numbered].visible = slot - first_slot;
   counts[numbered].bad = bad_count;
+  counts[numbered].too_sharp = too_sharp_count;
 }

@@ -49,12 +49,18 @@ struct ProjectParameters {
   float far_away;  // z from which x and y are measured from the look-at point
   float right[3];
   float down[3];
-  float pixels_per_length;   // perspective: at z = 1
-  float center_x, center_y;  // of the whole picture, relative to the crop's corner
+  float pixels_per_length;  // perspective: at z = 1
+  // In pixels from the picture's middle, as all places (Grid): where the view direction meets the
+  // picture, what is in memory of the picture's own grid, and of which part particles are looked
+  // at.
+  float center_x, center_y;
+  float left, right_end, top, bottom;
+  float seen_left, seen_right_end, seen_top, seen_bottom;
   int perspective;
-  float period;        // pixels after which an equirectangular picture repeats itself
-  float eye_offset;    // of an eye beside the camera, in wide angles
-  float turn_axis[3];  // of its head: right, down, forward
+  float period;                     // pixels after which an equirectangular picture repeats itself
+  struct WideInteger period_units;  // the same in units of places
+  float eye_offset;                 // of an eye beside the camera, in wide angles
+  float turn_axis[3];               // of its head: right, down, forward
 
   // In single precision; where that cannot tell, keys decide.
   float near_limit;   // z below is left out
@@ -74,6 +80,12 @@ struct ProjectParameters {
   int octaves_in_need, has_bright_octaves;  // whose needs are not 0; whether any is of light
   struct WidthNeeds width_needs;
 
+  // sharp_places.cl, docs/accuracy.md
+  float place_error, place_error_per_pixel;  // roundings of places in single precision
+  float sharp_width;                         // sigma per slope and rounding below which they show
+  float too_sharp_width;  // sigma per slope below which the integers of a splat show
+  float most_fading;      // ln of the largest peak whose width single precision knows well enough
+
   int weight_model;
   float length_scale;  // keeps sigma^2 inside single precision in any unit
   float weight_scale;  // for masses its square root: it may be too small for a float
@@ -86,7 +98,8 @@ struct ProjectParameters {
   float coarse_sigma;    // smallest sigma in pixels of a coarse grid
   float coarse_peak;     // brighter splats stay on the picture's own grid
   int grid_count;
-  float guard;  // of the coarse grids, pixels
+  float beside;  // pixels of a coarse grid beside the picture, or the crop, that are in memory
+  float reach;   // sigmas beyond which nothing is drawn on any grid
   // With blurred grids, 2 l - 1 and 2 l are those of level l > 0, blurred afterwards by these
   // sigma^2 in pixels of their own. Without, grid g is level g.
   int blurred;
@@ -95,6 +108,7 @@ struct ProjectParameters {
   struct FieldScaling color;
   struct FieldScaling intensity;
 
+  int place_bits;  // as in Grid
   unsigned int component;
   unsigned int first_particle, end_particle;  // of the component, this launch
   unsigned int block_particles;               // per work-item
@@ -108,15 +122,18 @@ struct ProjectParameters {
 // What one block of particles became.
 struct BlockCounts {
   unsigned int visible, bad;
+  unsigned int too_sharp;  // for the frame's precision, of all in the whole picture
 };
 
-// Constants of the extended projection of one component, beside ProjectParameters.
+// Constants of the projection of one component in extended numbers, beside ProjectParameters:
+// of all splats at tolerance 0, of sharp ones at others.
 struct ExtendedParameters {
   float position[3][3];  // of the camera, relative to the component's origin: a sum of three
   struct FloatPair right[3], down[3], forward[3];
   struct FloatPair pixels_per_length;
-  struct FloatPair center_x, center_y;                // of the whole picture
-  float crop_x, crop_y;                               // the crop's corner in it
+  struct FloatPair center_x, center_y;  // of the whole picture
+  float middle_x, middle_y;             // from where splats' places count
+  struct FloatPair center_from_middle_x, center_from_middle_y;
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
   struct FloatPair weight_scale;  // as in ProjectParameters

@@ -1,85 +1,6 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
 // those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
 
-// Where the camera sees a particle.
-typedef struct ExtendedPlace {
-  Extended x, y;   // pixels of the whole picture
-  Extended scale;  // pixels per length of a width
-  int seen;
-#ifdef ELLIPSES
-  Extended cos_latitude;
-#endif
-} ExtendedPlace;
-
-inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
-  return extended_sum(extended_sum(extended_product(d[0], extended_pair(axis[0])),
-                                   extended_product(d[1], extended_pair(axis[1]))),
-                      extended_product(d[2], extended_pair(axis[2])));
-}
-
-inline void extended_offset(__global const float* position, const ExtendedParameters e,
-                            Extended* d) {
-  for (int axis = 0; axis < 3; ++axis) {
-    d[axis] = extended_difference(extended_of(position[axis]), extended_of(e.position[axis][0]));
-    d[axis] = extended_difference(d[axis], extended_of(e.position[axis][1]));
-    d[axis] = extended_difference(d[axis], extended_of(e.position[axis][2]));
-  }
-}
-
-#ifdef WIDE_ANGLE
-// n with 2^n <= the largest of the three < 2^(n + 1), in the range of extended_power_of_two().
-inline int exponent_of_largest(const Extended* d) {
-  const float largest =
-      max(fabs(high_part(d[0])), max(fabs(high_part(d[1])), fabs(high_part(d[2]))));
-  return clamp((as_int(largest) >> 23) - 127, -126, 126);
-}
-
-// In units of a power of two near the distance, so that no length's unit matters.
-inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
-                                    const ExtendedParameters e) {
-  Extended d[3], v[3];
-  extended_offset(position, e, d);
-  const int exponent = exponent_of_largest(d);
-  const float per_unit = extended_power_of_two(-exponent);
-  for (int axis = 0; axis < 3; ++axis)
-    d[axis] = extended_scaled(d[axis], per_unit);
-  v[0] = extended_dot(d, e.right);
-  v[1] = extended_dot(d, e.down);
-  v[2] = extended_dot(d, e.forward);
-  const ExtendedWideAngle seen =
-      extended_wide_angle(v, extended_scaled(extended_pair(e.eye_offset), per_unit), e);
-  ExtendedPlace place;
-  place.x = extended_sum(extended_pair(e.center_x), seen.x);
-  place.y = extended_sum(extended_pair(e.center_y), seen.y);
-  place.scale = extended_scaled(seen.scale, per_unit);
-  place.seen = seen.seen;
-#ifdef ELLIPSES
-  place.cos_latitude = seen.cos_latitude;
-#endif
-  return place;
-}
-#else
-inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
-                                    const ExtendedParameters e) {
-  Extended d[3];
-  extended_offset(position, e, d);
-  ExtendedPlace place;
-  place.seen = 1;
-  place.scale = extended_pair(e.pixels_per_length);
-  if (p.perspective) {
-    // Depths have been compared with the limits as keys, and may be 0 here.
-    Extended depth = extended_dot(d, e.forward);
-    if (high_part(depth) < p.least_depth) depth = extended_of(p.least_depth);
-    place.scale = extended_quotient(place.scale, depth);
-  }
-  place.x = extended_sum(extended_pair(e.center_x),
-                         extended_product(extended_dot(d, e.right), place.scale));
-  place.y = extended_sum(extended_pair(e.center_y),
-                         extended_product(extended_dot(d, e.down), place.scale));
-  return place;
-}
-#endif
-
 // In [0, 1] (frame.h, ScalarMap).
 inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
                                     FloatPair inverse_range) {
@@ -169,7 +90,7 @@ inline float extended_extent(float peak, const ExtendedParameters e) {
   return sqrt(log(max(peak * e.inverse_share, 1.0f))) + 1e-3f;
 }
 
-// Tiles are chosen by rounded numbers: with room for that, `far` pixels from the crop's corner.
+// Tiles are chosen by rounded numbers: with room for that, `far` pixels from the picture's middle.
 inline float rounded_radius(float radius, float far) {
   return radius * 1.000001f + 2e-7f * far;
 }
@@ -189,6 +110,17 @@ inline float radius_of(Extended sigma, float extent, const ExtendedParameters e)
 #endif
 }
 
+// As splat_place() does for lanes, well enough to choose tiles by.
+inline void put_in_units(float x, float y, float farthest, const ProjectParameters p,
+                         Splat* splat) {
+  const int exponent = (as_int(max(max(fabs(x), fabs(y)), farthest)) >> 23) - 127;
+  const int coarser = max(exponent + p.place_bits - 29, 0);
+  const float units_per_pixel = as_float((127 + p.place_bits - coarser) << 23);
+  splat->x = (int)(x * units_per_pixel);
+  splat->y = (int)(y * units_per_pixel);
+  splat->component_and_grid = p.component | ((uint)coarser << 24);
+}
+
 // Places and widths; `peak` is the largest of E w and A w.
 inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak,
                            const ProjectParameters p, const ExtendedParameters e, Splat* splat,
@@ -206,10 +138,10 @@ inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak
   extended->sigma = pair_of(sigma);
   extended->cut = pair_of(extended_product(extended_pair(e.kernel_cut), sigma));
   extended->radius = radius_of(sigma, extent, e);
-  splat->x = high_part(extended_difference(place.x, extended_of(e.crop_x)));
-  splat->y = high_part(extended_difference(place.y, extended_of(e.crop_y)));
+  const float x = high_part(extended_difference(place.x, extended_of(e.middle_x)));
+  const float y = high_part(extended_difference(place.y, extended_of(e.middle_y)));
   splat->sigma = high_part(sigma);
-  const float far = fabs(splat->x) + fabs(splat->y);
+  const float far = fabs(x) + fabs(y);
   splat->radius = rounded_radius(extended->radius, far);
 #ifdef ELLIPSES
   extended->along_x.sigma = pair_of(sigma_x);
@@ -217,13 +149,15 @@ inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak
   splat->along_x.sigma = high_part(sigma_x);
   // Copies lie up to four periods farther.
   splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
+  put_in_units(x, y, splat->along_x.radius + max(-p.left, p.right_end), p, splat);
+#else
+  put_in_units(x, y, 0.0f, p, splat);
 #endif
 }
 
 // False if the particle is not in the picture.
 inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParameters e,
-                          __global const Grid* grids, const Columns columns,
-                          __global const ComponentColors* component_colors,
+                          const Columns columns, __global const ComponentColors* component_colors,
                           __global const float* knots, Splat* splat, ExtendedSplat* extended) {
   const ExtendedPlace place = extended_place(columns.positions + (size_t)i * 3, p, e);
   if (!place.seen) return 0;
@@ -274,11 +208,11 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
   splat->weight = high_part(weight);
   splat->color = high_part(position);
   extended_shape(place, sigma, peak, p, e, splat, extended);
-  const float picture_height = (float)grids[0].height;
-  int in_picture = splat->y + splat->radius >= 0.0f && splat->y - splat->radius <= picture_height;
+  const float x = pixels_from_middle(splat->x, *splat, p);
+  const float y = pixels_from_middle(splat->y, *splat, p);
+  int in_picture = y + splat->radius >= p.top && y - splat->radius <= p.bottom;
 #ifndef ELLIPSES  // of these, copies beside the picture may reach it
-  const float picture_width = (float)grids[0].width;
-  in_picture &= splat->x + splat->radius >= 0.0f && splat->x - splat->radius <= picture_width;
+  in_picture &= x + splat->radius >= p.left && x - splat->radius <= p.right_end;
 #endif
   return in_picture;
 }

@@ -4,8 +4,12 @@
 typedef struct SplatLanes {
   INTEGER visible, bad;
   INTEGER unclear;  // of the visible: those of which depth keys decide whether they are
+  INTEGER too_sharp;
   INTEGER grid;
-  VALUE x, y, sigma, radius, weight, color;
+  VALUE x, y;  // pixels of the grid from its middle
+  PlaceLanes place;
+  INTEGER component_and_grid;  // as in Splat
+  VALUE sigma, radius, weight, color;
 #ifdef ELLIPSES
   VALUE sigma_x, radius_x;
 #endif
@@ -38,17 +42,17 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   return widths;
 }
 
-// Rejection before fields are scaled: seven sigma reach beyond the truncation of any
-// amplitude that single precision can hold against the smallest tolerance.
-INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths, float width,
-                            float height) {
-  const VALUE reach = 7.0f * widths.sigma + 2.0f;
-  INTEGER seen = (view.y + reach >= 0.0f) & (view.y - reach <= height);
+// Rejection before fields are scaled. It never leaves out what a grid would show: a crop has the
+// picture's splats.
+INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths,
+                            const ProjectParameters p) {
+  const VALUE reach = p.reach * widths.sigma + 2.0f;
+  INTEGER seen = (view.y + reach >= p.seen_top) & (view.y - reach <= p.seen_bottom);
 #ifdef WIDE_ANGLE
   seen &= view.seen;
 #endif
 #ifndef ELLIPSES  // of these, copies beside the picture may reach it
-  seen &= view.x + reach >= 0.0f & view.x - reach <= width;
+  seen &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
 #endif
   return seen;
 }
@@ -168,21 +172,24 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * widths.sigma_x + cut_edge
                                     : extent * sampled.sigma_x + edge_x;
 #endif
-  const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s->grid > 0);
-  s->x = view.x * shrink + guard;
-  s->y = view.y * shrink + guard;
+  s->x = view.x * shrink;
+  s->y = view.y * shrink;
+  VALUE farthest = max(fabs(s->x), fabs(s->y));
+#ifdef ELLIPSES
+  farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
+#endif
+  s->place = splat_place(s->x, view.x_low * shrink, s->y, view.y_low * shrink, farthest, p);
+  s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
 }
 
-// Whether the square that is drawn reaches its grid.
-INLINED INTEGER reaches_grid(const SplatLanes s, float width, float height,
-                             const ProjectParameters p) {
+// Whether the square that is drawn reaches what is in memory of its grid, or nearly.
+INLINED INTEGER reaches_grid(const SplatLanes s, const ProjectParameters p) {
   const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
-  const VALUE guard = choose((VALUE)(0.0f), (VALUE)(p.guard), s.grid > 0);
-  INTEGER reaches =
-      s.y + s.radius >= 0.0f & s.y - s.radius <= height * shrink + 2.0f * guard + 1.0f;
+  const VALUE room = s.radius + choose((VALUE)(0.0f), (VALUE)(p.beside), s.grid > 0);
+  INTEGER reaches = s.y + room >= p.top * shrink & s.y - room <= p.bottom * shrink;
 #ifndef ELLIPSES
-  reaches &= s.x + s.radius >= 0.0f & s.x - s.radius <= width * shrink + 2.0f * guard + 1.0f;
+  reaches &= s.x + room >= p.left * shrink & s.x - room <= p.right_end * shrink;
 #endif
   return reaches;
 }
@@ -205,18 +212,19 @@ INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER b
 #ifdef WIDE_ANGLE
 // Directions in single precision are known to 1e-6, beside an eye that is nearly as far away as
 // the particle to 5e-4; near a pole, or behind a fisheye, that is as wide as it magnifies.
-INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
-                                     float height, const ProjectParameters p) {
+INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
+                                     const ProjectParameters p) {
   const float focal = p.pixels_per_length;
   const VALUE reach =
       10.0f * fabs(widths.sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
-  INTEGER off = view.y + reach<0.0f | view.y - reach> height;
+  INTEGER off = view.y + reach<p.top | view.y - reach> p.bottom;
 #ifdef ELLIPSES
   const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
                         1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
-  off |= ceil((-reach_x - view.x) / p.period) > floor((width + reach_x - view.x) / p.period);
+  off |= ceil((p.left - reach_x - view.x) / p.period) >
+         floor((p.right_end + reach_x - view.x) / p.period);
 #else
-  off |= view.x + reach<0.0f | view.x - reach> width;
+  off |= view.x + reach<p.left | view.x - reach> p.right_end;
 #endif
 #ifdef PROJECTION_FISHEYE
   const VALUE x = view.x - p.center_x, y = view.y - p.center_y;
@@ -225,14 +233,14 @@ INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widt
   return off == 0;
 }
 #else
-INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths, float width,
-                                     float height, const ProjectParameters p) {
+INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
+                                     const ProjectParameters p) {
   const Vectors d = view.offset;
   const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
   const VALUE reach =
       10.0f * fabs(widths.sigma) + 4.0f + rounding + 1e-4f * (fabs(view.x) + fabs(view.y));
-  const INTEGER off =
-      view.x + reach<0.0f | view.x - reach> width | view.y + reach<0.0f | view.y - reach> height;
+  const INTEGER off = view.x + reach<p.left | view.x - reach> p.right_end |
+                      view.y + reach<p.top | view.y - reach> p.bottom;
   return off == 0;
 }
 #endif
@@ -240,37 +248,46 @@ INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widt
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
 INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
-                                 const WidthNeeds* needs, __global const Grid* grids,
+                                 const WidthNeeds* needs, const ExtendedParameters e,
                                  const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
-  const ViewLanes view = view_particles(particles, p);
+  ViewLanes view = view_particles(particles, p);
   const INTEGER good = are_good(particles, view.offset);
   s.sort_field = particles.sort_field;
   s.bad = particles.exists & (good == 0);
-  const WidthLanes widths = find_widths(particles.h, view, p);
-  const float width = (float)grids[0].width, height = (float)grids[0].height;
+  s.too_sharp = (INTEGER)(0);
+  WidthLanes widths = find_widths(particles.h, view, p);
 #ifdef EXTENDED_NUMBERS
-  s.visible = particles.exists & good & may_be_seen_extended(view, widths, width, height, p);
+  s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);
   s.unclear = s.visible;
   return s;
 #else
   const LimitLanes limits = compare_with_limits(view, widths.h, p);
   s.unclear = limits.unclear;
-  s.visible =
-      particles.exists & good & limits.may_be_within & may_be_seen(view, widths, width, height);
+  s.visible = particles.exists & good & limits.may_be_within & may_be_seen(view, widths, p);
   if (!ANY(s.visible)) return s;
 
   VALUE weight =
       column_weight(particles.weight, widths.h, p) * normalized(particles.intensity, p.intensity);
   if (p.min_radius > 0.0f) weight *= widths.sigma_true / widths.sigma;
   const BrightnessLanes brightness = find_brightness(particles, widths, weight, needs, p);
+  const INTEGER sharp = s.visible & are_sharp(view, widths.sigma, brightness.crowd_peak, p);
+  if (ANY(sharp)) {
+    s.too_sharp = sharp & are_too_sharp(view, widths.sigma, brightness.crowd_peak, p);
+#ifdef WIDE_ANGLE
+    view = sharp_view(view, sharp, i, end, columns, p, e);
+#else
+    view = sharp_view(view, sharp, particles.position, p, e);
+#endif
+    widths = find_widths(particles.h, view, p);
+  }
   const SampledLanes sampled = choose_sampling(widths, brightness, weight, p);
   const VALUE extent = p.kernel_cut > 0.0f
                            ? (VALUE)(p.kernel_cut)
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
-  s.visible &= reaches_grid(s, width, height, p);
+  s.visible &= reaches_grid(s, p);
   s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);

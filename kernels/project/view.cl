@@ -20,11 +20,16 @@ inline VALUE squared_distance(Vectors d, float inverse_unit) {
   return (x * x + y * y) + z * z;
 }
 
+inline VALUE sum_of_sizes(Vectors d) {
+  return fabs(d.x) + fabs(d.y) + fabs(d.z);
+}
+
 typedef struct ViewLanes {
-  Vectors offset;  // from the camera, in lengths
-  VALUE depth;     // along the view direction; in wide angles the distance
-  VALUE x, y;      // pixels of the crop
-  VALUE scale;     // pixels per length of a width
+  Vectors offset;            // from the camera, in lengths
+  VALUE depth;               // along the view direction; in wide angles the distance
+  VALUE x, x_low, y, y_low;  // pixels from the picture's middle
+  VALUE scale;               // pixels per length of a width
+  VALUE place_error;         // of x and y, in roundings: 2^-24 pixels (docs/accuracy.md)
 #ifdef WIDE_ANGLE
   INTEGER seen;
   VALUE cos_latitude;  // equirectangular
@@ -45,6 +50,9 @@ INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectPar
   view.scale = point.scale;
   view.seen = point.seen;
   view.cos_latitude = point.cos_latitude;
+  view.x_low = view.y_low = (VALUE)(0.0f);
+  view.place_error = 10.0f * p.pixels_per_length * point.magnification +
+                     p.place_error_per_pixel * max(fabs(view.x), fabs(view.y)) + p.place_error;
   return view;
 }
 #else
@@ -63,6 +71,10 @@ INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectPar
   const VALUE down = choose(along(d, p.down), along(l, p.down), far_away);
   view.x = p.center_x + right * view.scale;
   view.y = p.center_y + down * view.scale;
+  view.x_low = view.y_low = (VALUE)(0.0f);
+  const VALUE across = choose(sum_of_sizes(d), sum_of_sizes(l), far_away);
+  view.place_error = 6.0f * across * view.scale +
+                     p.place_error_per_pixel * max(fabs(view.x), fabs(view.y)) + p.place_error;
   return view;
 }
 #endif
@@ -75,7 +87,7 @@ typedef struct LimitLanes {
 
 INLINED LimitLanes compare_with_limits(const ViewLanes view, VALUE h, const ProjectParameters p) {
   const Vectors d = view.offset;
-  const VALUE rounding = 2e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) + p.depth_rounding;
+  const VALUE rounding = 2e-6f * sum_of_sizes(d) + p.depth_rounding;
   const VALUE nearest =
       p.near_factor > 0.0f ? max(p.near_factor * h, (VALUE)(p.near_limit)) : (VALUE)(p.near_limit);
   const VALUE inside = min(view.depth - nearest, p.far_limit - view.depth);

@@ -2,9 +2,10 @@
 // VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
 
 typedef struct WideAnglePoint {
-  VALUE x, y;          // pixels from the middle of the picture
-  VALUE scale;         // pixels per length of a cloud's width
-  VALUE cos_latitude;  // equirectangular
+  VALUE x, y;           // pixels from the middle of the picture
+  VALUE scale;          // pixels per length of a cloud's width
+  VALUE cos_latitude;   // equirectangular
+  VALUE magnification;  // of directions in the picture, but for a panorama's along x
   INTEGER seen;
 } WideAnglePoint;
 
@@ -37,12 +38,13 @@ inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distan
 #endif
   const float focal = p.pixels_per_length;
   point.scale = focal / distance;
-  point.cos_latitude = (VALUE)(1.0f);
+  point.cos_latitude = point.magnification = (VALUE)(1.0f);
 #if defined(PROJECTION_FISHEYE)
   const VALUE sine_off_axis = sqrt(x * x + y * y);
   const VALUE angle = atan2(sine_off_axis, z);
   const INTEGER off_axis = sine_off_axis > 0.0f;
   const VALUE per_sine = focal * angle / max(sine_off_axis, (VALUE)(FLT_MIN));
+  point.magnification = max(angle / max(sine_off_axis, (VALUE)(FLT_MIN)), (VALUE)(1.0f));
   point.x = choose(focal * angle, x * per_sine, off_axis);
   point.y = choose((VALUE)(0.0f), y * per_sine, off_axis);
   // A cloud keeps its solid angle; right behind the camera it grows no wider.
@@ -59,6 +61,7 @@ inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distan
   point.x = focal * x / z;
   point.y = focal * y / z;
   point.scale /= cosine * sqrt(cosine);
+  point.magnification = 1.0f / max(z * z, (VALUE)(FLT_MIN));
   point.seen &= z > 0.0f;
 #endif
   return point;
@@ -73,10 +76,11 @@ inline VALUE sigma_along_x(VALUE sigma, VALUE cos_latitude, const ProjectParamet
   return p.pixels_per_length / g;
 }
 
-// Copies of a splat a period to the left and right that reach a picture of this width: first
-// and last. The fourth is beyond what any cloud has light for.
-inline int2 copies_in_picture(float x, float radius, float width, float period) {
-  const float first = ceil((-radius - x) / period), last = floor((width + radius - x) / period);
+// Copies of a splat a period to the left and right that reach what is drawn: first and last. The
+// fourth is beyond what any cloud has light for.
+inline int2 copies_in_picture(float x, float radius, const ProjectParameters p) {
+  const float first = ceil((p.left - radius - x) / p.period);
+  const float last = floor((p.right_end + radius - x) / p.period);
   return (int2)((int)clamp(first, -3.0f, 4.0f), (int)clamp(last, -4.0f, 3.0f));
 }
 #endif

@@ -17,7 +17,7 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
   const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
   if (x >= p.width) return;
   const Grid grid = grids[0];
-  __global const float* pixels = planes + first_float(grid) + (size_t)y * grid.stride + x;
+  __global const float* pixels = planes + pixel_at(grid, 0, p.crop_x + x, p.crop_y + y);
   float light[4][8];
   float8 transmitted = (float8)(0.0f);
   for (int c = 0; c < 3; ++c) {

@@ -3,10 +3,16 @@
 #ifndef SPLOTCHCL_RESOLVE_H
 #define SPLOTCHCL_RESOLVE_H
 
+// Pixels of a grid: those from right_end and bottom on are no part of it.
+struct GridPart {
+  int left, top, right_end, bottom;
+};
+
 // One axis of the blur of a grid: weights[half_width + k] for the pixel k beside.
 #define MOST_BLUR_WEIGHTS 64
 struct BlurParameters {
   unsigned int source, target;  // grids of one level
+  struct GridPart part;         // of the target, that is wanted
   int half_width;               // pixels
   int add;                      // to what the target holds, else instead of it
   float weights[MOST_BLUR_WEIGHTS];
@@ -15,13 +21,15 @@ struct BlurParameters {
 // Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter).
 struct RefineParameters {
   unsigned int coarse, fine;  // grids
+  struct GridPart part;       // of the finer grid, that is wanted
   int add;                    // to what the finer grid holds, else instead of it
   float weights[10];
 };
 
 struct ResolveParameters {
-  int width, height;  // pixels
-  float source[3];    // q of the proportional plan
+  int width, height;   // pixels
+  int crop_x, crop_y;  // in the picture
+  float source[3];     // q of the proportional plan
   float background[3];
   int background_stride;  // pixels in a row of the background's picture; 0: there is none
   // Of a fisheye picture, in half pixels: twice the crop's corner less the picture's size, and
@@ -30,6 +38,7 @@ struct ResolveParameters {
 };
 
 #ifdef __OPENCL_VERSION__
+typedef struct GridPart GridPart;
 typedef struct BlurParameters BlurParameters;
 typedef struct RefineParameters RefineParameters;
 typedef struct ResolveParameters ResolveParameters;

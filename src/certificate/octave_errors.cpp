@@ -75,7 +75,10 @@ EndingWindow window_of(int octave, int level, int side, const FramePlan& plan) {
 OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan)
     : octave_(std::min(cells.octave, width_octaves - 1)),
       level_(cells.level),
-      guard_(cells.guard),
+      left_(cells.left),
+      top_(cells.top),
+      crop_x_(frame.crop.x),
+      crop_y_(frame.crop.y),
       ending_side_(cells.endings.side),
       peak_side_(cells.peaks.side),
       ending_(ending_of(octave_, frame, plan)),
@@ -86,8 +89,9 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
 
 CellRange OctaveErrors::cells_of(const PixelBlock& block, int side) const {
   // Both are whole numbers of pixels of the grid or of the picture: shifts round down.
-  const auto cell = [&](int pixel) { return ((pixel >> level_) + guard_) / side; };
-  return {cell(block.x0), cell(block.x1 - 1) + 1, cell(block.y0), cell(block.y1 - 1) + 1};
+  const auto column = [&](int x) { return (((x + crop_x_) >> level_) - left_) / side; };
+  const auto row = [&](int y) { return (((y + crop_y_) >> level_) - top_) / side; };
+  return {column(block.x0), column(block.x1 - 1) + 1, row(block.y0), row(block.y1 - 1) + 1};
 }
 
 double OctaveErrors::ends_around(const CellRange& cell) const {

@@ -48,7 +48,9 @@ class OctaveErrors {
   double even_around(const CellRange& cell) const;
   double peaks_around(int x, int y) const;
 
-  int octave_, level_, guard_;
+  int octave_, level_;
+  int left_, top_;       // as in PeakCells
+  int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;
   double ending_, peak_error_;
   EndingWindow window_;

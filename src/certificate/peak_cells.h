@@ -14,9 +14,9 @@ struct CellSums {
 // Splats of one octave of widths on one grid of a drawn frame, in cells about as wide as they
 // are. All splats that were drawn are in it, each once.
 struct PeakCells {
-  int level = 0;   // the grid's pixels are 2^level of the picture's wide
-  int guard = 0;   // pixels of the grid around the picture
-  int octave = 0;  // sigma in the picture's pixels: 2^(octave - 1) to twice that; 0: below 1
+  int level = 0;          // the grid's pixels are 2^level of the picture's wide
+  int left = 0, top = 0;  // of the cells, in pixels of the grid from the picture's corner
+  int octave = 0;         // sigma in the picture's pixels: 2^(octave - 1) to twice that; 0: below 1
   // Of the splats' peaks: the largest channel of light or optical depth; below a pixel its flux.
   // Of bright splats on the picture's own grid only what a splat may be without being bright,
   // since the errors of bright ones are relative to what is there (docs/accuracy.md).

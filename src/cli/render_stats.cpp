@@ -62,6 +62,7 @@ Json to_json(const RenderReport& report) {
           {"renderer", report.reference ? "reference" : "device"},
           {"device", report.stats.device},
           {"particles", particles_to_json(report.stats)},
+          {"drawn_most_exactly", report.stats.drawn_most_exactly},
           {"tile_entries", report.stats.tile_entries},
           {"device_bytes", report.stats.device_bytes},
           {"seconds", seconds_to_json(report)},

@@ -43,8 +43,10 @@ KeyedSplats Pipeline::project_all() {
 // Order does not matter: particles pass through in chunks, and the working memory is a
 // chunk's, however many there are.
 Planes Pipeline::draw_sums(Planes planes) {
-  for (const ParticleChunk& chunk : particle_chunks())
+  for (const ParticleChunk& chunk : particle_chunks()) {
     planes = add_chunk(chunk, std::move(planes));
+    if (counts_.too_sharp > 0) break;
+  }
   return planes;
 }
 
@@ -55,6 +57,7 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   const ParticleCounts particles = projector_.count(blocks);
   counts_.visible += particles.visible;
   counts_.bad += particles.bad;
+  counts_.too_sharp += particles.too_sharp;
   return planes;
 }
 
@@ -63,6 +66,8 @@ Planes Pipeline::draw_ordered(Planes planes) {
   KeyedSplats keyed = project_all();
   counts_.visible = keyed.particles.visible;
   counts_.bad = keyed.particles.bad;
+  counts_.too_sharp = keyed.particles.too_sharp;
+  if (counts_.too_sharp > 0) return planes;
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   for (const SplatChunk& chunk : splat_chunks(sorted.count, context_.device.traits))
     planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));

@@ -20,6 +20,7 @@ namespace splotchcl {
 struct DrawCounts {
   std::uint64_t particles = 0;  // in the components
   std::uint64_t visible = 0, bad = 0;
+  std::uint64_t too_sharp = 0;     // for the plan's precision
   std::uint64_t tile_entries = 0;  // splats summed over tiles
 };
 
@@ -33,6 +34,7 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
+  // Of no use where counts() tells of particles that are too sharp: it ends early then.
   Image draw();
   // Of all splats that have been drawn.
   std::vector<PeakCells> peak_cells() const { return certifier_.cells(); }

@@ -55,6 +55,12 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
   check.errors = certificate.errors;
 }
 
+// What is known of splats once they are drawn.
+struct DrawnSplats {
+  std::vector<PeakCells> cells;
+  bool are_too_sharp = false;  // some, for the plan's precision
+};
+
 }  // namespace
 
 struct Renderer::State {
@@ -70,7 +76,7 @@ struct Renderer::State {
 
   Image render(const Frame& frame, const FramePlan& plan);
   // Draws, and what was drawn.
-  Image draw(const Frame& frame, const FramePlan& plan, std::vector<PeakCells>& cells);
+  Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
 
   DeviceContext device;
   ParticleStore particles;
@@ -91,13 +97,18 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   FramePlan drawn = plan;
   Image image;
   while (true) {
-    std::vector<PeakCells> cells;
-    image = draw(frame, drawn, cells);
+    DrawnSplats splats;
+    image = draw(frame, drawn, splats);
+    if (splats.are_too_sharp) {
+      stats.drawn_most_exactly = true;
+      drawn = extend_plan(frame, drawn);
+      continue;
+    }
     if (drawn.is_extended()) {
       stats.check.errors.clear();
       break;
     }
-    const Certificate certificate = certify(cells, image, frame, drawn);
+    const Certificate certificate = certify(splats.cells, image, frame, drawn);
     note_check(certificate, stats.check);
     if (certificate.keeps_promise()) break;
     // What converges does so in a step or two.
@@ -116,11 +127,11 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   return image;
 }
 
-Image Renderer::State::draw(const Frame& frame, const FramePlan& plan,
-                            std::vector<PeakCells>& cells) {
+Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
   Pipeline pipeline(device, particles, frame, plan);
   Image image = pipeline.draw();
-  cells = pipeline.peak_cells();
+  splats.are_too_sharp = pipeline.counts().too_sharp > 0;
+  if (!splats.are_too_sharp) splats.cells = pipeline.peak_cells();
   device.queue.finish();
   stats.particles = pipeline.counts().particles;
   stats.drawn_particles = pipeline.counts().visible;

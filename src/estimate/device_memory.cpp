@@ -18,7 +18,7 @@ class FrameBuffers {
         plan_(plan),
         specialization_(specialization),
         traits_(traits),
-        layout_(make_picture_layout(plan, specialization)) {}
+        layout_(make_picture_layout(frame, plan, specialization)) {}
 
   std::uint64_t planes() const { return layout_.plane_floats * sizeof(float); }
 
@@ -57,7 +57,7 @@ class FrameBuffers {
     for (std::size_t g = 1; g < layout_.grids.size(); ++g) {
       const shared::Grid& coarse = layout_.grids[g];
       const std::uint64_t width = std::max(coarse.stride + 8, layout_.grids[g - 1].stride);
-      largest = std::max(largest, width * static_cast<std::uint64_t>(coarse.height));
+      largest = std::max(largest, width * (coarse.plane_size / coarse.stride));
     }
     return largest * specialization_.planes() * sizeof(float);
   }

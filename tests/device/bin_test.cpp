@@ -181,11 +181,14 @@ TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
     const std::uint32_t g = found == level.end() ? 0 : found->second;
     const shared::Grid& grid = layout.grids[g];
     const Drawn drawn = on_grid(splat, g, stages);
-    for (int y = 0; y < grid.height; ++y) {
-      for (int x = 0; x < grid.width; ++x) {
+    // Of a guard band all but its outermost pixels is looked at, and in memory.
+    const int end_x = std::min(grid.width, grid.first_x + grid.tiles_x * tile_width);
+    const int end_y = std::min(grid.height, grid.first_y + grid.tiles_y * tile_height);
+    for (int y = grid.first_y; y < end_y; ++y) {
+      for (int x = grid.first_x; x < end_x; ++x) {
         if (contribution(drawn, x, y) <= smallest) continue;
         ++pixels_checked;
-        const int tx = x / tile_width, ty = y / tile_height;
+        const int tx = (x - grid.first_x) / tile_width, ty = (y - grid.first_y) / tile_height;
         const std::uint32_t tile =
             grid.first_tile + static_cast<std::uint32_t>(ty * grid.tiles_x + tx);
         const auto begin = lists.entries.begin() + lists.starts[tile];
@@ -196,8 +199,8 @@ TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
                               << contribution(drawn, x, y) << " to pixel " << x << ", " << y
                               << " of grid " << g;
         // And its disc reaches the pixel's centre.
-        ASSERT_LE(std::abs(x + 0.5 - tx * tile_width - entry->x), entry->radius);
-        ASSERT_LE(std::abs(y + 0.5 - ty * tile_height - entry->y), entry->radius);
+        ASSERT_LE(std::abs(x - grid.first_x + 0.5 - tx * tile_width - entry->x), entry->radius);
+        ASSERT_LE(std::abs(y - grid.first_y + 0.5 - ty * tile_height - entry->y), entry->radius);
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "device/pipeline.h"
 #include "device/scenes.h"
 #include "splotchcl/image.h"
 #include "splotchcl/renderer.h"
@@ -33,6 +34,19 @@ class PictureTest : public testing::Test {
  private:
   static inline std::unique_ptr<Renderer> rows_, groups_;
 };
+
+// Drawn with the frame's first plan, whatever a check of the picture would say.
+inline Image draw_once(DeviceContext& device, const Frame& frame, CompositeShape shape) {
+  device.traits.rows = shape == CompositeShape::rows;
+  ParticleStore particles(device);
+  particles.begin_frame();
+  const FramePlan plan = make_plan(frame);
+  Pipeline pipeline(device, particles, frame, plan);
+  Image image = pipeline.draw();
+  device.queue.finish();
+  particles.end_frame();
+  return image;
+}
 
 // The largest |a - b| / max(1, |b|) over pixels and colours. Two pictures that each keep the
 // tolerance differ by at most twice as much.

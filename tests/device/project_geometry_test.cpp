@@ -55,7 +55,6 @@ Frame seen(const Vec3& center, double radius, double field_of_view, const Vec3& 
 // A splat as the oracle projects it, and what its rounding errors follow from.
 struct Expected {
   reference::Splat splat;
-  double x, y;        // relative to the crop
   double scale;       // pixels per length at the splat's depth
   double distance;    // from the camera
   double slant;       // distance / z: 0 in orthographic projection
@@ -64,7 +63,7 @@ struct Expected {
 
 Expected expected_of(const reference::Splat& splat, const Frame& frame) {
   const DrawnComponent& component = frame.components.front();
-  Expected expected{splat, splat.x - frame.crop.x, splat.y - frame.crop.y, 0, 0, 0, 0};
+  Expected expected{splat, 0, 0, 0, 0};
   double squared = 0, z = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double from_origin = frame.camera.position.a[axis] - component.particles.origin.a[axis];
@@ -86,12 +85,13 @@ Expected expected_of(const reference::Splat& splat, const Frame& frame) {
 //   dot      of the axis, the product and two sums: with those of d six, of |d| at most
 //   scale    z errs like dot, by six of |d| / z; focal length 1, division 5 (2.5 ulp)
 //   x        the product 1, the sum and the centre 1 each
-// and one each for adding the guard of a coarse grid and for taking the crop off the centre.
-double center_bound(const Expected& e, double x, double center, double guard) {
+// and a whole unit of the integers that places are (of `unit_pixels`).
+double center_bound(const Expected& e, double x, double center, double unit_pixels) {
   const double offset = x - center;
   const double lost_digits = 2 * std::sqrt(3.0) * unit * e.coordinate;
   return unit * (6 * e.scale * (e.distance + lost_digits) + (6 * e.slant + 7) * std::abs(offset) +
-                 2 * (std::abs(x) + std::abs(center)) + std::abs(x) + guard);
+                 2 * (std::abs(x) + std::abs(center)) + std::abs(x)) +
+         unit_pixels;
 }
 
 // Roundings of sigma: those of the scale, of h's and kernel's factors and products (5), and
@@ -108,7 +108,7 @@ double stored_sigma(double sigma, const FramePlan& plan) {
 
 class ProjectGeometry : public StageTest, public testing::WithParamInterface<bool> {
  protected:
-  // Calls check(expected, splat, layout, grid) for every splat.
+  // Calls check(expected, splat, its place, plan) for every splat.
   template <class Check>
   void for_each_splat(const Frame& frame, Check check) const {
     Stages stages(device(), frame, GetParam());
@@ -118,30 +118,43 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
     ASSERT_EQ(splats.size(), oracle.size()) << "every particle should be in view";
     for (std::size_t i = 0; i < splats.size(); ++i) {
       ASSERT_EQ(identity_of(splats[i]), oracle[i].particle);
-      const std::uint32_t grid = splats[i].component_and_grid >> 16;
-      check(expected_of(oracle[i], frame), splats[i], stages.plan(), grid);
+      const PicturePlace place = place_of(splats[i], stages.layout(), stages.plan());
+      check(expected_of(oracle[i], frame), splats[i], place, stages.plan());
       if (HasFatalFailure()) return;
     }
+  }
+
+  // How far from the oracle's centre a narrow splat in the picture lies at most, in its grid's
+  // pixels.
+  double farthest_narrow_center(const Frame& frame) const {
+    double farthest = 0;
+    int count = 0;
+    for_each_splat(frame, [&](const Expected& e, const shared::Splat&, const PicturePlace& place,
+                              const FramePlan&) {
+      const bool is_inside =
+          place.x >= 0 && place.x <= frame.width && place.y >= 0 && place.y <= frame.height;
+      if (e.splat.sigma > 3 || !is_inside) return;
+      ++count;
+      const double dx = std::abs(place.x - e.splat.x), dy = std::abs(place.y - e.splat.y);
+      farthest = std::max({farthest, dx / place.pixel, dy / place.pixel});
+    });
+    EXPECT_GT(count, 100);
+    return farthest;
   }
 
   // The largest distance of a centre from the oracle's, in pixels.
   double expect_centers_and_widths(const Frame& frame) const {
     double farthest = 0;
-    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat, const FramePlan& plan,
-                              std::uint32_t grid) {
-      const double pixel = std::ldexp(1.0, plan.pyramid.grids[grid].level);
-      const double guard = pixel * plan.pyramid.grids[grid].guard;
-      const double x = pixel * static_cast<double>(splat.x) - guard;
-      const double y = pixel * static_cast<double>(splat.y) - guard;
-      const double error = std::max(std::abs(x - e.x), std::abs(y - e.y));
-      farthest = std::max(farthest, error);
-      ASSERT_LE(std::abs(x - e.x),
-                center_bound(e, e.x, frame.camera.center_x - frame.crop.x, guard));
-      ASSERT_LE(std::abs(y - e.y),
-                center_bound(e, e.y, frame.camera.center_y - frame.crop.y, guard));
+    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat,
+                              const PicturePlace& place, const FramePlan& plan) {
+      const double dx = std::abs(place.x - e.splat.x), dy = std::abs(place.y - e.splat.y);
+      farthest = std::max({farthest, dx, dy});
+      const double unit_pixels = 0x1p-20 * place.pixel;
+      ASSERT_LE(dx, center_bound(e, e.splat.x, frame.camera.center_x, unit_pixels));
+      ASSERT_LE(dy, center_bound(e, e.splat.y, frame.camera.center_y, unit_pixels));
       // Drawn narrower where its grid is blurred: undone with three more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double sigma = pixel * std::sqrt(drawn * drawn + blur_of_grid(plan, grid));
+      const double sigma = place.pixel * std::sqrt(drawn * drawn + blur_of_grid(plan, place.grid));
       const double expected = stored_sigma(e.splat.sigma, plan);
       // Either form is right where the width is at the limit between them.
       const double limit = static_cast<double>(plan.splats.mean_sigma);
@@ -155,7 +168,7 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
 
 // In pixels, for pictures of 1000 pixels: the bound above at 45 degrees is 6 roundings of
 // 1207 * 1.13 pixels for the offset, 14 of 500 for the scale and 5 of 1000.
-constexpr double ordinary_bound = (6 * 1207 * 1.13 + 14 * 500 + 5 * 1000) * unit;
+constexpr double ordinary_bound = (6 * 1207 * 1.13 + 14 * 500 + 5 * 1000) * unit + 0x1p-20;
 
 TEST_P(ProjectGeometry, CentersLieWithinAThousandthOfAPixel) {
   static_assert(ordinary_bound < 1.3e-3, "what the next line promises");
@@ -187,7 +200,36 @@ TEST_P(ProjectGeometry, CentersAndWidthsHoldTheirBoundsFarFromTheOriginOfCoordin
   EXPECT_LE(expect_centers_and_widths(seen(far, 1e4, 45, {{0, 0, 0}}, 6)), ordinary_bound);
 }
 
-TEST_P(ProjectGeometry, CentersAreRelativeToTheCrop) {
+// So bright that a place in single precision would show.
+Frame of_bright_stars(Frame frame) {
+  frame.components.front().brightness = 1e6;
+  return frame;
+}
+
+// A unit of places in pictures of 1000 pixels, and half the last digit of 45 bits of them.
+constexpr double unit_of_places = 0x1p-20 + 0x1p-36;
+
+TEST_P(ProjectGeometry, CentersOfBrightStarsAreKnownToAUnit) {
+  for (const double field_of_view : {1.0, 45.0, 140.0}) {
+    EXPECT_LE(farthest_narrow_center(
+                  of_bright_stars(seen({{12, -34, 56}}, 10, field_of_view, {{0, 0, 0}}, 11))),
+              unit_of_places);
+  }
+}
+
+TEST_P(ProjectGeometry, CentersOfBrightStarsAreKnownAsWellFarFromTheOrigin) {
+  const Vec3 far = {{1e8, -2e8, 3e8}};
+  EXPECT_LE(farthest_narrow_center(of_bright_stars(seen(far, 10, 45, far, 12))), unit_of_places);
+}
+
+TEST_P(ProjectGeometry, CentersOfBrightStarsAreKnownAsWellInOrthographicProjection) {
+  Frame frame = of_bright_stars(seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 13));
+  frame.projection = Projection::orthographic;
+  // Close to the picture's middle single precision may be taken, which is nearly as good there.
+  EXPECT_LE(farthest_narrow_center(frame), 2 * unit_of_places);
+}
+
+TEST_P(ProjectGeometry, CentersOfACropAreThoseOfThePicture) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 7);
   // A margin is left out; every cloud is wide enough to reach into the crop.
   for (DrawnComponent& component : frame.components) {
@@ -228,15 +270,15 @@ TEST_P(ProjectGeometry, WeightsAreTheOraclesInEveryModel) {
     // A faint splat may carry the light back that its end leaves out, at most the truncation's
     // share of it as absorption shows it: share / 0.37.
     const double restored = make_plan(frame).shares.truncation / 0.36;
-    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat, const FramePlan& plan,
-                              std::uint32_t grid) {
+    for_each_splat(frame, [&](const Expected& e, const shared::Splat& splat,
+                              const PicturePlace& place, const FramePlan& plan) {
       const double sigma = e.splat.sigma;
       const double narrowing = sigma / stored_sigma(sigma, plan);
       const double limit = static_cast<double>(plan.splats.mean_sigma);
       if (std::abs(sigma - limit) < 1e-3 * limit) return;
       // Drawn narrower, it carries the same light: undone with eight more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double spread = 1 + blur_of_grid(plan, grid) / (drawn * drawn);
+      const double spread = 1 + blur_of_grid(plan, place.grid) / (drawn * drawn);
       const double expected = e.splat.weight * narrowing * narrowing * spread;
       const double bound = weight_bound(e) + 8 * unit;
       ASSERT_GE(static_cast<double>(splat.weight), expected * (1 - bound));

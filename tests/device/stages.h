@@ -40,9 +40,28 @@ inline std::uint64_t identity_of(const shared::Splat& splat) {
   return static_cast<std::uint64_t>(std::lround(static_cast<double>(splat.color) * identity_steps));
 }
 
+// Where a splat's center lies, in pixels of the whole picture.
+struct PicturePlace {
+  double x = 0, y = 0;
+  std::uint32_t grid = 0;
+  double pixel = 1;  // of its grid
+};
+
+inline PicturePlace place_of(const shared::Splat& splat, const PictureLayout& layout,
+                             const FramePlan& plan) {
+  PicturePlace place;
+  place.grid = splat.component_and_grid >> 16 & 0xffu;
+  const shared::Grid& grid = layout.grids[place.grid];
+  place.pixel = std::ldexp(1.0, plan.pyramid.grids[place.grid].level);
+  const int power = static_cast<int>(splat.component_and_grid >> 24) - grid.place_bits;
+  place.x = place.pixel * (std::ldexp(splat.x, power) + grid.middle_x - grid.guard);
+  place.y = place.pixel * (std::ldexp(splat.y, power) + grid.middle_y - grid.guard);
+  return place;
+}
+
 // What compositing makes of a splat in a list (kernels/bin/bin.h, TileSplat).
 struct ListedSplat {
-  double x = 0, y = 0, sigma = 0, radius = 0;  // x and y in the tile
+  double x = 0, y = 0, sigma = 0, radius = 0;  // x and y from the tile's corner
   std::uint64_t particle = 0;
 };
 
@@ -122,8 +141,8 @@ class Stages {
     std::vector<ListedSplat> entries;
     for (std::size_t i = 0; i < values.size(); i += floats) {
       ListedSplat entry;
-      entry.x = static_cast<double>(values[i]);
-      entry.y = static_cast<double>(values[i + 1]);
+      entry.x = static_cast<double>(values[i]) + 0.5 * context().specialization.tile_width();
+      entry.y = static_cast<double>(values[i + 1]) + 0.5 * context().specialization.tile_height();
       entry.sigma = static_cast<double>(values[i + 2]);
       entry.radius = static_cast<double>(values[i + 3]);
       const double position =

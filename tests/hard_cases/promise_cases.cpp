@@ -166,6 +166,28 @@ std::vector<HardCase> promise_cases() {
             "light of 5000 behind deep clouds, as in the original program",
             "light gray tolerance 1e-4 background 5000 group point copies 9 sigma 4.0175 peak 6",
             {LightPlan::ordered}),
+      found("StarBetweenTheSamplesOfAFile", "one sharp star that the sample does not meet",
+            "turned 1 projection perspective tolerance 1e-4 field_of_view 2 filler 199999 period "
+            "13 offset 8 group point x 20.3 y 11.1 sigma 0.4 peak 1e6 depth 9.1",
+            {LightPlan::emission}),
+      found("PartOfALargePicture",
+            "places have the digits of 16384 pixels, not of the 64 that are drawn",
+            "turned 1 projection perspective picture_size 16384 field_of_view 50 group scatter "
+            "places 50 sigma 0.4 peak 10"),
+      found("PartOfALargeFlatPicture", "the same without a perspective",
+            "turned 1 picture_size 16384 group scatter places 50 sigma 0.4 peak 10"),
+      found("BrightPartOfALargePicture", "the same of stars of 1e4 times white",
+            "turned 1 projection perspective picture_size 16384 field_of_view 50 group scatter "
+            "places 50 sigma 0.4 peak 1e4"),
+      found("StarsOf30TimesWhiteIn1400Pixels", "a star's light beside it errs by its slope",
+            "turned 1 projection perspective picture_size 1400 field_of_view 7.7 group scatter "
+            "places 100 sigma 0.5 peak 30"),
+      found("StarsOf5e4TimesWhiteIn1400Pixels", "the same of brighter stars",
+            "turned 1 projection perspective picture_size 1400 field_of_view 7.7 jitter_seed 3 "
+            "group scatter places 30 x -9 y -23 sigma 0.32 peak 5e4 depth 20"),
+      found("StarsOf1e6TimesWhiteIn1400Pixels", "the same of a width that is not sharp",
+            "turned 1 projection perspective picture_size 1400 field_of_view 7.7 group scatter "
+            "places 100 sigma 1 peak 1e6"),
       found("StarsOfAFisheyeAt1e_5", "places are arcs in single precision",
             "projection fisheye tolerance 1e-5 field_of_view 42 turned 1 group scatter places 30 "
             "sigma 1 peak 20000 depth 50",

@@ -56,12 +56,11 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
     const auto [first, last] = expected.equal_range(identity_of(splat));
     ASSERT_NE(first, last) << "a particle that the reference leaves out";
     ASSERT_EQ(keys[i], first->second.key) << "particle " << identity_of(splat);
-    const bool is_on_a_coarse_grid = splat.component_and_grid >> 16 != 0;
-    if (is_on_a_coarse_grid) continue;
+    const PicturePlace place = place_of(splat, stages.layout(), stages.plan());
+    if (place.grid != 0) continue;
     double nearest = 1e300;
     for (auto copy = first; copy != last; ++copy) {
-      nearest = std::min(nearest, std::hypot(static_cast<double>(splat.x) - copy->second.x,
-                                             static_cast<double>(splat.y) - copy->second.y));
+      nearest = std::min(nearest, std::hypot(place.x - copy->second.x, place.y - copy->second.y));
     }
     // A rounding of the direction is as wide as the picture's 64 pixels per radian make it,
     // and near a pole or behind a fisheye wider by the distance to the axis.

@@ -1,29 +1,139 @@
 #include "device/frame/picture_layout.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "scene/plan/blur_filter.h"
+
 namespace splotchcl {
 namespace {
 
-int ceil_divide(int value, std::uint32_t by) {
-  return (value + static_cast<int>(by) - 1) / static_cast<int>(by);
+// Pixels on either side that an interpolated pixel is made from (kernels/resolve/refine.cl).
+constexpr int taps = 5;
+
+// Pixels beside the picture that are as well known: tiles end there, and splats that are not wide
+// lie there.
+constexpr int beside_picture = 128;
+
+// More digits than floats have near a splat would be lost.
+constexpr int most_place_bits = 24;
+
+int ceil_divide(int value, int by) {
+  return (value + by - 1) / by;
+}
+
+// A multiple of the coarsest grid's pixels near the middle, so that it is a corner of pixels in
+// every grid.
+int middle_of(int size, int levels) {
+  return (size / 2) >> levels << levels;
+}
+
+// As fine as 31 bits allow for all places in the picture, so that differences of two are integers
+// of 32 bits.
+int choose_place_bits(const Frame& frame, int middle_x, int middle_y) {
+  const int farthest =
+      std::max({middle_x, frame.width - middle_x, middle_y, frame.height - middle_y}) +
+      beside_picture;
+  int bits = most_place_bits;
+  while (std::ldexp(farthest, bits) > std::ldexp(1.0, 30))
+    --bits;
+  return bits;
+}
+
+shared::GridPart widened(const shared::GridPart& part, int by) {
+  return {part.left - by, part.top - by, part.right_end + by, part.bottom + by};
+}
+
+// What `part` of a grid is interpolated from, in pixels of the next coarser one.
+shared::GridPart coarse_part(const shared::GridPart& part, int fine_guard, int coarse_guard) {
+  // Down also for pixels of the guard, which begin before the picture.
+  const auto below = [&](int pixel) { return ((pixel - fine_guard) >> 1) + coarse_guard; };
+  return widened({below(part.left), below(part.top), below(part.right_end - 1) + 1,
+                  below(part.bottom - 1) + 1},
+                 taps);
+}
+
+std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid& pyramid) {
+  const Rectangle& crop = frame.crop;
+  std::vector<shared::GridPart> wanted = {
+      {crop.x, crop.y, crop.x + crop.width, crop.y + crop.height}};
+  const auto guard_of = [&pyramid](std::size_t level) {
+    return pyramid.grids[static_cast<std::size_t>(pyramid.level_grids[level])].guard;
+  };
+  for (std::size_t level = 1; level < pyramid.level_grids.size(); ++level)
+    wanted.push_back(coarse_part(wanted.back(), guard_of(level - 1), guard_of(level)));
+  return wanted;
+}
+
+// Where splats are drawn on a grid: blurring looks at more than is wanted.
+shared::GridPart drawn_part(const shared::GridPart& wanted, int grid, const GridPyramid& pyramid) {
+  if (grid == 0 || !pyramid.is_blurred) return wanted;
+  const shared::GridPart narrow = with_blur(wanted, pyramid.blur[0], pyramid);
+  const bool is_narrow = grid % 2 == 1;
+  return is_narrow ? narrow : with_blur(narrow, pyramid.blur[1] - pyramid.blur[0], pyramid);
+}
+
+// The tiles that cover the part.
+void set_tiles(const shared::GridPart& part, int tile_width, int tile_height, shared::Grid& grid) {
+  grid.first_x = part.left / tile_width * tile_width;
+  grid.first_y = part.top / tile_height * tile_height;
+  grid.tiles_x = ceil_divide(part.right_end - grid.first_x, tile_width);
+  grid.tiles_y = ceil_divide(part.bottom - grid.first_y, tile_height);
+  grid.stride = static_cast<std::uint32_t>(grid.tiles_x * tile_width);
+  grid.plane_size = grid.stride * static_cast<std::uint32_t>(grid.tiles_y * tile_height);
+}
+
+// Of the rows and columns before the first in memory.
+int tiles_before(const shared::Grid& grid, const Specialization& specialization) {
+  return grid.first_y / static_cast<int>(specialization.tile_height()) * grid.tiles_x +
+         grid.first_x / static_cast<int>(specialization.tile_width());
+}
+
+bool has_all_tiles(const shared::Grid& grid, const Specialization& specialization) {
+  const auto end_x = grid.first_x + grid.tiles_x * static_cast<int>(specialization.tile_width());
+  const auto end_y = grid.first_y + grid.tiles_y * static_cast<int>(specialization.tile_height());
+  return grid.first_x == 0 && grid.first_y == 0 && end_x >= grid.width && end_y >= grid.height;
 }
 
 }  // namespace
 
-PictureLayout make_picture_layout(const FramePlan& plan, const Specialization& specialization) {
+shared::GridPart with_blur(const shared::GridPart& part, double sigma2,
+                           const GridPyramid& pyramid) {
+  const std::size_t weights = blur_weights(sigma2, pyramid.blur_error).size();
+  return widened(part, static_cast<int>(weights / 2));
+}
+
+PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
+                                  const Specialization& specialization) {
+  const GridPyramid& pyramid = plan.pyramid;
+  const int levels = pyramid.grids.back().level;
+  const int middle_x = middle_of(frame.width, levels), middle_y = middle_of(frame.height, levels);
+  const int place_bits = choose_place_bits(frame, middle_x, middle_y);
   PictureLayout layout;
-  for (const PictureGrid& from : plan.pyramid.grids) {
+  layout.wanted = wanted_parts(frame, pyramid);
+  for (std::size_t g = 0; g < pyramid.grids.size(); ++g) {
+    const PictureGrid& from = pyramid.grids[g];
     shared::Grid grid{};
     grid.width = from.width;
     grid.height = from.height;
     grid.guard = from.guard;
+    grid.middle_x = (middle_x >> from.level) + from.guard;
+    grid.middle_y = (middle_y >> from.level) + from.guard;
+    grid.place_bits = place_bits;
+    grid.unit = std::ldexp(1.0f, -place_bits);
+    // Places are rounded to floats there, twice.
+    grid.room = std::ldexp(static_cast<float>(std::max(grid.width, grid.height)), -22);
     // Compositing on coarse grids knows center values only: coarse_sigma sees to it.
     grid.mean_sigma = from.level == 0 ? plan.splats.mean_sigma : 0;
-    grid.tiles_x = ceil_divide(grid.width, specialization.tile_width());
-    grid.tiles_y = ceil_divide(grid.height, specialization.tile_height());
+    const auto level = static_cast<std::size_t>(from.level);
+    set_tiles(drawn_part(layout.wanted[level], static_cast<int>(g), pyramid),
+              static_cast<int>(specialization.tile_width()),
+              static_cast<int>(specialization.tile_height()), grid);
     grid.first_tile = layout.tile_count;
-    grid.stride = static_cast<std::uint32_t>(grid.tiles_x) * specialization.tile_width();
-    grid.plane_size =
-        grid.stride * static_cast<std::uint32_t>(grid.tiles_y) * specialization.tile_height();
+    // Below 0 it wraps around, as sums with it do.
+    grid.corner_tile =
+        grid.first_tile - static_cast<std::uint32_t>(tiles_before(grid, specialization));
+    grid.is_part = !has_all_tiles(grid, specialization);
     grid.first_float_low = static_cast<std::uint32_t>(layout.plane_floats);
     grid.first_float_high = static_cast<std::uint32_t>(layout.plane_floats >> 32);
     layout.grids.push_back(grid);

@@ -5,17 +5,26 @@
 
 #include "device/frame/shared.h"
 #include "device/frame/specialization.h"
+#include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
 
-// How the plan's grids lie in device memory, cut in tiles.
+// How the plan's grids lie in device memory, cut in tiles. Pixels and tiles are the whole
+// picture's, and of each grid those tiles are in memory that the crop needs, so that it has the
+// picture's bits.
 struct PictureLayout {
   std::vector<shared::Grid> grids;
+  // Of each level, in its pixels: what finer levels are interpolated from; of level 0 the crop.
+  std::vector<shared::GridPart> wanted;
   std::uint32_t tile_count = 0;    // of all grids
   std::uint64_t plane_floats = 0;  // all planes of all grids
 };
 
-PictureLayout make_picture_layout(const FramePlan& plan, const Specialization& specialization);
+PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
+                                  const Specialization& specialization);
+
+// `part` and the pixels beside it that a blur by this sigma^2 looks at.
+shared::GridPart with_blur(const shared::GridPart& part, double sigma2, const GridPyramid& pyramid);
 
 }  // namespace splotchcl

@@ -29,6 +29,7 @@ struct SplatBlocks {
 // What became of particles.
 struct ParticleCounts {
   std::uint64_t visible = 0, bad = 0;
+  std::uint64_t too_sharp = 0;  // for the frame's precision, in the whole picture
 };
 
 // All splats of a frame, without gaps, in component and file order, with their sort keys.

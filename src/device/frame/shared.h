@@ -23,7 +23,7 @@ constexpr bool has_words = sizeof(Shared) == 4 * words && alignof(Shared) == 4 &
                             std::is_standard_layout_v<Shared>);
 
 static_assert(has_words<FloatPair, 2>);
-static_assert(has_words<Grid, 11>);
+static_assert(has_words<Grid, 20>);
 static_assert(has_words<WidthAlongX, 2>);
 static_assert(has_words<OwnColor, 3>);
 static_assert(has_words<Splat, 7>);
@@ -32,17 +32,17 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 135>);
-static_assert(has_words<BlockCounts, 2>);
-static_assert(has_words<ExtendedParameters, 68>);
+static_assert(has_words<ProjectParameters, 152>);
+static_assert(has_words<BlockCounts, 3>);
+static_assert(has_words<ExtendedParameters, 72>);
 static_assert(has_words<SortParameters, 4>);
 static_assert(has_words<KeyBits, 2>);
 static_assert(has_words<BinParameters, 13>);
 static_assert(has_words<Segment, 4>);
-static_assert(has_words<CompositeParameters, 7>);
+static_assert(has_words<CompositeParameters, 5>);
 static_assert(has_words<OctaveCells, 2>);
 static_assert(has_words<CertifyParameters, 72>);
-static_assert(has_words<BlurParameters, 68>);
-static_assert(has_words<RefineParameters, 13>);
-static_assert(has_words<ResolveParameters, 12>);
+static_assert(has_words<BlurParameters, 72>);
+static_assert(has_words<RefineParameters, 17>);
+static_assert(has_words<ResolveParameters, 14>);
 }  // namespace splotchcl::shared

@@ -74,15 +74,24 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS");
   if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
-  if (extended_) return project_extended(defines);
-  if (!is_wide_angle(projection_)) {
-    return {defines,
-            {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "view.cl", "limits.cl",
-             "depth_key.cl", "splat_lanes.cl", "project.cl"}};
-  }
-  return {defines + wide_angle_defines(),
-          {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "wide_angle.cl", "view.cl",
-           "limits.cl", "depth_key.cl", "splat_lanes.cl", "project.cl"}};
+  defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
+  if (is_wide_angle(projection_)) defines += wide_angle_defines();
+  if (extended_) defines += extended_defines();
+  return {defines, project_files()};
+}
+
+std::vector<std::string> Specialization::project_files() const {
+  const bool wide = is_wide_angle(projection_);
+  std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
+                                    "lanes.cl", "extended.cl", "load.cl"};
+  if (wide)
+    files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
+  files.insert(files.end(), {"view.cl", "place_extended.cl", "limits.cl", "depth_key.cl"});
+  if (!extended_) files.insert(files.end(), {"pair_lanes.cl", "sharp_places.cl"});
+  files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
+  if (extended_) files.push_back("project_extended.cl");
+  files.push_back("project.cl");
+  return files;
 }
 
 std::string Specialization::wide_angle_defines() const {
@@ -92,19 +101,9 @@ std::string Specialization::wide_angle_defines() const {
          define_if(ellipses_, "ELLIPSES");
 }
 
-ProgramSource Specialization::project_extended(std::string defines) const {
-  defines += define("EXTENDED_NUMBERS") + define_if(double_numbers_, "DOUBLE_NUMBERS");
-  defines += define_if(light_ == LightPlan::emission, "LIGHT_EMISSION");
-  defines += define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
-  if (!is_wide_angle(projection_)) {
-    return {defines,
-            {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "load.cl", "view.cl",
-             "limits.cl", "depth_key.cl", "splat_lanes.cl", "project_extended.cl", "project.cl"}};
-  }
-  return {defines + wide_angle_defines(),
-          {"splat.h", "project.h", "common.cl", "lanes.cl", "extended.cl", "extended_angle.cl",
-           "load.cl", "wide_angle.cl", "view.cl", "limits.cl", "depth_key.cl", "splat_lanes.cl",
-           "wide_angle_extended.cl", "project_extended.cl", "project.cl"}};
+std::string Specialization::extended_defines() const {
+  return define("EXTENDED_NUMBERS") + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
+         define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
 }
 
 ProgramSource Specialization::scan_blocks() {

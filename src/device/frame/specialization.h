@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "device/opencl/device_traits.h"
 #include "device/opencl/program_cache.h"
@@ -56,7 +57,8 @@ class Specialization {
 
  private:
   std::string wide_angle_defines() const;
-  ProgramSource project_extended(std::string defines) const;
+  std::string extended_defines() const;
+  std::vector<std::string> project_files() const;
   std::string tile_defines() const;
   std::string number_defines() const;
 

@@ -17,7 +17,7 @@ struct StageContext {
         frame(of),
         plan(with),
         specialization(of, with, on.traits),
-        layout(make_picture_layout(with, specialization)),
+        layout(make_picture_layout(of, with, specialization)),
         grids(on.pool.upload(layout.grids, "grids")),
         colors(upload_component_colors(of, on.pool)) {}
 

@@ -130,7 +130,8 @@ std::vector<PeakCells> Certifier::cells() const {
       cells.endings = gather(values, parameters_.cells_per_tile, parameters_.endings[octave], grid,
                              tile_width, tile_height);
       cells.level = level;
-      cells.guard = grid.guard;
+      cells.left = grid.first_x - grid.guard;
+      cells.top = grid.first_y - grid.guard;
       cells.octave = octave + level;
       found.push_back(std::move(cells));
     }

@@ -18,8 +18,6 @@ Compositor::Compositor(const StageContext& context)
   parameters_.phi_short = context.plan.layers.phi_short;
   parameters_.phi_series = context.plan.layers.phi_series;
   parameters_.opaque = context.plan.layers.opaque;
-  parameters_.crop_x = static_cast<float>(context.frame.crop.x);
-  parameters_.crop_y = static_cast<float>(context.frame.crop.y);
 }
 
 Planes Compositor::start() const {

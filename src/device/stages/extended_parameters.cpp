@@ -47,8 +47,6 @@ void set_camera(const Frame& frame, const DrawnComponent& component,
                                                            : camera.focal_pixels);
   e.center_x = pair_of(camera.center_x);
   e.center_y = pair_of(camera.center_y);
-  e.crop_x = static_cast<float>(frame.crop.x);
-  e.crop_y = static_cast<float>(frame.crop.y);
   e.period = pair_of(period_along_x(camera, frame.projection));
   e.eye_offset = pair_of(camera.eye_offset);
   copy(turn_axis_in_view(camera), e.turn_axis);
@@ -63,10 +61,15 @@ void set_map(const Column& column, const ScalarMap& map, double inverse_if_absen
 
 }  // namespace
 
-shared::ExtendedParameters make_extended_parameters(const Frame& frame, const FramePlan& plan,
+shared::ExtendedParameters make_extended_parameters(const StageContext& context,
                                                     const DrawnComponent& component) {
+  const Frame& frame = context.frame;
   shared::ExtendedParameters e{};
   set_camera(frame, component, e);
+  e.middle_x = static_cast<float>(context.layout.grids.front().middle_x);
+  e.middle_y = static_cast<float>(context.layout.grids.front().middle_y);
+  e.center_from_middle_x = pair_of(frame.camera.center_x - static_cast<double>(e.middle_x));
+  e.center_from_middle_y = pair_of(frame.camera.center_y - static_cast<double>(e.middle_y));
   e.size_factor = pair_of(component.size_factor);
   e.kernel_width = pair_of(frame.kernel.width);
   e.kernel_cut = pair_of(frame.kernel.cut.value_or(0));
@@ -79,8 +82,8 @@ shared::ExtendedParameters make_extended_parameters(const Frame& frame, const Fr
   e.brightness = pair_of(component.brightness);
   e.absorption_factor = pair_of(component.absorption.factor);
   const auto count = static_cast<double>(std::max<std::uint64_t>(1, particle_count(frame))) *
-                     plan.splats_per_particle;
-  e.inverse_share = static_cast<float>(count / plan.shares.truncation);
+                     context.plan.splats_per_particle;
+  e.inverse_share = static_cast<float>(count / context.plan.shares.truncation);
   return e;
 }
 

@@ -1,14 +1,12 @@
 #pragma once
 
-#include "device/frame/shared.h"
-#include "splotchcl/frame.h"
-#include "splotchcl/plan.h"
+#include "device/frame/stage_context.h"
 
 namespace splotchcl {
 
 // Constants of the extended projection (kernels/project/project_extended.cl) of one of the
 // frame's components.
-shared::ExtendedParameters make_extended_parameters(const Frame& frame, const FramePlan& plan,
+shared::ExtendedParameters make_extended_parameters(const StageContext& context,
                                                     const DrawnComponent& component);
 
 }  // namespace splotchcl

@@ -77,11 +77,8 @@ void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameter
   p.perspective = frame.projection != Projection::orthographic;
   p.pixels_per_length =
       static_cast<float>(p.perspective ? camera.focal_pixels : camera.pixels_per_length);
-  p.period = static_cast<float>(period_along_x(camera, frame.projection));
   p.eye_offset = static_cast<float>(camera.eye_offset);
   copy(turn_axis_in_view(camera), p.turn_axis);
-  p.center_x = static_cast<float>(camera.center_x - frame.crop.x);
-  p.center_y = static_cast<float>(camera.center_y - frame.crop.y);
 }
 
 void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
@@ -153,14 +150,59 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.least_extent = limits.least_extent;
   p.restored_light = limits.restored_light;
   p.inverse_edge = limits.inverse_edge;
+  p.place_error = plan.places.error;
+  p.place_error_per_pixel = plan.places.error_per_pixel;
+  p.sharp_width = plan.places.sharp_width;
+  p.too_sharp_width = plan.places.too_sharp_width;
+  p.most_fading = plan.places.most_fading;
   const GridPyramid& pyramid = plan.pyramid;
   p.coarse_sigma = pyramid.coarse_sigma;
   p.coarse_peak = pyramid.coarse_peak;
   p.grid_count = static_cast<int>(pyramid.grids.size());
-  p.guard = static_cast<float>(pyramid.grids.back().guard);
   p.blurred = pyramid.is_blurred;
   p.blur[0] = static_cast<float>(pyramid.blur[0]);
   p.blur[1] = static_cast<float>(pyramid.blur[1]);
+}
+
+void set_rectangle(const Rectangle& part, const shared::Grid& grid, float& left, float& right_end,
+                   float& top, float& bottom) {
+  left = static_cast<float>(part.x - grid.middle_x);
+  right_end = static_cast<float>(part.x + part.width - grid.middle_x);
+  top = static_cast<float>(part.y - grid.middle_y);
+  bottom = static_cast<float>(part.y + part.height - grid.middle_y);
+}
+
+// Where places count from, and what of the picture is drawn.
+void set_picture(const StageContext& context, shared::ProjectParameters& p) {
+  const Frame& frame = context.frame;
+  const FramePlan& plan = context.plan;
+  const shared::Grid& grid = context.layout.grids.front();
+  p.center_x = static_cast<float>(frame.camera.center_x - grid.middle_x);
+  p.center_y = static_cast<float>(frame.camera.center_y - grid.middle_y);
+
+  const Rectangle whole = {0, 0, frame.width, frame.height};
+  const auto tile_width = static_cast<int>(context.specialization.tile_width());
+  const auto tile_height = static_cast<int>(context.specialization.tile_height());
+  const Rectangle drawn = {grid.first_x, grid.first_y,
+                           std::min(grid.tiles_x * tile_width, frame.width - grid.first_x),
+                           std::min(grid.tiles_y * tile_height, frame.height - grid.first_y)};
+  set_rectangle(drawn, grid, p.left, p.right_end, p.top, p.bottom);
+  // Whether any splat is too sharp is the whole picture's.
+  set_rectangle(plan.places.too_sharp_width > 0 ? whole : drawn, grid, p.seen_left,
+                p.seen_right_end, p.seen_top, p.seen_bottom);
+
+  const bool is_whole = frame.crop.width == frame.width && frame.crop.height == frame.height;
+  // Of a crop a grid's tiles may begin a tile beside what is wanted of it.
+  const int tile = is_whole ? 0 : std::max(tile_width, tile_height);
+  p.beside = static_cast<float>(plan.pyramid.grids.back().guard + 1 + tile);
+  // Seven sigma reach beyond the truncation of any amplitude that single precision can hold. No
+  // splat of a coarse grid is narrower than coarse_sigma of its pixels, but for its widening.
+  p.reach = 7 + 1.1f * p.beside / plan.pyramid.coarse_sigma;
+
+  const double period = period_along_x(frame.camera, frame.projection);
+  p.period = static_cast<float>(period);
+  p.period_units =
+      wide(static_cast<std::int64_t>(std::llround(std::ldexp(period, grid.place_bits))));
 }
 
 int weight_model_number(WeightModel model) {
@@ -189,8 +231,9 @@ void set_component(const DrawnComponent& component, double length_scale,
 
 }  // namespace
 
-shared::ProjectParameters make_project_parameters(const Frame& frame, const FramePlan& plan,
+shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   std::uint32_t component) {
+  const Frame& frame = context.frame;
   shared::ProjectParameters p{};
   set_camera(frame, frame.components[component].particles.origin, p);
   set_depth_limits(frame, p);
@@ -198,8 +241,10 @@ shared::ProjectParameters make_project_parameters(const Frame& frame, const Fram
   p.kernel_width = static_cast<float>(frame.kernel.width);
   p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
-  set_plan(plan, p);
+  set_picture(context, p);
+  set_plan(context.plan, p);
   set_component(frame.components[component], length_scale(frame), p);
+  p.place_bits = context.layout.grids.front().place_bits;
   p.component = component;
   p.sort_by_field = frame.sort.by == SortOrder::By::field;
   p.sort_descending = frame.sort.descending;

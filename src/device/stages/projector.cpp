@@ -21,6 +21,7 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   for (const shared::BlockCounts& block : blocks) {
     sum.visible += block.visible;
     sum.bad += block.bad;
+    sum.too_sharp += block.too_sharp;
   }
   return sum;
 }
@@ -53,8 +54,7 @@ Projector::Projector(const StageContext& context)
 
 shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles) const {
-  shared::ProjectParameters p =
-      make_project_parameters(context_.frame, context_.plan, chunk.component);
+  shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
   p.first_particle = chunk.first;
   p.end_particle = chunk.end;
   p.block_particles = context_.device.traits.project_block;
@@ -81,8 +81,9 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
   DeviceContext& device = context_.device;
   const compute::program program = device.programs.get(context_.specialization.project(output));
   Launch launch(device, "project", program.create_kernel("project"));
+  const DrawnComponent& component = context_.frame.components[parameters.component];
   launch.value(parameters)
-      .arg(context_.grids)
+      .value(make_extended_parameters(context_, component))
       .arg(particles.position)
       .arg(particles.smoothing_length)
       .arg(particles.weight)
@@ -97,11 +98,7 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
       .arg(targets.order);
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   if (context_.specialization.is_extended()) {
-    const DrawnComponent& component = context_.frame.components[parameters.component];
-    launch.value(make_extended_parameters(context_.frame, context_.plan, component))
-        .arg(context_.colors.components)
-        .arg(context_.colors.knots)
-        .arg(targets.splats.extended);
+    launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
   }
   launch.run_items(block_count(parameters));
 }

@@ -26,6 +26,8 @@ Resolver::Resolver(const StageContext& context)
     parameters_.source[c] = static_cast<float>(context.plan.source[c]);
     parameters_.background[c] = static_cast<float>(frame.background[c]);
   }
+  parameters_.crop_x = frame.crop.x;
+  parameters_.crop_y = frame.crop.y;
   parameters_.circle_x = 2 * frame.crop.x - frame.width;
   parameters_.circle_y = 2 * frame.crop.y - frame.height;
   parameters_.circle_diameter = std::min(frame.width, frame.height);
@@ -38,6 +40,7 @@ Resolver::Resolver(const StageContext& context)
 // from the coarsest on. Grids without light are left out.
 Planes Resolver::collect(Planes planes) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
+  const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
   const auto grid_of = [&pyramid](std::size_t level) {
     return static_cast<std::uint32_t>(pyramid.level_grids[level]);
   };
@@ -48,80 +51,85 @@ Planes Resolver::collect(Planes planes) const {
   for (std::size_t level = 1; pyramid.is_blurred && level < levels; ++level) {
     const std::uint32_t narrow = grid_of(level), wide = narrow + 1;
     if (is_used(wide)) {
-      blur(planes, wide, narrow, pyramid.blur[1] - pyramid.blur[0], is_used(narrow));
+      blur(planes, wide, narrow, with_blur(wanted[level], pyramid.blur[0], pyramid),
+           pyramid.blur[1] - pyramid.blur[0], is_used(narrow));
       planes.used_grids |= 1u << narrow;
     }
-    if (is_used(narrow)) blur(planes, narrow, narrow, pyramid.blur[0], false);
+    if (is_used(narrow)) blur(planes, narrow, narrow, wanted[level], pyramid.blur[0], false);
   }
   for (std::size_t level = levels - 1; level > 0; --level) {
     const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);
     if (!is_used(coarse)) continue;
-    refine(planes, coarse, fine, is_used(fine));
+    refine(planes, coarse, fine, wanted[level - 1], is_used(fine));
     planes.used_grids |= 1u << fine;
   }
   return planes;
 }
 
-void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t target, double sigma2,
-                    bool add) const {
+// What the target's `part` takes from the source.
+void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
+                    const shared::GridPart& part, double sigma2, bool add) const {
   const std::vector<float> weights = blur_weights(sigma2, context_.plan.pyramid.blur_error);
   shared::BlurParameters parameters{};
   parameters.source = source;
   parameters.target = target;
+  parameters.part = part;
   parameters.half_width = static_cast<int>(weights.size() / 2);
   parameters.add = add;
   static_assert(most_blur_weights == MOST_BLUR_WEIGHTS);
   std::copy(weights.begin(), weights.end(), parameters.weights);
 
-  const shared::Grid& from = context_.layout.grids[source];
-  const shared::Grid& to = context_.layout.grids[target];
+  const std::size_t width_strips = strips(static_cast<std::size_t>(part.right_end - part.left), 8);
+  const auto height = static_cast<std::size_t>(part.bottom - part.top);
+  const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
   const std::size_t plane_count = context_.specialization.planes();
   const auto columns = context_.device.pool.get<float>(
-      plane_count * static_cast<std::uint64_t>(from.height) * (from.stride + 8), "blurred columns");
+      plane_count * source_height * 8 * width_strips, "blurred columns");
   Launch(context_.device, "resolve", grids_program_.create_kernel("blur_columns"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(static_cast<std::size_t>(from.width), 8),
-                static_cast<std::size_t>(from.height), plane_count);
+      .run_grid(width_strips, source_height, plane_count);
   Launch(context_.device, "resolve", grids_program_.create_kernel("blur_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(static_cast<std::size_t>(to.width), 8), static_cast<std::size_t>(to.height),
-                plane_count);
+      .run_grid(width_strips, height, plane_count);
 }
 
+// The same from one level to the next.
 void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
-                      bool add) const {
+                      const shared::GridPart& part, bool add) const {
   shared::RefineParameters parameters{};
   parameters.coarse = coarse;
   parameters.fine = fine;
+  parameters.part = part;
   parameters.add = add;
   const std::array<double, 10>& weights = context_.plan.pyramid.refinement.weights;
   std::transform(weights.begin(), weights.end(), parameters.weights,
                  [](double weight) { return static_cast<float>(weight); });
 
-  const shared::Grid& to = context_.layout.grids[fine];
-  const auto coarse_height = static_cast<std::size_t>(context_.layout.grids[coarse].height);
+  const auto width = static_cast<std::size_t>(part.right_end - part.left);
+  const auto height = static_cast<std::size_t>(part.bottom - part.top);
+  // The temporary begins with an even column, and has the rows that ten taps look at.
+  const std::size_t column_strips = strips(width + 1, 16), most_rows = height / 2 + 12;
   const std::size_t plane_count = context_.specialization.planes();
-  const auto columns =
-      context_.device.pool.get<float>(plane_count * coarse_height * to.stride, "refined columns");
+  const auto columns = context_.device.pool.get<float>(plane_count * most_rows * 16 * column_strips,
+                                                       "refined columns");
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(static_cast<std::size_t>(to.width), 16), coarse_height, plane_count);
+      .run_grid(column_strips, most_rows, plane_count);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(static_cast<std::size_t>(to.width), 8), static_cast<std::size_t>(to.height),
-                plane_count);
+      .run_grid(strips(width, 8), height, plane_count);
 }
 
 // The crop's part of the background's picture, a plane per channel, in rows of `stride`.

@@ -17,9 +17,10 @@ class Resolver {
 
  private:
   Planes collect(Planes planes) const;
-  void blur(const Planes& planes, std::uint32_t source, std::uint32_t target, double sigma2,
-            bool add) const;
-  void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine, bool add) const;
+  void blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
+            const shared::GridPart& part, double sigma2, bool add) const;
+  void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
+              const shared::GridPart& part, bool add) const;
   Buffer<float> upload_background(std::size_t stride) const;
   void resolve_in_place(const Planes& planes, Image& image) const;
   void write_pixels(const Planes& planes, const compute::buffer& pixels) const;

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t sample_limit = 16384;
 
-bool reaches(const SampledCloud& cloud, const Rectangle& crop) {
+bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
   const double reach = 7 * cloud.sigma;  // no cloud is drawn farther
-  return cloud.x >= crop.x - reach && cloud.x <= crop.x + crop.width + reach &&
-         cloud.y >= crop.y - reach && cloud.y <= crop.y + crop.height + reach;
+  return cloud.x >= -reach && cloud.x <= frame.width + reach && cloud.y >= -reach &&
+         cloud.y <= frame.height + reach;
 }
 
 void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
@@ -32,7 +32,7 @@ void sample_component(const DrawnComponent& component, const Frame& frame, std::
     cloud.x = found->x;
     cloud.y = found->y;
     cloud.sigma = std::hypot(found->sigma, least_sigma);
-    if (!reaches(cloud, frame.crop)) continue;
+    if (!reaches_picture(cloud, frame)) continue;
     cloud.light = colors(i) / component.reference_column * found->column * found->sigma /
                   cloud.sigma * std::min(1.0, pi * cloud.sigma * cloud.sigma);
     cloud.weight = static_cast<double>(stride);

@@ -6,7 +6,7 @@
 
 namespace splotchcl {
 
-// A particle that may be seen in the crop.
+// A particle that may be seen in the picture.
 struct SampledCloud {
   double x = 0, y = 0;  // pixels of the whole picture
   double sigma = 0;     // pixels, with kernel.min_radius
@@ -14,8 +14,8 @@ struct SampledCloud {
   double weight = 1;    // particles that it stands for
 };
 
-// At most 16384 particles of a frame, those that the crop does not show left out. The same in
-// every run.
+// At most 16384 particles of a frame, those that the whole picture does not show left out. The
+// same in every run, and whatever crop is drawn.
 std::vector<SampledCloud> sample_clouds(const Frame& frame);
 
 }  // namespace splotchcl

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/plan/sharpness.h"
-
 namespace splotchcl {
 namespace {
 
@@ -13,15 +11,6 @@ constexpr double fast_tolerance = 3e-4;
 // ... and an erf better than the polynomial's 6e-7, which grows with sigma / pixel, to 1e-5 of
 // the peak at sigma 6.
 constexpr double polynomial_erf_tolerance = 3e-5;
-
-// Roundings have either sign and few clouds are as sharp as the sharpest: errors were an eighth
-// of what the sharpest could do (docs/accuracy.md).
-bool places_exceed_tolerance(const Frame& frame) {
-  constexpr double part_of_sharpest = 0.15;
-  if (frame.tolerance >= fast_tolerance) return false;
-  const double place_error = 0x1p-23 * std::max(frame.width, frame.height);
-  return part_of_sharpest * 0.86 * place_error * find_sharpness(frame) > frame.tolerance;
-}
 
 constexpr double euler = 2.718281828459045;
 
@@ -74,13 +63,7 @@ ErrorBudget make_extended_budget() {
 
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options) {
   ErrorBudget budget;
-  budget.has_sharp_clouds = frame.tolerance > 0 && places_exceed_tolerance(frame);
-  if (frame.tolerance == 0 || budget.has_sharp_clouds) {
-    const bool has_sharp_clouds = budget.has_sharp_clouds;
-    budget = make_extended_budget();
-    budget.has_sharp_clouds = has_sharp_clouds;
-    return budget;
-  }
+  if (frame.tolerance == 0) return make_extended_budget();
   budget.precision = frame.tolerance < fast_tolerance ? Precision::full : Precision::fast;
   budget.uses_device_erf = frame.tolerance < polynomial_erf_tolerance;
   budget.shares = share_out(frame.tolerance, light, options);

@@ -10,11 +10,9 @@ namespace splotchcl {
 struct ErrorBudget {
   Precision precision = Precision::fast;
   bool uses_device_erf = false;
-  bool has_sharp_clouds = false;
   ToleranceShares shares;
 };
 
-// Looks at a sample of the particles where the tolerance is small: see FramePlan.
 ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options);
 
 // Of the highest precision, which promises extended_tolerance.

@@ -26,9 +26,6 @@ void explain_light(const FramePlan& plan, const Frame& frame, std::ostream& out)
 
 void explain_extended(const FramePlan& plan, std::ostream& out) {
   const ToleranceShares& shares = plan.shares;
-  if (plan.has_sharp_clouds) {
-    out << "\n  clouds are too sharp for places in single precision: drawn as with tolerance 0";
-  }
   out << ": the most exact mode, which promises " << shares.promise << "\n"
       << "  numbers of 45 bits, no coarse grids, no early stop\n"
       << "  ends of the splats " << shares.truncation << ", single precision of the light "

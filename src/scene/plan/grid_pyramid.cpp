@@ -74,11 +74,11 @@ void choose_filters(const KernelSettings& kernel, float mean_sigma, double error
   pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
 }
 
-void append_coarse_grids(const Rectangle& crop, GridPyramid& pyramid) {
+void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
   const int guard = pyramid.is_blurred ? blurred_guard(pyramid) : guard_pixels;
   for (int level = 1; level < most_levels; ++level) {
-    const int width = ceil_divide(crop.width, 1 << level);
-    const int height = ceil_divide(crop.height, 1 << level);
+    const int width = ceil_divide(frame.width, 1 << level);
+    const int height = ceil_divide(frame.height, 1 << level);
     if (std::max(width, height) < smallest_coarse_side) break;
     pyramid.level_grids.push_back(static_cast<int>(pyramid.grids.size()));
     const PictureGrid grid = {level, width + 2 * guard, height + 2 * guard, guard};
@@ -88,19 +88,18 @@ void append_coarse_grids(const Rectangle& crop, GridPyramid& pyramid) {
 
 }  // namespace
 
-GridPyramid make_single_grid(const Rectangle& crop) {
+GridPyramid make_single_grid(const Frame& frame) {
   GridPyramid pyramid;
-  pyramid.grids = {{0, crop.width, crop.height, 0}};
+  pyramid.grids = {{0, frame.width, frame.height, 0}};
   pyramid.level_grids = {0};
   pyramid.coarse_sigma = std::numeric_limits<float>::max();
   return pyramid;
 }
 
-GridPyramid make_pyramid(const Rectangle& crop, const KernelSettings& kernel, float mean_sigma,
-                         double error) {
-  GridPyramid pyramid = make_single_grid(crop);
-  choose_filters(kernel, mean_sigma, error, pyramid);
-  append_coarse_grids(crop, pyramid);
+GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error) {
+  GridPyramid pyramid = make_single_grid(frame);
+  choose_filters(frame.kernel, mean_sigma, error, pyramid);
+  append_coarse_grids(frame, pyramid);
   return pyramid;
 }
 

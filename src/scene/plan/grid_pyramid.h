@@ -6,12 +6,11 @@
 namespace splotchcl {
 
 // The picture's own grid alone.
-GridPyramid make_single_grid(const Rectangle& crop);
+GridPyramid make_single_grid(const Frame& frame);
 
 // The grids of a sum, from the picture's own pixels to ever coarser ones, for a relative error
 // of the splats drawn there. `mean_sigma`: narrower splats need means, which coarse grids do
 // not know.
-GridPyramid make_pyramid(const Rectangle& crop, const KernelSettings& kernel, float mean_sigma,
-                         double error);
+GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error);
 
 }  // namespace splotchcl

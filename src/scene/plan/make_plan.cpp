@@ -4,6 +4,7 @@
 #include "scene/plan/error_budget.h"
 #include "scene/plan/grid_pyramid.h"
 #include "scene/plan/light_structure.h"
+#include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/plan.h"
 
@@ -36,9 +37,8 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   // Coarse grids are for round splats. Where cut ones lie upon one another, so do their edges.
   const bool has_coarse_grids = plan.shares.coarse_grids > 0 && !plan.has_ellipses &&
                                 !(frame.kernel.cut && plan.needs.grid_light > 1);
-  if (!has_coarse_grids) return make_single_grid(frame.crop);
-  return make_pyramid(frame.crop, frame.kernel, plan.splats.mean_sigma,
-                      plan.grid_peak_error / plan.needs.grid_light);
+  if (!has_coarse_grids) return make_single_grid(frame);
+  return make_pyramid(frame, plan.splats.mean_sigma, plan.grid_peak_error / plan.needs.grid_light);
 }
 
 // Everything that follows from the precision, the shares and the needs.
@@ -50,6 +50,8 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   plan.erf_error = erf_error(plan);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
+  plan.places =
+      plan.is_extended() ? PlaceLimits{} : choose_place_limits(frame, plan.precision, response);
   plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
 }
 
@@ -72,7 +74,6 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   const ErrorBudget budget = make_error_budget(frame, plan.light, options);
   plan.precision = budget.precision;
   plan.uses_device_erf = budget.uses_device_erf;
-  plan.has_sharp_clouds = budget.has_sharp_clouds;
   plan.shares = budget.shares;
 
   plan.needs = first_needs(plan);

@@ -1,0 +1,44 @@
+// Where splats lie on their grid, as integers (splat.h).
+#pragma OPENCL FP_CONTRACT OFF
+
+// In units of 2^coarser of the grid's.
+typedef struct PlaceLanes {
+  INTEGER x, y, coarser;
+} PlaceLanes;
+
+// To less than a unit. `low` is what the last digit of `high` leaves, where it is known.
+INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel) {
+  const VALUE units = high * units_per_pixel;
+  const INTEGER whole = TO_INTEGER(units);
+  if (!ANY(low != 0.0f)) return whole;
+  return whole + TO_INTEGER((units - TO_VALUE(whole)) + low * units_per_pixel);
+}
+
+// From pixels of the grid from its middle. The units hold `farthest`, within which the splat lies
+// and all copies of it that are drawn.
+INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE farthest,
+                               const ProjectParameters p) {
+  const INTEGER exponent = power_of_two(farthest);
+  const INTEGER beyond = exponent + (p.place_bits - 29);
+  PlaceLanes place;
+  place.coarser = max(beyond, (INTEGER)(0));
+  const VALUE units_per_pixel = AS_VALUE((127 + p.place_bits - place.coarser) << 23);
+  place.x = in_units(x, x_low, units_per_pixel);
+  place.y = in_units(y, y_low, units_per_pixel);
+  return place;
+}
+
+#ifdef ELLIPSES
+// Of the copy so many periods to the right, along x in the splat's units.
+inline int steps_to_copy(const Splat splat, int copy, const ProjectParameters p) {
+  const long period = (long)((ulong)p.period_units.low | ((ulong)p.period_units.high << 32));
+  return (int)((copy * period) >> (splat.component_and_grid >> 24));
+}
+#endif
+
+#ifdef EXTENDED_NUMBERS
+inline float pixels_from_middle(int place, const Splat splat, const ProjectParameters p) {
+  const int bits = p.place_bits - (int)(splat.component_and_grid >> 24);
+  return (float)place * as_float((127 - bits) << 23);
+}
+#endif

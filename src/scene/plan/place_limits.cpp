@@ -1,0 +1,63 @@
+// How well the places of splats are known, in pixels, and what follows for sharp ones
+// (docs/accuracy.md, "Single precision").
+#include "scene/plan/place_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace splotchcl {
+namespace {
+
+constexpr double rounding = 0x1p-24;
+
+// The integers of splats' places hold the picture in 31 bits (picture_layout.cpp).
+double largest_unit(const Frame& frame) {
+  return 0x1p-30 * (std::max(frame.width, frame.height) + 256);
+}
+
+// Of a splat in the picture; the roundings are those of kernels/project/view.cl, x and y count from
+// near the picture's middle.
+void set_single_errors(const Frame& frame, PlaceLimits& limits) {
+  const CameraFrame& camera = frame.camera;
+  const double beside_x = std::abs(camera.center_x - 0.5 * frame.width);
+  const double beside_y = std::abs(camera.center_y - 0.5 * frame.height);
+  double per_pixel = 4;
+  if (!is_wide_angle(frame.projection)) {
+    // The scale errs as z does, by six roundings of the distance, three more and a division's.
+    const bool is_flat = frame.projection == Projection::orthographic;
+    const double corner = std::hypot(0.5 * frame.width + beside_x, 0.5 * frame.height + beside_y);
+    per_pixel = is_flat ? 2 : 6 * std::hypot(1, corner / camera.focal_pixels) + 7;
+  }
+  limits.error_per_pixel = static_cast<float>(per_pixel + 2);
+  // A unit of a splat's integers is a few roundings.
+  const double unit = largest_unit(frame) / rounding;
+  limits.error = static_cast<float>((per_pixel + 2) * (std::max(beside_x, beside_y) + 64) + unit);
+}
+
+// Of a splat whose place is computed in extended numbers: a unit of its integers, and the rounding
+// of its place in a tile of at most 64 pixels.
+double integer_place_error(const Frame& frame) {
+  return largest_unit(frame) + 0x1p-19;
+}
+
+// So many roundings of a width, of the exponent and of exp count with the logarithm of a peak.
+constexpr double roundings_of_fading = 16;
+
+}  // namespace
+
+PlaceLimits choose_place_limits(const Frame& frame, Precision precision, double response) {
+  // What one splat may spend by its place; errors were a fifth of their bounds (docs/accuracy.md).
+  const double share = 0.5 * frame.tolerance / std::max(1.0, response);
+  PlaceLimits limits;
+  set_single_errors(frame, limits);
+  limits.sharp_width = static_cast<float>(rounding / share);
+  limits.most_fading = std::numeric_limits<float>::max();
+  // At larger tolerances it takes stars far smaller than a pixel, right at a pixel's edge.
+  if (precision != Precision::full) return limits;
+  limits.too_sharp_width = static_cast<float>(integer_place_error(frame) / share);
+  limits.most_fading = static_cast<float>(share / (roundings_of_fading * rounding));
+  return limits;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,90 @@
+// A crop has the bits of the whole picture where both are drawn with the same plan, whatever of it
+// is drawn.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "device/pictures.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
+constexpr double tolerances[] = {1e-2, 1e-3, 1e-4, 0};
+
+class CropBits : public PictureTest, public testing::WithParamInterface<CompositeShape> {
+ protected:
+  // Faint and bright clouds of all widths, some of them at one place.
+  static Frame frame_for(LightPlan plan, int count) {
+    CloudSetup setup;
+    setup.width = 160;
+    setup.height = 96;
+    setup.count = count;
+    setup.column_high = 5;
+    DrawnComponent clouds = random_clouds(setup);
+    const DrawnComponent crowd =
+        component_of(std::vector<Cloud>(40, Cloud{20.3, -7.1, 50, 4.6, 10}), two_colors());
+    Frame frame = frame_of(setup.width, setup.height, {clouds, crowd});
+    for (DrawnComponent& component : frame.components) {
+      if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
+      if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
+    }
+    return frame;
+  }
+
+  // Rows of `part` whose bits are not those of `whole` there.
+  static int rows_that_differ(const Image& part, const Image& whole, const Rectangle& crop) {
+    int rows = 0;
+    for (int y = 0; y < crop.height; ++y) {
+      const std::size_t bytes = 4 * sizeof(float) * static_cast<std::size_t>(crop.width);
+      rows += std::memcmp(part.at(0, y), whole.at(crop.x, crop.y + y), bytes) != 0;
+    }
+    return rows;
+  }
+};
+
+TEST_P(CropBits, AreThoseOfTheWholePicture) {
+  DeviceContext device(choose_device(""));
+  for (const LightPlan plan : plans) {
+    for (const double tolerance : tolerances) {
+      Frame frame = frame_for(plan, tolerance > 0 ? 200 : 20);
+      frame.tolerance = tolerance;
+      const Image whole = draw_once(device, frame, GetParam());
+      ASSERT_GT(sum_of_light(whole), 100);
+      for (const Rectangle& crop :
+           {Rectangle{0, 0, 50, 40}, Rectangle{64, 32, 32, 32}, Rectangle{37, 23, 101, 67},
+            Rectangle{159, 95, 1, 1}, Rectangle{0, 70, 160, 1}}) {
+        frame.crop = crop;
+        EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, crop), 0)
+            << name(plan) << ", tolerance " << tolerance << ", crop at " << crop.x << ", "
+            << crop.y;
+      }
+    }
+  }
+}
+
+// What one splat asks for is asked for in the whole picture.
+TEST_P(CropBits, AreThoseOfThePictureAlsoWhereAStarBesideTheCropIsTooSharp) {
+  Frame frame = frame_for(LightPlan::emission, 20);
+  frame.tolerance = 1e-4;
+  draw(frame, GetParam());
+  ASSERT_FALSE(renderer(GetParam()).stats().drawn_most_exactly);
+  frame.components.push_back(component_of({Cloud{70.2, 30.1, 50, 0.02, 1e8}}, two_colors()));
+  frame.components.back().absorption = {Absorption::Kind::none, 0};
+  const Image whole = draw(frame, GetParam());
+  EXPECT_TRUE(renderer(GetParam()).stats().drawn_most_exactly);
+  frame.crop = {0, 0, 40, 90};
+  EXPECT_EQ(rows_that_differ(draw(frame, GetParam()), whole, frame.crop), 0);
+  EXPECT_TRUE(renderer(GetParam()).stats().drawn_most_exactly);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, CropBits,
+                         testing::Values(CompositeShape::rows, CompositeShape::groups),
+                         [](const testing::TestParamInfo<CompositeShape>& info) {
+                           return info.param == CompositeShape::rows ? "rows" : "groups";
+                         });
+
+}  // namespace
+}  // namespace splotchcl::test
