@@ -22,6 +22,7 @@ struct FrameDrawerOptions {
   bool by_reference = false;  // the oracle draws, in double precision and slowly; no device does
   // Called with what is being done and the fraction done, where it takes long. May be empty.
   std::function<void(const std::string& what, double fraction)> progress;
+  bool certify = false;  // as in RendererOptions
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

@@ -97,6 +97,7 @@ struct GridPyramid {
 // Which splats are so sharp that single precision of their places would show. A splat whose place
 // is off by a pixel errs by its slope per sigma (kernels/project/sharp_places.cl).
 struct PlaceLimits {
+  double share = 0;  // the most that one splat may spend, as an error of a sum
   // Roundings of a place in single precision, beside those of what is across the view.
   float error = 0, error_per_pixel = 0;
   // sigma per slope and rounding below which places are taken in extended numbers
@@ -126,6 +127,8 @@ struct FramePlan {
   bool has_ellipses = false;
   int splats_per_particle = 1;  // at most
 
+  bool certify = false;            // PlanOptions
+  double drawn_for_tolerance = 0;  // what is shared out; at most the promise
   ToleranceShares shares;
   SplatNeeds needs;
   SplatLimits splats;
@@ -142,6 +145,8 @@ struct FramePlan {
 // Variations that measurements ask for; pictures are drawn with the default.
 struct PlanOptions {
   bool coarse_grids = true;
+  // What is found after drawing is a bound, not an estimate (docs/accuracy.md).
+  bool certify = false;
 };
 
 // Decides everything.
@@ -149,6 +154,8 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options = {});
 
 // The plan for drawing a frame again whose splats turned out to need more.
 FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeeds& needs);
+// The same for all splats alike: errors become this many times smaller.
+FramePlan tighten_plan(const Frame& frame, const FramePlan& plan, double times);
 // The plan of the highest precision.
 FramePlan extend_plan(const Frame& frame, const FramePlan& plan);
 

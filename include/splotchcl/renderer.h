@@ -38,6 +38,9 @@ struct RendererOptions {
   // Tolerance 0 computes in double precision where the device has it, else, or if this is
   // false, in pairs of floats: slower, with the same bounds.
   bool use_double = true;
+  // Frames are drawn again until a bound, not an estimate, says that they keep their tolerance:
+  // FrameCheck.
+  bool certify = false;
 };
 
 struct StageTime {
@@ -48,15 +51,18 @@ struct StageTime {
 // What was found of a frame's errors after it had been drawn, from all of its splats
 // (docs/accuracy.md, "Checked after drawing").
 struct FrameCheck {
-  // The largest error of any pixel over what is promised, estimated; of each drawing in turn. The
-  // frame is drawn again until it is at most 1. Empty where the drawing needs no check.
+  bool is_bound = false;  // else an estimate
+  // The largest error of any pixel over what is promised, of each drawing in turn. The frame is
+  // drawn again until it is at most 1. In extended precision it is what that promises for any
+  // splats.
   std::vector<double> errors_of_promise;
   // Where the last one is largest, what makes it up.
   double ends = 0;   // of splats, in uneven light
   double even = 0;   // of splats, in even light
   double peaks = 0;  // errors that are parts of splats' peaks
   double rest = 0;   // layers and early stop, ordered
-  // Estimated errors of the last drawing, of light, in square blocks of pixels, row by row.
+  // The largest |frame - reference| / max(1, |reference|) of the last drawing, in square blocks of
+  // pixels of the crop, row by row.
   int block_pixels = 0, columns = 0, rows = 0;
   std::vector<float> errors;
 };

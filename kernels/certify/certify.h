@@ -11,7 +11,8 @@ struct OctaveCells {
 // Splats of one octave of widths are collected in cells about as wide as they are.
 struct CertifyParameters {
   unsigned int grid_count, segment_count;
-  unsigned int cells_per_tile;  // of all octaves, peaks and endings
+  unsigned int cells_per_tile;  // of all octaves, peaks and endings, and
+  unsigned int listed;          // the one that counts the splats of a tile's list
   struct OctaveCells peaks[WIDTH_OCTAVES], endings[WIDTH_OCTAVES];
   float widening;     // as in ProjectParameters
   float blur[2];      // as in ProjectParameters; 0 where nothing is blurred

@@ -79,6 +79,7 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
       reach_of(grid, (int)(in_grid % (uint)grid.tiles_x), (int)(in_grid / (uint)grid.tiles_x));
   __global float* own_cells = cells + (size_t)tile * p.cells_per_tile;
   for (uint s = id; s < p.segment_count && segments[s].tile == tile; ++s) {
+    own_cells[p.listed] += (float)(segments[s].end - segments[s].begin);
     for (uint k = segments[s].begin; k < segments[s].end; ++k) {
       __global const TileSplat* splat = entries + k;
       if (splat->x >= reach.x0 && splat->x < reach.x1 && splat->y >= reach.y0 &&

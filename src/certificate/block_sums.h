@@ -21,6 +21,7 @@ class BlockSums {
   BlockSums(const CellSums& cells, int margin);
 
   double over(const CellRange& range) const;
+  double total() const { return sums_.back(); }
   // The same where the range lies within the margin.
   double over_near(const CellRange& range) const {
     const double* top = sums_.data() + (range.y0 + margin_) * stride_ + margin_;

@@ -32,16 +32,31 @@ PixelBlock pixels_of(const PictureLight& picture, std::size_t block) {
   return {x, x + side, y, y + side};
 }
 
+// The part of itself by which every splat may err: the polynomial of exp, means of bright splats,
+// and the roundings of sums. These have either sign: 6.5 standard deviations are passed once in
+// 1e10 (docs/accuracy.md).
+double part_of_all_splats(const CollectedSplats& splats, const FramePlan& plan) {
+  const double of_exp = plan.precision == Precision::fast ? 2.6e-6 : 7.5e-8;
+  const double rounding = 0x1p-24, deviations = 6.5;
+  const double of_sums = deviations * rounding * std::sqrt((splats.longest_list + 1) / 3);
+  return of_exp + plan.shares.pixel_mean + 8 * rounding + of_sums;
+}
+
+// Roundings of the light itself.
+constexpr double of_the_light = 8 * 0x1p-24;
+
 // All that the approximations of a drawn frame do to its blocks of pixels.
 class FrameErrors {
  public:
-  FrameErrors(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+  FrameErrors(const CollectedSplats& splats, const Image& image, const Frame& frame,
               const FramePlan& plan)
       : picture_(measure_light(image, frame, plan)),
+        is_bound_(plan.certify),
         promise_(plan.shares.promise),
-        rest_(plan.shares.phi + plan.shares.early_stop) {
-    octaves_.reserve(cells.size());
-    for (const PeakCells& of_octave : cells)
+        rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0)),
+        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0) {
+    octaves_.reserve(splats.cells.size());
+    for (const PeakCells& of_octave : splats.cells)
       octaves_.emplace_back(of_octave, frame, plan);
   }
 
@@ -59,12 +74,13 @@ class FrameErrors {
     const PixelBlock pixels = pixels_of(picture_, block);
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
-    sums.rest = rest_ / promise;
+    sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
       const double peaks = octaves_[i].of_peaks(pixels, negligible_part / response);
       parts[i].peaks = response * peaks;
       parts[i].peak_light = peaks > 0 ? peaks / octaves_[i].peak_error() : 0;
+      if (is_bound_) sums.rest += response * octaves_[i].of_places(pixels);
       sums.ends += parts[i].ends;
       sums.even += parts[i].even;
       sums.peaks += parts[i].peaks;
@@ -75,16 +91,21 @@ class FrameErrors {
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
 
   void add_needs(const std::vector<Part>& parts, double error, SplatNeeds& needs) const {
-    double peaks = 0;
-    for (const Part& part : parts)
-      peaks += part.peaks;
+    double peaks = 0, on_grids = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      peaks += parts[i].peaks;
+      if (octaves_[i].level() > 0) on_grids += parts[i].peak_light;
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (parts[i].ends > least_part || parts[i].even > least_part)
         need.farther = std::max(need.farther, std::log(margin * error));
-      if (peaks <= least_of_peaks || parts[i].peaks <= least_part) continue;
-      double& light = octaves_[i].level() > 0 ? needs.grid_light : need.light;
-      light = std::max(light, margin * parts[i].peak_light);
+    }
+    if (peaks <= least_of_peaks) return;
+    // All coarse grids are made for what lies on any of them.
+    needs.grid_light = std::max(needs.grid_light, margin * on_grids);
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
+      if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
+        need.light = std::max(need.light, margin * parts[i].peak_light);
     }
   }
 
@@ -102,15 +123,16 @@ class FrameErrors {
 
   PictureLight picture_;
   std::vector<OctaveErrors> octaves_;
-  double promise_, rest_;
+  bool is_bound_;
+  double promise_, rest_, part_of_all_;
 };
 
 }  // namespace
 
-Certificate certify(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  const FrameErrors errors(cells, image, frame, plan);
+  const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
   for_blocks(blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
     std::vector<Part> parts = errors.parts();
@@ -124,7 +146,7 @@ Certificate certify(const std::vector<PeakCells>& cells, const Image& image, con
   std::vector<Part> parts = errors.parts();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double error = blocks[b].sum();
-    certificate.errors.push_back(static_cast<float>(error * errors.promise_of(b)));
+    certificate.errors.push_back(static_cast<float>(error * plan.shares.promise));
     if (error > certificate.error_of_promise) {
       certificate.error_of_promise = error;
       certificate.worst = blocks[b];
@@ -133,6 +155,19 @@ Certificate certify(const std::vector<PeakCells>& cells, const Image& image, con
     errors.in_block(b, parts);
     errors.add_needs(parts, error, certificate.needs);
   }
+  return certificate;
+}
+
+Certificate certify_extended(const Image& image, const Frame& frame) {
+  Certificate certificate;
+  constexpr int side = PictureLight::block_pixels;
+  certificate.columns = (image.width + side - 1) / side;
+  certificate.rows = (image.height + side - 1) / side;
+  certificate.errors.assign(
+      static_cast<std::size_t>(certificate.columns) * static_cast<std::size_t>(certificate.rows),
+      static_cast<float>(extended_tolerance));
+  certificate.error_of_promise = extended_tolerance / std::max(frame.tolerance, extended_tolerance);
+  certificate.worst.rest = certificate.error_of_promise;
   return certificate;
 }
 

@@ -21,14 +21,24 @@ struct Certificate {
   double error_of_promise = 0;  // the largest of any block of pixels
   ErrorParts worst;             // of that block
   int columns = 0, rows = 0;    // of blocks (PictureLight)
-  std::vector<float> errors;    // of light, per block, row by row
+  // Per block, row by row: the largest |frame - reference| / max(1, |reference|).
+  std::vector<float> errors;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;
   bool keeps_promise() const { return error_of_promise <= 1; }
 };
 
+// What was collected of a drawn frame.
+struct CollectedSplats {
+  std::vector<PeakCells> cells;
+  double longest_list = 0;  // splats of one tile
+};
+
 // docs/accuracy.md ("Checked after drawing") derives it and says what is a bound.
-Certificate certify(const std::vector<PeakCells>& cells, const Image& image, const Frame& frame,
+Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan);
+
+// Of a picture in extended precision, which keeps its promise whatever the splats.
+Certificate certify_extended(const Image& image, const Frame& frame);
 
 }  // namespace splotchcl

@@ -19,6 +19,9 @@ constexpr int peak_spread = 2;
 // The smallest cells are two pixels wide. A block at the picture's edge may reach beyond it, and
 // what is looked at around a cell lies up to three more away.
 constexpr int cells_in_block = PictureLight::block_pixels / 2 + 3;
+// What a coarse grid errs by is interpolated by all further refinements, and the constant of the
+// filter's error grows from 3.5 to 5.2 for wide splats (docs/accuracy.md, "Coarse grids").
+constexpr double repeated_refinements = 1.7;
 // Light is averaged over so many sigma to each side.
 constexpr double light_reach = 1.5;
 
@@ -37,7 +40,9 @@ double without_widening(double sigma, const FramePlan& plan) {
 
 // Errors of erf over both axes; and of the widened center value.
 double error_of_peak(int octave, int level, const Frame& frame, const FramePlan& plan) {
-  if (level > 0) return plan.grid_peak_error / plan.needs.grid_light;
+  if (level > 0) {
+    return (plan.certify ? repeated_refinements : 1) * plan.grid_peak_error / plan.needs.grid_light;
+  }
   const double mean_sigma = static_cast<double>(plan.splats.mean_sigma);
   const double narrowest = without_widening(narrowest_sigma(octave), plan);
   const double widest = without_widening(widest_sigma(octave), plan);
@@ -48,6 +53,14 @@ double error_of_peak(int octave, int level, const Frame& frame, const FramePlan&
     error = std::max(error, center_value_error(sigma));
   }
   return error / std::max(1.0, plan.needs.widths[static_cast<std::size_t>(octave)].light);
+}
+
+// 0.86 of a peak for each sigma by which a splat is off (docs/accuracy.md, "Single precision").
+double place_error_of(int octave, const Frame& frame, const FramePlan& plan) {
+  const double farthest = 0.5 * std::max(frame.width, frame.height);
+  const double roundings = static_cast<double>(plan.places.error) +
+                           static_cast<double>(plan.places.error_per_pixel) * farthest;
+  return 0.86 * 0x1p-24 * roundings / std::max(0.5, narrowest_sigma(octave));
 }
 
 double extent2(int octave, const FramePlan& plan) {
@@ -65,15 +78,28 @@ EndingWindow window_of(int octave, int level, int side, const FramePlan& plan) {
   const double radius = std::sqrt(extent2(octave, plan)) * sigma + 0.5;
   EndingWindow window;
   window.reach = static_cast<int>(std::ceil(radius / side));
-  const double nearest = window.reach * side;
-  window.next_weight = std::exp((radius * radius - nearest * nearest) / (sigma * sigma));
+  const auto left_at = [&](double distance) {
+    return std::exp((radius * radius - distance * distance) / (sigma * sigma));
+  };
+  window.next_weight = left_at(window.reach * side);
+  window.far_weight = left_at((window.reach + 1) * side);
   return window;
+}
+
+// Where a splat is drawn, and as far as a coarse grid's filters carry it: five pixels of each grid,
+// each half as wide as those of the one before.
+int peak_reach_of(int octave, int level, int side, const FramePlan& plan) {
+  constexpr double filter_pixels = 10;
+  const double sigma = std::ldexp(widest_sigma(octave), -level);
+  const double reach = std::sqrt(extent2(octave, plan)) * sigma + (level > 0 ? filter_pixels : 1);
+  return static_cast<int>(std::ceil(reach / side));
 }
 
 }  // namespace
 
 OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan)
-    : octave_(std::min(cells.octave, width_octaves - 1)),
+    : is_bound_(plan.certify),
+      octave_(std::min(cells.octave, width_octaves - 1)),
       level_(cells.level),
       left_(cells.left),
       top_(cells.top),
@@ -83,9 +109,12 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       peak_side_(cells.peaks.side),
       ending_(ending_of(octave_, frame, plan)),
       peak_error_(error_of_peak(octave_, level_, frame, plan)),
+      place_error_(place_error_of(octave_, frame, plan)),
+      place_share_(plan.places.share),
       window_(window_of(octave_, level_, ending_side_, plan)),
+      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, peak_side_, plan) : peak_spread),
       endings_(cells.endings, window_.reach + cells_in_block),
-      peaks_(cells.peaks, peak_spread + cells_in_block) {}
+      peaks_(cells.peaks, peak_reach_ + cells_in_block) {}
 
 CellRange OctaveErrors::cells_of(const PixelBlock& block, int side) const {
   // Both are whole numbers of pixels of the grid or of the picture: shifts round down.
@@ -94,12 +123,17 @@ CellRange OctaveErrors::cells_of(const PixelBlock& block, int side) const {
   return {column(block.x0), column(block.x1 - 1) + 1, row(block.y0), row(block.y1 - 1) + 1};
 }
 
-double OctaveErrors::ends_around(const CellRange& cell) const {
+double OctaveErrors::all_ends_around(const CellRange& cell) const {
   const double within = endings_.over_near(cell.widened(window_.reach));
   const double next = endings_.over_near(cell.widened(window_.reach + 1)) - within;
+  return within + window_.next_weight * next;
+}
+
+double OctaveErrors::ends_around(const CellRange& cell) const {
+  if (is_bound_) return all_ends_around(cell) + window_.far_weight * endings_.total();
   const double cells = (2.0 * window_.reach + 1) * (2.0 * window_.reach + 1);
   const double even = uneven * cells * even_around(cell);
-  return std::max(0.0, within + window_.next_weight * next - even);
+  return std::max(0.0, all_ends_around(cell) - even);
 }
 
 // Of the four squares of two cells by two that the cell lies in, the emptiest: a cluster beside
@@ -115,7 +149,8 @@ double OctaveErrors::even_around(const CellRange& cell) const {
 
 double OctaveErrors::of_ends(const PixelBlock& block, double negligible) const {
   const CellRange range = cells_of(block, ending_side_);
-  const double most = ending_ * endings_.over_near(range.widened(window_.reach + 1));
+  const double farther = is_bound_ ? window_.far_weight * endings_.total() : 0;
+  const double most = ending_ * (endings_.over_near(range.widened(window_.reach + 1)) + farther);
   if (most <= negligible) return most;
   double largest = 0;
   for (int y = range.y0; y < range.y1; ++y) {
@@ -134,7 +169,8 @@ double OctaveErrors::peaks_around(int x, int y) const {
 }
 
 double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const {
-  const CellRange range = cells_of(block, peak_side_).widened(peak_spread);
+  const CellRange range = cells_of(block, peak_side_).widened(peak_reach_);
+  if (is_bound_) return peak_error_ * peaks_.over_near(range);
   const double most = peak_error_ * peaks_.over_near(range.widened(1));
   if (most <= negligible) return most;
   double largest = 0;
@@ -143,6 +179,13 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
       largest = std::max(largest, peaks_around(x, y));
   }
   return peak_error_ * largest;
+}
+
+double OctaveErrors::of_places(const PixelBlock& block) const {
+  // Bounds are at least four standard deviations (docs/accuracy.md).
+  constexpr double bounds = 6.5 / 4;
+  const double light = peaks_.over_near(cells_of(block, peak_side_).widened(peak_reach_));
+  return bounds * std::sqrt(place_share_ * place_error_ * light);
 }
 
 double OctaveErrors::light(const PixelBlock& block) const {

@@ -17,7 +17,7 @@ struct PixelBlock {
 // what is left of the nearest of them.
 struct EndingWindow {
   int reach = 0;
-  double next_weight = 0;
+  double next_weight = 0, far_weight = 0;  // one cell farther, and all that are farther still
 };
 
 // What the approximations of one octave of splats on one grid do to a block of pixels, as errors
@@ -30,30 +30,38 @@ class OctaveErrors {
   int octave() const { return octave_; }
   int level() const { return level_; }
 
-  // By ends of splats, beyond what even light leaves out. Where it is certain to be below
-  // `negligible`, a coarser bound.
+  // By ends of splats, beyond what even light leaves out; where a bound is asked for
+  // (FramePlan::certify) in all. Where it is certain to be below `negligible`, a coarser bound.
   double of_ends(const PixelBlock& block, double negligible) const;
-  // By errors that are parts of peaks and of one sign, where splats lie upon one another.
+  // By errors that are parts of peaks and of one sign, where splats lie upon one another; where a
+  // bound is asked for, of all splats that reach the block.
   double of_peaks(const PixelBlock& block, double negligible) const;
+  // By places in single precision, whose roundings have either sign: what is passed once in 1e10.
+  // Only where a bound is asked for.
+  double of_places(const PixelBlock& block) const;
   // Which part of a peak.
   double peak_error() const { return peak_error_; }
   // The mean of the splats' light around the block.
   double light(const PixelBlock& block) const;
-  // The part of even light that ends leave out at most.
-  double even_part() const { return lattice_rows * ending_; }
+  // The part of even light that ends leave out at most, beside of_ends().
+  double even_part() const { return is_bound_ ? 0 : lattice_rows * ending_; }
 
  private:
   CellRange cells_of(const PixelBlock& block, int side) const;
+  double all_ends_around(const CellRange& cell) const;
   double ends_around(const CellRange& cell) const;
   double even_around(const CellRange& cell) const;
   double peaks_around(int x, int y) const;
 
+  bool is_bound_;
   int octave_, level_;
   int left_, top_;       // as in PeakCells
   int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;
   double ending_, peak_error_;
+  double place_error_, place_share_;  // parts of a peak; the most that one splat errs
   EndingWindow window_;
+  int peak_reach_;  // cells from a pixel to the farthest splat whose errors show there
   BlockSums endings_, peaks_;
 };
 

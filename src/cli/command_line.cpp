@@ -70,6 +70,13 @@ void add_render(CLI::App& app, Run& run, Console& console) {
   add_draw_options(*sub, *options);
   sub->add_option("--crop", options->crop, wrapped("Draw only this part of the picture, in pixels"))
       ->type_name("X,Y,W,H");
+  sub->add_flag("--certify", options->certify,
+                wrapped("Draw until a bound, not an estimate, says that the picture keeps its "
+                        "tolerance"));
+  sub->add_option("--error-map", options->error_map,
+                  wrapped("Certify, and write the bound of each pixel's error, over its light "
+                          "where that is more than 1, as an image: an .exr has the numbers"))
+      ->type_name("FILE");
   sub->footer(
       "Examples:\n"
       "  splotchcl render snapshot_006 -o universe.png\n"

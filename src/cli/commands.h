@@ -32,6 +32,8 @@ std::vector<std::string> settings_of(const DrawOptions& options);
 struct RenderOptions : DrawOptions {
   std::optional<std::filesystem::path> output;
   std::string crop;  // X,Y,W,H
+  bool certify = false;
+  std::optional<std::filesystem::path> error_map;  // an image
 };
 int run_render(const RenderOptions& options, Console& console);
 

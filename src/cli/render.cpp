@@ -110,6 +110,26 @@ std::map<std::string, std::string> metadata(const Scene& scene, const RenderOpti
   return texts;
 }
 
+// The bound of each pixel's error over max(1, its light).
+Image make_error_map(const FrameCheck& check, const Rectangle& crop) {
+  const int columns = (crop.width + check.block_pixels - 1) / std::max(1, check.block_pixels);
+  if (check.columns != columns) {
+    throw UsageError(
+        "--error-map: the scene has several views (eyes, faces, an inset), expected one");
+  }
+  Image map(crop.width, crop.height);
+  for (int y = 0; y < crop.height; ++y) {
+    for (int x = 0; x < crop.width; ++x) {
+      const auto block =
+          static_cast<std::size_t>(y / check.block_pixels * check.columns + x / check.block_pixels);
+      float* const pixel = map.at(x, y);
+      std::fill_n(pixel, 3, check.errors[block]);
+      pixel[3] = 1;
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, Console& console) {
@@ -117,6 +137,10 @@ int run_render(const RenderOptions& options, Console& console) {
   const std::optional<std::filesystem::path> output = choose_output(options);
   if (output) check_image_path(*output);
   if (options.stats) check_output_path(*options.stats);
+  if (options.error_map) {
+    if (options.reference) throw UsageError("--error-map: the reference has no errors to be drawn");
+    check_image_path(*options.error_map);
+  }
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
 
   const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
@@ -130,18 +154,24 @@ int run_render(const RenderOptions& options, Console& console) {
                              cropped ? wanted.height : picture.height);
   }
   if (options.stats) outputs.push_back({*options.stats, "--stats"});
+  if (options.error_map) outputs.push_back({*options.error_map, "--error-map"});
   check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
   std::optional<FrameDrawer> drawer;
   if (output) {
     if (!options.reference) console.status("starting the device");
-    drawer.emplace(FrameDrawerOptions{options.device, options.reference, show_progress(console)});
+    drawer.emplace(FrameDrawerOptions{options.device, options.reference, show_progress(console),
+                                      options.certify || options.error_map});
   }
 
   RenderReport report;
   const Stopwatch reading;
   report.frame = read_frame(source, options, console);
   report.read_seconds = reading.seconds();
-  if (options.explain || options.stats) report.plan = make_plan(report.frame);
+  if (options.explain || options.stats) {
+    PlanOptions plan;
+    plan.certify = options.certify || options.error_map;
+    report.plan = make_plan(report.frame, plan);
+  }
   if (options.explain) {
     print_explanation(report.plan, report.frame, source.scene, options, 1);
   }
@@ -154,10 +184,13 @@ int run_render(const RenderOptions& options, Console& console) {
   for (const std::string& note : drawn.all_notes())
     console.note(note);
   report.draw_seconds = drawing.seconds();
+  std::optional<Image> map;
+  if (options.error_map) map = make_error_map(report.stats.check, report.frame.crop);
   const Stopwatch writing;
   console.status("writing " + output->string());
   write_pictures(*output, drawn.pictures,
                  image_file_options(source.scene, metadata(source.scene, options, drawn.stats)));
+  if (map) write_image(*options.error_map, *map, image_file_options(source.scene, {}));
   report.write_seconds = writing.seconds();
   if (options.stats) {
     report.scene = options.scene.string();

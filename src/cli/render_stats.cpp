@@ -25,11 +25,9 @@ Json plan_to_json(const FramePlan& plan) {
 }
 
 Json check_to_json(const FrameCheck& check) {
-  return {{"errors_of_promise", check.errors_of_promise},
-          {"ends", check.ends},
-          {"even", check.even},
-          {"peaks", check.peaks},
-          {"rest", check.rest}};
+  return {{"is_bound", check.is_bound}, {"errors_of_promise", check.errors_of_promise},
+          {"ends", check.ends},         {"even", check.even},
+          {"peaks", check.peaks},       {"rest", check.rest}};
 }
 
 Json seconds_to_json(const RenderReport& report) {

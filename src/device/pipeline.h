@@ -37,7 +37,7 @@ class Pipeline {
   // Of no use where counts() tells of particles that are too sharp: it ends early then.
   Image draw();
   // Of all splats that have been drawn.
-  std::vector<PeakCells> peak_cells() const { return certifier_.cells(); }
+  CollectedSplats collected() const { return certifier_.collected(); }
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn
 
   const StageContext& context() const { return context_; }

@@ -57,9 +57,20 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
 
 // What is known of splats once they are drawn.
 struct DrawnSplats {
-  std::vector<PeakCells> cells;
+  CollectedSplats collected;
   bool are_too_sharp = false;  // some, for the plan's precision
 };
+
+// The plan of the next drawing of a frame that did not keep its promise in `drawings` of them.
+FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate& certificate,
+                    std::size_t drawings) {
+  // What converges does so in a step or two.
+  constexpr std::size_t most_drawings = 4;
+  if (drawings >= most_drawings) return extend_plan(frame, plan);
+  if (!plan.certify) return refine_plan(frame, plan, certificate.needs);
+  // Bounds fall more slowly than what is shared out: by no less than 4 at a time.
+  return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
+}
 
 }  // namespace
 
@@ -72,6 +83,7 @@ struct Renderer::State {
       device.traits.rows = options.shape == CompositeShape::rows;
     }
     device.traits.double_numbers &= options.use_double;
+    certifies = options.certify;
   }
 
   Image render(const Frame& frame, const FramePlan& plan);
@@ -81,6 +93,7 @@ struct Renderer::State {
   DeviceContext device;
   ParticleStore particles;
   RenderStats stats;
+  bool certifies = false;
 };
 
 Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
@@ -94,6 +107,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   device.pool.reset_peak();
   particles.begin_frame();
 
+  stats.check.is_bound = plan.certify;
   FramePlan drawn = plan;
   Image image;
   while (true) {
@@ -104,18 +118,12 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
       drawn = extend_plan(frame, drawn);
       continue;
     }
-    if (drawn.is_extended()) {
-      stats.check.errors.clear();
-      break;
-    }
-    const Certificate certificate = certify(splats.cells, image, frame, drawn);
+    const Certificate certificate = drawn.is_extended()
+                                        ? certify_extended(image, frame)
+                                        : certify(splats.collected, image, frame, drawn);
     note_check(certificate, stats.check);
-    if (certificate.keeps_promise()) break;
-    // What converges does so in a step or two.
-    constexpr std::size_t most_drawings = 4;
-    drawn = stats.check.errors_of_promise.size() < most_drawings
-                ? refine_plan(frame, drawn, certificate.needs)
-                : extend_plan(frame, drawn);
+    if (drawn.is_extended() || certificate.keeps_promise()) break;
+    drawn = next_plan(frame, drawn, certificate, stats.check.errors_of_promise.size());
   }
   particles.end_frame();
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
@@ -131,7 +139,7 @@ Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSpla
   Pipeline pipeline(device, particles, frame, plan);
   Image image = pipeline.draw();
   splats.are_too_sharp = pipeline.counts().too_sharp > 0;
-  if (!splats.are_too_sharp) splats.cells = pipeline.peak_cells();
+  if (!splats.are_too_sharp) splats.collected = pipeline.collected();
   device.queue.finish();
   stats.particles = pipeline.counts().particles;
   stats.drawn_particles = pipeline.counts().visible;
@@ -155,7 +163,9 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::render(const Frame& frame) {
   check_frame(frame);
-  return render(frame, make_plan(frame));
+  PlanOptions options;
+  options.certify = state_->certifies;
+  return render(frame, make_plan(frame, options));
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {

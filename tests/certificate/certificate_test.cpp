@@ -47,7 +47,7 @@ class CertificateTest : public testing::Test {
   }
 
   Certificate certify_cells(const PeakCells& cells) const {
-    return certify({cells}, dark_picture(), frame_, plan_);
+    return certify({{cells}, 1}, dark_picture(), frame_, plan_);
   }
   // Of a splat of sigma from 1 to 2, where it ends.
   double ending() const {

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -175,6 +178,42 @@ TEST_F(Render, TellsTimesAndCountsAsJson) {
   EXPECT_EQ(json["crop"], nlohmann::json({8, 8, 32, 16}));
   EXPECT_GT(json["seconds"]["draw"], 0);
   EXPECT_FALSE(json["stages"].empty());
+}
+
+TEST_F(Render, SaysHowWellThePromiseIsKept) {
+  ASSERT_EQ(render(std::string("u -o a.png --stats s.json") + small).exit_code, 0);
+  const auto check = nlohmann::json::parse(read_text(folder_ / "s.json"))["check"];
+  EXPECT_EQ(check["is_bound"], false);
+  EXPECT_LE(check["errors_of_promise"].back(), 1);
+}
+
+TEST_F(Render, CertifiesThatThePromiseIsKept) {
+  ASSERT_EQ(render(std::string("u -o a.png --certify --stats s.json") + small).exit_code, 0);
+  const auto check = nlohmann::json::parse(read_text(folder_ / "s.json"))["check"];
+  EXPECT_EQ(check["is_bound"], true);
+  EXPECT_LE(check["errors_of_promise"].back(), 1);
+}
+
+TEST_F(Render, WritesABoundOfEachPixelThatNoneExceeds) {
+  ASSERT_EQ(render(std::string("u -o a.exr --error-map map.exr") + small).exit_code, 0);
+  ASSERT_EQ(render(std::string("u -o exact.exr --reference") + small).exit_code, 0);
+  const Image drawn = read_image(folder_ / "a.exr"), exact = read_image(folder_ / "exact.exr"),
+              map = read_image(folder_ / "map.exr");
+  ASSERT_EQ(map.pixels.size(), drawn.pixels.size());
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const float allowed = std::max(1.0f, std::abs(exact.pixels[i])) * map.pixels[i];
+    ASSERT_LE(std::abs(drawn.pixels[i] - exact.pixels[i]), allowed);
+    ASSERT_LE(map.pixels[i], 1e-3f);
+  }
+}
+
+TEST_F(Render, RefusesAMapOfErrorsOfTheReference) {
+  const ProgramResult result =
+      render(std::string("u -o a.exr --reference --error-map map.exr") + small);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.exr"));
 }
 
 TEST_F(Render, DrawsWithTheReferenceTheSamePictureWithinTheTolerance) {

@@ -39,7 +39,7 @@ class CertifierTest : public StageTest, public testing::WithParamInterface<Light
     Pipeline pipeline(device(), particles, frame, plan);
     pipeline.draw();
     drawn = pipeline.counts().visible;
-    return pipeline.peak_cells();
+    return pipeline.collected().cells;
   }
 };
 
@@ -103,12 +103,25 @@ TEST(FrameCheckTest, DrawsAgainWhatManySplatsInOnePlaceLeaveOut) {
   EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
 }
 
-TEST(FrameCheckTest, NeedsNoneAtToleranceZero) {
+TEST(FrameCheckTest, PromisesAtToleranceZeroWhatItsNumbersHold) {
   Frame frame = frame_of(100, 70, {random_clouds({})});
   frame.tolerance = 0;
   Renderer renderer;
   renderer.render(frame);
-  EXPECT_TRUE(renderer.stats().check.errors_of_promise.empty());
+  EXPECT_EQ(renderer.stats().check.errors_of_promise, std::vector<double>{1});
+  for (const float error : renderer.stats().check.errors)
+    EXPECT_GE(error, extended_tolerance * 0.999999);
+}
+
+TEST(FrameCheckTest, IsABoundWhereThatIsAskedFor) {
+  RendererOptions options;
+  options.certify = true;
+  Renderer renderer(options);
+  const Frame frame = frame_of(100, 70, {random_clouds({})});
+  const Image image = renderer.render(frame);
+  EXPECT_TRUE(renderer.stats().check.is_bound);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+  EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
 }
 
 }  // namespace

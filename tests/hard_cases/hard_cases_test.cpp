@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -31,8 +33,9 @@ const std::vector<HardCase>& all_cases() {
 }
 
 // How the device draws: either shape of compositing at the case's own tolerance, or the most
-// exact mode, whose numbers are doubles or pairs of floats.
-enum class Way { rows, groups, exact, pairs };
+// exact mode, whose numbers are doubles or pairs of floats; or in rows, until a bound says that the
+// tolerance is kept.
+enum class Way { rows, groups, exact, pairs, certified };
 
 struct CaseRun {
   std::size_t index;
@@ -51,6 +54,7 @@ std::vector<CaseRun> all_runs() {
       const bool groups = is_drawn(all_cases()[i].in_groups);
       const bool exact = is_drawn(all_cases()[i].most_exactly);
       runs.push_back({i, plan, Way::rows});
+      runs.push_back({i, plan, Way::certified});
       if (groups) runs.push_back({i, plan, Way::groups});
       if (exact) runs.push_back({i, plan, Way::exact});
       if (groups && exact) runs.push_back({i, plan, Way::pairs});
@@ -69,6 +73,8 @@ const char* way_name(const CaseRun& run) {
       return "exact";
     case Way::pairs:
       return "pairs";
+    case Way::certified:
+      return "certified";
   }
   return "";
 }
@@ -90,6 +96,7 @@ class Bench : public testing::Environment {
       RendererOptions options;
       options.shape = way == Way::groups ? CompositeShape::groups : CompositeShape::rows;
       options.use_double = way != Way::pairs;
+      options.certify = way == Way::certified;
       renderer = std::make_unique<Renderer>(options);
     }
     return *renderer;
@@ -114,7 +121,7 @@ class Bench : public testing::Environment {
   }
 
  private:
-  std::unique_ptr<Renderer> renderers_[4];
+  std::unique_ptr<Renderer> renderers_[5];
   ReferenceImage exact_;
   std::string exact_key_;
   ErrorTable table_;
@@ -123,6 +130,28 @@ class Bench : public testing::Environment {
 Bench& bench() {
   static auto* const shared = dynamic_cast<Bench*>(testing::AddGlobalTestEnvironment(new Bench));
   return *shared;
+}
+
+// No pixel errs by more than is certified of it.
+void expect_to_be_bounded(const Image& image, const ReferenceImage& exact,
+                          const FrameCheck& check) {
+  ASSERT_TRUE(check.is_bound);
+  EXPECT_LE(check.errors_of_promise.back(), 1);
+  double largest = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto block =
+          static_cast<std::size_t>(y / check.block_pixels * check.columns + x / check.block_pixels);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t value = 4 * static_cast<std::size_t>(y * image.width + x) + c;
+        const double error =
+            std::abs(static_cast<double>(image.pixels[value]) - exact.pixels[value]) /
+            std::max(1.0, std::abs(exact.pixels[value]));
+        largest = std::max(largest, error / static_cast<double>(check.errors[block]));
+      }
+    }
+  }
+  EXPECT_LE(largest, 1) << "a pixel errs by so many times what is certified of it";
 }
 
 class HardCases : public testing::TestWithParam<CaseRun> {};
@@ -134,12 +163,14 @@ TEST_P(HardCases, StayWithinTheirBound) {
   ASSERT_EQ(choose_light(frame), run.plan);
   if (is_exact(run)) frame.tolerance = 0;
   const double bound = is_exact(run) ? extended_tolerance : frame.tolerance;
-  const Image image = bench().renderer(run.way).render(frame);
+  Renderer& renderer = bench().renderer(run.way);
+  const Image image = renderer.render(frame);
   const ReferenceImage& exact = bench().exact(run, frame);
   ASSERT_EQ(largest_value(exact) < 0.05, hard.dark) << "the case must have something to see";
   const double error = largest_error(image, exact);
   bench().table().add(hard, run.plan, way_name(run), error, bound);
   EXPECT_LE(error, bound) << hard.why;
+  if (run.way == Way::certified) expect_to_be_bounded(image, exact, renderer.stats().check);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HardCases, testing::ValuesIn(all_runs()),

@@ -77,6 +77,7 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
     lay_out(narrowest, specialization.tile_width(), specialization.tile_height(), octaves,
             parameters_.cells_per_tile);
   }
+  parameters_.listed = parameters_.cells_per_tile++;
   const SplatLimits& limits = context.plan.splats;
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
@@ -111,10 +112,12 @@ void Certifier::collect(const TileLists& lists) {
       .run_items(lists.segment_count);
 }
 
-std::vector<PeakCells> Certifier::cells() const {
-  std::vector<PeakCells> found;
+CollectedSplats Certifier::collected() const {
+  CollectedSplats found;
   if (!has_started_) return found;
   const std::vector<float> values = context_.device.pool.download(cells_, cells_.size());
+  for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
+    found.longest_list = std::max(found.longest_list, static_cast<double>(values[i]));
   const int tile_width = static_cast<int>(context_.specialization.tile_width());
   const int tile_height = static_cast<int>(context_.specialization.tile_height());
   for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
@@ -133,7 +136,7 @@ std::vector<PeakCells> Certifier::cells() const {
       cells.left = grid.first_x - grid.guard;
       cells.top = grid.first_y - grid.guard;
       cells.octave = octave + level;
-      found.push_back(std::move(cells));
+      found.cells.push_back(std::move(cells));
     }
   }
   return found;

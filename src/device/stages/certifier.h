@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "certificate/certificate.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "certificate/peak_cells.h"
 
 namespace splotchcl {
 
@@ -16,7 +16,7 @@ class Certifier {
 
   void collect(const TileLists& lists);
   // Of all lists so far; waits for the device. Octaves without splats are left out.
-  std::vector<PeakCells> cells() const;
+  CollectedSplats collected() const;
 
  private:
   void start();

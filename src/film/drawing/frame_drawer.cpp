@@ -66,7 +66,10 @@ struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
     if (!options.by_reference) {
       const QuietErrors quiet;
-      renderer.emplace(RendererOptions{options.device, CompositeShape::automatic});
+      RendererOptions of_renderer;
+      of_renderer.device = options.device;
+      of_renderer.certify = options.certify;
+      renderer.emplace(of_renderer);
     }
   }
 

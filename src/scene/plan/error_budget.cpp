@@ -61,12 +61,14 @@ ErrorBudget make_extended_budget() {
   return budget;
 }
 
-ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options) {
+ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
+                              const PlanOptions& options) {
   ErrorBudget budget;
   if (frame.tolerance == 0) return make_extended_budget();
-  budget.precision = frame.tolerance < fast_tolerance ? Precision::full : Precision::fast;
-  budget.uses_device_erf = frame.tolerance < polynomial_erf_tolerance;
-  budget.shares = share_out(frame.tolerance, light, options);
+  budget.precision = drawn_for < fast_tolerance ? Precision::full : Precision::fast;
+  budget.uses_device_erf = drawn_for < polynomial_erf_tolerance;
+  budget.shares = share_out(drawn_for, light, options);
+  budget.shares.promise = frame.tolerance;
   return budget;
 }
 

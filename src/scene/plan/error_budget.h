@@ -13,7 +13,9 @@ struct ErrorBudget {
   ToleranceShares shares;
 };
 
-ErrorBudget make_error_budget(const Frame& frame, LightPlan light, const PlanOptions& options);
+// `drawn_for`: the tolerance that is shared out, at most the frame's, which is promised.
+ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
+                              const PlanOptions& options);
 
 // Of the highest precision, which promises extended_tolerance.
 ErrorBudget make_extended_budget();

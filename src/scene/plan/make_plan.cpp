@@ -50,9 +50,19 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   plan.erf_error = erf_error(plan);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
-  plan.places =
-      plan.is_extended() ? PlaceLimits{} : choose_place_limits(frame, plan.precision, response);
+  plan.places = plan.is_extended() ? PlaceLimits{}
+                                   : choose_place_limits(frame, plan.drawn_for_tolerance,
+                                                         plan.precision, response);
   plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
+}
+
+// Bounds are several times larger than estimates.
+constexpr double first_part_certified = 0.05;
+
+void set_budget(const ErrorBudget& budget, FramePlan& plan) {
+  plan.precision = budget.precision;
+  plan.uses_device_erf = budget.uses_device_erf;
+  plan.shares = budget.shares;
 }
 
 }  // namespace
@@ -71,11 +81,9 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   plan.has_ellipses = frame.projection == Projection::equirectangular;
   if (plan.has_ellipses) plan.splats_per_particle = splats_with_copies;
 
-  const ErrorBudget budget = make_error_budget(frame, plan.light, options);
-  plan.precision = budget.precision;
-  plan.uses_device_erf = budget.uses_device_erf;
-  plan.shares = budget.shares;
-
+  plan.certify = options.certify;
+  plan.drawn_for_tolerance = frame.tolerance * (options.certify ? first_part_certified : 1);
+  set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, options), plan);
   plan.needs = first_needs(plan);
   set_limits(frame, plan);
   return plan;
@@ -93,12 +101,20 @@ FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeed
   return refined;
 }
 
+FramePlan tighten_plan(const Frame& frame, const FramePlan& plan, double times) {
+  FramePlan tightened = plan;
+  tightened.drawn_for_tolerance /= times;
+  PlanOptions options;
+  options.coarse_grids = plan.shares.coarse_grids > 0;
+  set_budget(make_error_budget(frame, tightened.drawn_for_tolerance, plan.light, options),
+             tightened);
+  set_limits(frame, tightened);
+  return tightened;
+}
+
 FramePlan extend_plan(const Frame& frame, const FramePlan& plan) {
   FramePlan extended = plan;
-  const ErrorBudget budget = make_extended_budget();
-  extended.precision = budget.precision;
-  extended.uses_device_erf = budget.uses_device_erf;
-  extended.shares = budget.shares;
+  set_budget(make_extended_budget(), extended);
   extended.needs = {};
   set_limits(frame, extended);
   return extended;

@@ -44,17 +44,25 @@ double integer_place_error(const Frame& frame) {
 // So many roundings of a width, of the exponent and of exp count with the logarithm of a peak.
 constexpr double roundings_of_fading = 16;
 
+// Of the tolerance, what one splat may spend by its place. Copies of one particle err alike: fifty
+// of them may lie upon one another in single precision. Extended numbers err a hundred times less,
+// and what they do not hold is drawn again.
+constexpr double part_in_single = 0.02, part_in_extended = 0.5;
+
 }  // namespace
 
-PlaceLimits choose_place_limits(const Frame& frame, Precision precision, double response) {
+PlaceLimits choose_place_limits(const Frame& frame, double tolerance, Precision precision,
+                                double response) {
   // What one splat may spend by its place; errors were a fifth of their bounds (docs/accuracy.md).
-  const double share = 0.5 * frame.tolerance / std::max(1.0, response);
+  const double allowed = tolerance / std::max(1.0, response);
   PlaceLimits limits;
   set_single_errors(frame, limits);
-  limits.sharp_width = static_cast<float>(rounding / share);
+  limits.share = part_in_single * allowed;
+  limits.sharp_width = static_cast<float>(rounding / limits.share);
   limits.most_fading = std::numeric_limits<float>::max();
   // At larger tolerances it takes stars far smaller than a pixel, right at a pixel's edge.
   if (precision != Precision::full) return limits;
+  const double share = part_in_extended * allowed;
   limits.too_sharp_width = static_cast<float>(integer_place_error(frame) / share);
   limits.most_fading = static_cast<float>(share / (roundings_of_fading * rounding));
   return limits;

@@ -5,7 +5,9 @@
 
 namespace splotchcl {
 
-// `response`: what a relative error of every splat does to the picture (error_budget.h).
-PlaceLimits choose_place_limits(const Frame& frame, Precision precision, double response);
+// `tolerance`: what the frame is drawn for. `response`: what a relative error of every splat does
+// to the picture (error_budget.h).
+PlaceLimits choose_place_limits(const Frame& frame, double tolerance, Precision precision,
+                                double response);
 
 }  // namespace splotchcl
