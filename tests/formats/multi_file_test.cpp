@@ -104,6 +104,31 @@ TEST_P(MultiFile, CountsThatDoNotAddUpAreRefused) {
   EXPECT_THAT(refusal(member(0)), HasSubstr("but their headers say 68"));
 }
 
+TEST_P(MultiFile, HighWordsThatTheFilesOwnCountsContradictAreIgnoredWithANote) {
+  for (const std::vector<std::uint32_t>& of_first :
+       {std::vector<std::uint32_t>{0, 0, 228, 0, 0, 0}, {3, 0, 0, 0, 0, 0}}) {
+    auto members = split(snapshot(), 3);
+    members[0].high_words = of_first;
+    members[1].high_words = {0, 0, 0, 0, 0, 0};
+    members[2].high_words = {0, 1, 0, 0, 7, 0};
+    write_set(members);
+    for (const std::size_t named : {0U, 1U}) {
+      const auto joined = open_snapshot(member(named));
+      expect_same_columns(*joined, *open_whole());
+      EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("high words")));
+    }
+  }
+}
+
+TEST_P(MultiFile, HighWordsDoNotExcuseCountsThatDoNotAddUp) {
+  auto members = split(snapshot(), 3);
+  members[1] = members[2];
+  for (TestSnapshot& part : members)
+    part.high_words = {0, 0, 228, 0, 0, 0};
+  write_set(members);
+  EXPECT_THAT(refusal(member(0)), HasSubstr("but their headers say"));
+}
+
 TEST_P(MultiFile, ATruncatedMemberIsNamed) {
   write_set(split(snapshot(), 3));
   std::filesystem::resize_file(member(2), std::filesystem::file_size(member(2)) - 7);

@@ -53,8 +53,10 @@ std::string header_bytes(const TestSnapshot& snapshot, bool is_swapped) {
   out.number(snapshot.hubble_parameter);
   out.number(std::uint32_t{0});  // stellar age
   out.number(std::uint32_t{0});  // metals
-  for (const auto count : snapshot.total_counts) {
-    out.number(static_cast<std::uint32_t>(count >> 32));
+  for (std::size_t type = 0; type < 6; ++type) {
+    out.number(snapshot.high_words.empty()
+                   ? static_cast<std::uint32_t>(snapshot.total_counts[type] >> 32)
+                   : snapshot.high_words[type]);
   }
   std::string bytes = out.bytes();
   bytes.resize(256, '\0');

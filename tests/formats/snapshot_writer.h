@@ -22,6 +22,8 @@ struct TestBlock {
 struct TestSnapshot {
   std::vector<std::uint32_t> counts = std::vector<std::uint32_t>(6, 0);
   std::vector<std::uint64_t> total_counts = std::vector<std::uint64_t>(6, 0);
+  // Instead of what the totals need: what some codes leave there.
+  std::vector<std::uint32_t> high_words = {};
   std::vector<double> table_masses = std::vector<double>(6, 0);
   double time = 0.5;
   double redshift = 1;

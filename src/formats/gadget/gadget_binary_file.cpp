@@ -133,8 +133,8 @@ GadgetHeader read_header(const GadgetRecord& record, const Numbers& numbers) {
   for (std::uint64_t type = 0; type < 6; ++type) {
     header.counts.push_back(uint32(at::counts + 4 * type));
     header.table_masses.push_back(float64(at::table_masses + 8 * type));
-    const std::uint64_t high = uint32(at::total_counts_high + 4 * type);
-    header.total_counts.push_back((high << 32) + uint32(at::total_counts + 4 * type));
+    header.total_counts.push_back(uint32(at::total_counts + 4 * type));
+    header.total_counts_high.push_back(uint32(at::total_counts_high + 4 * type));
   }
   header.time = float64(at::time);
   header.redshift = float64(at::redshift);

@@ -47,7 +47,7 @@ bool holds_quantities(const GadgetBinaryFile& file, const GadgetRecord& record, 
       scalars(file, record, is_wide ? ValueKind::float64 : ValueKind::float32);
   const StoredValues wholes = scalars(file, record, kind);
   constexpr double beyond_all_particles = 4;
-  const auto& totals = file.header.total_counts;
+  const auto totals = file.header.full_total_counts();
   const double particles = static_cast<double>(
       std::max(reals.particles, std::accumulate(totals.begin(), totals.end(), std::uint64_t{0})));
   constexpr std::uint64_t sample = 64;

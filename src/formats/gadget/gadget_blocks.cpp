@@ -192,6 +192,7 @@ void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
     const bool is_gas = file.format == 2 && bytes_of("U", 0) == particles * bytes / 3;
     header.counts[is_gas ? 0 : 1] = particles;
     std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
+    std::fill(header.total_counts_high.begin(), header.total_counts_high.end(), 0);
     notes.push_back(fmt::format(
         "the header counts no particles; by their positions there are {}, taken for type {}",
         particles, is_gas ? 0 : 1));

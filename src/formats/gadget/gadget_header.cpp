@@ -32,6 +32,11 @@ void check_same_snapshot(const GadgetHeader& first, const GadgetHeader& other,
                   other_path.string(), difference, first_path.filename().string()));
 }
 
+bool have_high_words(const std::vector<GadgetHeader>& headers) {
+  return std::any_of(headers.begin(), headers.end(),
+                     [](const GadgetHeader& header) { return sum(header.total_counts_high) > 0; });
+}
+
 // Gadget keeps the scale factor as the time of a cosmological run. One without cosmology may
 // have a density parameter in its header all the same.
 bool is_cosmological(const GadgetHeader& header) {
@@ -44,6 +49,14 @@ bool is_cosmological(const GadgetHeader& header) {
 
 std::uint64_t GadgetHeader::particles() const {
   return sum(counts);
+}
+
+std::vector<std::uint64_t> GadgetHeader::full_total_counts() const {
+  std::vector<std::uint64_t> totals = total_counts;
+  for (std::size_t type = 0; type < std::min(totals.size(), total_counts_high.size()); ++type) {
+    totals[type] += total_counts_high[type] << 32;
+  }
+  return totals;
 }
 
 void check_header(const GadgetHeader& header, const std::filesystem::path& path) {
@@ -63,7 +76,8 @@ void check_header(const GadgetHeader& header, const std::filesystem::path& path)
 }
 
 bool is_complete_alone(const GadgetHeader& header) {
-  return header.files <= 1 || (header.particles() > 0 && header.counts == header.total_counts);
+  return header.files <= 1 ||
+         (header.particles() > 0 && header.counts == header.full_total_counts());
 }
 
 GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
@@ -84,16 +98,23 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
     notes.push_back(
         fmt::format("the header speaks of {} files, but this one is complete", merged.files));
   }
-  if (sum(merged.total_counts) == 0 || merged.total_counts == merged.counts) return merged;
+  const std::vector<std::uint64_t> totals = merged.full_total_counts();
+  if (sum(totals) == 0 || totals == merged.counts) return merged;
+  if (have_high_words(headers) && merged.total_counts == merged.counts) {
+    notes.push_back(
+        "the high words of the header's total numbers of particles are ignored: the files' own "
+        "counts contradict them");
+    return merged;
+  }
   if (headers.size() > 1) {
     throw DataError(fmt::format(
         "{}: the {} files together hold {} particles, but their headers say {}; a file may be "
         "exchanged or damaged: restore the set",
-        paths.front().string(), paths.size(), merged.particles(), sum(merged.total_counts)));
+        paths.front().string(), paths.size(), merged.particles(), sum(totals)));
   }
   notes.push_back(fmt::format(
       "the header's total number of particles ({}) is not the number in the file ({}); ignored",
-      sum(merged.total_counts), merged.particles()));
+      sum(totals), merged.particles()));
   return merged;
 }
 

@@ -14,9 +14,12 @@ namespace splotchcl {
 // What the header of one file of a snapshot says, whatever the container. The arrays have
 // one entry per particle type and the same length.
 struct GadgetHeader {
-  std::vector<std::uint64_t> counts;        // in this file
-  std::vector<std::uint64_t> total_counts;  // in all files; all 0 in many initial conditions
-  std::vector<double> table_masses;         // 0: masses are stored per particle
+  std::vector<std::uint64_t> counts;  // in this file
+  // In all files, but for what the high words add; all 0 in many initial conditions.
+  std::vector<std::uint64_t> total_counts;
+  // How often 2^32 is to be added to the total counts. Some codes keep other things here.
+  std::vector<std::uint64_t> total_counts_high;
+  std::vector<double> table_masses;  // 0: masses are stored per particle
   double time = 0;
   double redshift = 0;
   int files = 1;
@@ -30,6 +33,8 @@ struct GadgetHeader {
   bool has_metals = false;
 
   std::uint64_t particles() const;
+  // The total counts with their high words.
+  std::vector<std::uint64_t> full_total_counts() const;
 };
 
 // Refuses a header that cannot be right, naming `path`: masses below zero or not finite,
@@ -41,7 +46,8 @@ void check_header(const GadgetHeader& header, const std::filesystem::path& path)
 bool is_complete_alone(const GadgetHeader& header);
 
 // The members' headers as one snapshot: counts added, everything else as in the first.
-// Refuses members that do not belong together and counts that do not add up.
+// Refuses members that do not belong together and counts that do not add up; high words of the
+// totals that the counts contradict are ignored, with a note.
 GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
                            const std::vector<std::filesystem::path>& paths,
                            std::vector<std::string>& notes);

@@ -61,12 +61,14 @@ void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
       const std::size_t types = std::max(header.counts.size(), type + 1);
       header.counts.resize(types, 0);
       header.total_counts.resize(types, 0);
+      header.total_counts_high.resize(types, 0);
       header.table_masses.resize(types, 0);
       header.counts[type] = dataset.rows();
     }
   }
   if (header.particles() == 0) return;
   std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
+  std::fill(header.total_counts_high.begin(), header.total_counts_high.end(), 0);
   notes.push_back(
       "the header counts no particles; their numbers are those of the rows of the positions");
 }
@@ -81,6 +83,7 @@ void leave_out_tracers(const Hdf5File& file, GadgetHeader& header,
     notes.push_back(fmt::format("the tracers of {} are left out: they have no positions", group));
     header.counts[type] = 0;
     header.total_counts[type] = 0;
+    header.total_counts_high[type] = 0;
   }
 }
 

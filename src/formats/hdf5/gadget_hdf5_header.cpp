@@ -44,17 +44,6 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
   return counts;
 }
 
-std::vector<std::uint64_t> read_total_counts(const Hdf5File& file, std::size_t types,
-                                             std::vector<std::string>& notes) {
-  auto totals = read_counts(file, "NumPart_Total", notes);
-  const auto high = read_counts(file, "NumPart_Total_HighWord", notes);
-  totals.resize(types, 0);
-  for (std::size_t type = 0; type < std::min(types, high.size()); ++type) {
-    totals[type] += high[type] << 32;
-  }
-  return totals;
-}
-
 // One length for all axes; 0 when they differ.
 double read_box_size(const Hdf5File& file) {
   auto sides = file.numbers("Header", "BoxSize");
@@ -80,7 +69,8 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   if (!has_header || counts.size() > most_types) {
     throw DataError(
         fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
-                    "groups are: {}); expected a snapshot of Gadget or SWIFT",
+                    "groups are: {}); expected a snapshot of Gadget or SWIFT, or datasets of "
+                    "positions at its root or in its groups",
                     file.path().string(), fmt::join(file.groups("/"), ", ")));
   }
   GadgetHeader header;
@@ -88,7 +78,10 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   constexpr std::size_t usual_types = 6;
   if (header.counts.empty()) header.counts.resize(usual_types, 0);
   const std::size_t types = header.counts.size();
-  header.total_counts = read_total_counts(file, types, notes);
+  header.total_counts = read_counts(file, "NumPart_Total", notes);
+  header.total_counts.resize(types, 0);
+  header.total_counts_high = read_counts(file, "NumPart_Total_HighWord", notes);
+  header.total_counts_high.resize(types, 0);
   header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
   header.table_masses.resize(types, 0);
   header.time = file.number("Header", "Time").value_or(0);
@@ -109,6 +102,7 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
 
 std::string hdf5_dialect(const Hdf5File& file) {
   if (is_swift_file(file)) return "SWIFT HDF5";
+  if (is_swift_start_file(file)) return "SWIFT initial conditions, HDF5";
   if (file.number("Header", "GIZMO_version")) return "GIZMO HDF5";
   // A moving mesh has cells with centres and volumes, and no kernel.
   const bool is_mesh = (file.has("/PartType0/CenterOfMass") || file.has("/PartType0/Volume")) &&
@@ -118,6 +112,11 @@ std::string hdf5_dialect(const Hdf5File& file) {
 
 bool is_swift_file(const Hdf5File& file) {
   return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+}
+
+bool is_swift_start_file(const Hdf5File& file) {
+  const bool has_units = file.number("Units", "Unit length in cgs (U_L)").has_value();
+  return has_units && !is_swift_file(file) && !file.has("HydroScheme");
 }
 
 std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader& header,

@@ -15,7 +15,10 @@ namespace splotchcl {
 GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes);
 
 bool is_swift_file(const Hdf5File& file);
-// "SWIFT HDF5", "GIZMO HDF5", "AREPO HDF5", or "Gadget HDF5" for Gadget and all others.
+// Whether it holds initial conditions for SWIFT, which name no code but have its units.
+bool is_swift_start_file(const Hdf5File& file);
+// "SWIFT HDF5", "SWIFT initial conditions", "GIZMO HDF5", "AREPO HDF5", or "Gadget HDF5" for Gadget
+// and all others.
 std::string hdf5_dialect(const Hdf5File& file);
 
 // The cosmology and what the velocities are, where the run follows the expansion: from the

@@ -62,6 +62,7 @@ void write_header(const File& file, const TestSnapshot& snapshot, const Hdf5Styl
   const HeaderWriter header(group, style);
   header.counts("NumPart_ThisFile", snapshot.counts);
   header.counts("NumPart_Total", {snapshot.total_counts.begin(), snapshot.total_counts.end()});
+  if (!snapshot.high_words.empty()) header.counts("NumPart_Total_HighWord", snapshot.high_words);
   header.numbers("MassTable", snapshot.table_masses);
   header.number("Time", snapshot.time);
   header.number("Redshift", snapshot.redshift);
