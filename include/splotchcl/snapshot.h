@@ -79,6 +79,14 @@ class Snapshot {
   // the type has none.
   virtual std::vector<std::uint64_t> read_ids(int type) const;
 
+  // A field of whole numbers, exact, in file order: those below zero modulo 2^64. Throws
+  // DataError where the field holds others.
+  virtual std::vector<std::uint64_t> read_integers(int type, const std::string& field) const;
+
+  // Where the i-th particle of a type is among all that the files have of it. Throws DataError
+  // where the snapshot stands for no single one.
+  virtual std::uint64_t place_in_file(int type, std::uint64_t i) const;
+
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 

@@ -126,4 +126,19 @@ std::vector<std::uint64_t> InterpolatedSnapshot::read_ids(int type) const {
   return ids;
 }
 
+void InterpolatedSnapshot::refuse_haloes() const {
+  throw DataError(fmt::format(
+      "{}: between two snapshots there are no numbers of haloes, expected time.interpolation "
+      "\"none\", or select.ids with the particles of the halo",
+      info_.files.front().string()));
+}
+
+std::vector<std::uint64_t> InterpolatedSnapshot::read_integers(int, const std::string&) const {
+  refuse_haloes();
+}
+
+std::uint64_t InterpolatedSnapshot::place_in_file(int, std::uint64_t) const {
+  refuse_haloes();
+}
+
 }  // namespace splotchcl

@@ -18,9 +18,13 @@ class InterpolatedSnapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;
+  // Numbers of haloes and places in a file mean nothing between two snapshots.
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override;
   Vec3 position_origin() const override { return pair_->first->position_origin(); }
 
  private:
+  [[noreturn]] void refuse_haloes() const;
   void describe_moment();
   void describe_type(int type, const IdMatch& match);
   Column interpolate(int type, const FieldInfo& field) const;

@@ -23,6 +23,12 @@ class SequenceMember : public Snapshot {
   const SnapshotInfo& info() const override { return snapshot_->info(); }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
+    return snapshot_->read_integers(type, field);
+  }
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override {
+    return snapshot_->place_in_file(type, i);
+  }
   Vec3 position_origin() const override { return snapshot_->position_origin(); }
 
   std::set<TypeField> fields_read() const;  // by canonical names

@@ -23,6 +23,14 @@ std::vector<std::uint64_t> CachedSnapshot::read_ids(int type) const {
   return snapshot_->read_ids(type);
 }
 
+std::vector<std::uint64_t> CachedSnapshot::read_integers(int type, const std::string& field) const {
+  return snapshot_->read_integers(type, field);
+}
+
+std::uint64_t CachedSnapshot::place_in_file(int type, std::uint64_t i) const {
+  return snapshot_->place_in_file(type, i);
+}
+
 Vec3 CachedSnapshot::position_origin() const {
   return snapshot_->position_origin();
 }

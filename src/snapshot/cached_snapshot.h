@@ -21,6 +21,8 @@ class CachedSnapshot : public Snapshot {
   const SnapshotInfo& info() const override;
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;  // not remembered
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override;
   Vec3 position_origin() const override;
 
  private:

@@ -18,13 +18,17 @@ struct FieldNames {
 
 const std::vector<FieldNames>& known_fields() {
   static const std::vector<FieldNames> table = {
-      {"position", {"POS", "Coordinates", "Coordinate", "Positions", "xyz"}},
+      {"position", {"POS", "Coordinates", "Coordinate", "Positions", "coords", "xyz"}},
       {"velocity", {"VEL", "Velocities", "vxyz"}},
       {"id", {"ParticleIDs", "ParticleID", "ids", "iorder", "iord"}},
+      {"halo_id",
+       {"FOFGroupIDs", "FOFGroupID", "GroupNr_bound", "GroupNr_all", "GroupNr", "GroupNumber",
+        "GroupIDs", "GroupID", "HaloID"}},
       {"mass", {"Masses", "mass table", "MassTable", "m"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
       {"density", {"RHO", "Densities", "den"}},
-      {"smoothing_length", {"HSML", "SmoothingLength", "SmoothingLengths", "h", "smoothlength"}},
+      {"smoothing_length",
+       {"HSML", "SmoothingLength", "SmoothingLengths", "h", "smoothlength", "smooth"}},
       {"star_smoothing_length", {"HSMS"}},
       {"temperature", {"TEMP", "Temperatures", "T"}},
       {"stellar_age",
@@ -136,6 +140,12 @@ const FieldInfo& require_ids(const SnapshotInfo& info, int type) {
       "{}: particles of type {} have no ids, expected ids, by which particles of different "
       "snapshots are matched: use a snapshot with ids",
       info.files.front().string(), type));
+}
+
+void refuse_integers(const SnapshotInfo& info, int type, const FieldInfo& field) {
+  throw DataError(
+      fmt::format("{}: {} of type {} is not one whole number per particle, as was expected",
+                  info.files.front().string(), field.file_name, type));
 }
 
 void refuse_ids(const SnapshotInfo& info, int type, const FieldInfo& field) {

@@ -34,6 +34,8 @@ const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_v
 
 // The field of ids, or a DataError.
 const FieldInfo& require_ids(const SnapshotInfo& info, int type);
+// For a field that does not hold one whole number per particle.
+[[noreturn]] void refuse_integers(const SnapshotInfo& info, int type, const FieldInfo& field);
 // For a field of ids that does not hold whole numbers.
 [[noreturn]] void refuse_ids(const SnapshotInfo& info, int type, const FieldInfo& field);
 

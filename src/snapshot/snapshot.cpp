@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
@@ -21,6 +22,26 @@ std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
                   "particles of "
                   "different snapshots are matched: use a snapshot with ids",
                   info().files.front().string(), info().format, type));
+}
+
+// For formats that keep all numbers as floats: a float holds each whole number to 2^24.
+std::vector<std::uint64_t> Snapshot::read_integers(int type, const std::string& field) const {
+  constexpr float largest = 16777216.0F;
+  const Column values = read(type, field);
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t i = 0; i < info().find_type(type)->count; ++i) {
+    const float value = values[i];
+    if (!(std::abs(value) <= largest) || value != std::floor(value)) {
+      throw DataError(fmt::format("{}: {} of type {} holds {}, expected whole numbers up to 2^24",
+                                  info().files.front().string(), field, type, value));
+    }
+    numbers.push_back(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
+  }
+  return numbers;
+}
+
+std::uint64_t Snapshot::place_in_file(int /*type*/, std::uint64_t i) const {
+  return i;
 }
 
 LoadMemory& Snapshot::memory() const {

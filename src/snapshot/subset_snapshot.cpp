@@ -72,14 +72,26 @@ Column SubsetSnapshot::read(int type, const std::string& field) const {
   return Column::owning(std::move(values));
 }
 
-std::vector<std::uint64_t> SubsetSnapshot::read_ids(int type) const {
-  const std::vector<std::uint64_t> all = whole_->read_ids(type);
-  std::vector<std::uint64_t> ids;
+std::vector<std::uint64_t> SubsetSnapshot::chosen_of(int type,
+                                                     const std::vector<std::uint64_t>& all) const {
+  std::vector<std::uint64_t> chosen;
   const std::uint64_t count = info_.find_type(type)->count;
-  ids.reserve(count);
+  chosen.reserve(count);
   for (std::uint64_t i = 0; i < count; ++i)
-    ids.push_back(all[place(type, i)]);
-  return ids;
+    chosen.push_back(all[place(type, i)]);
+  return chosen;
+}
+
+std::vector<std::uint64_t> SubsetSnapshot::read_ids(int type) const {
+  return chosen_of(type, whole_->read_ids(type));
+}
+
+std::vector<std::uint64_t> SubsetSnapshot::read_integers(int type, const std::string& field) const {
+  return chosen_of(type, whole_->read_integers(type, field));
+}
+
+std::uint64_t SubsetSnapshot::place_in_file(int type, std::uint64_t i) const {
+  return whole_->place_in_file(type, place(type, i));
 }
 
 }  // namespace splotchcl

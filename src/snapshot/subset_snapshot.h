@@ -21,11 +21,14 @@ class SubsetSnapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override;
   Vec3 position_origin() const override { return whole_->position_origin(); }
 
  private:
   std::uint64_t count_of(std::uint64_t count, std::uint64_t total) const;
   std::uint64_t place(int type, std::uint64_t i) const;
+  std::vector<std::uint64_t> chosen_of(int type, const std::vector<std::uint64_t>& all) const;
 
   std::shared_ptr<const Snapshot> whole_;
   ReadSettings read_;

@@ -31,6 +31,7 @@ class MemorySnapshot : public Snapshot {
     columns_[{type, field}] = Column::owning(std::move(values));
   }
   void set_table_mass(int type, double mass) { type_info(type).table_mass = mass; }
+  void set_cosmology(const Cosmology& cosmology) { info_.cosmology = cosmology; }
   void set_box_size(double size) { info_.box_size = size; }
   void set_origin(const Vec3& origin) { origin_ = origin; }
 
