@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 
 #include "formats/position_origin.h"
+#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
@@ -18,82 +20,39 @@ struct TableField {
   std::vector<TableValue> values;  // one, or three
 };
 
-std::string trimmed(const std::string& text, const char* what = " \t_.-") {
-  const std::size_t first = text.find_first_not_of(what);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(what) - first + 1);
-}
-
-struct NameAndUnit {
-  std::string name, unit;
-};
-
-// "x [kpc]" is x in kpc.
-NameAndUnit split_unit(const std::string& text) {
-  for (const char* brackets : {"[]", "()"}) {
-    const std::size_t open = text.find(brackets[0]);
-    if (open == std::string::npos || open == 0 || text.back() != brackets[1]) continue;
-    const std::string name = trimmed(text.substr(0, open), " \t");
-    if (name.empty()) continue;
-    return {name, trimmed(text.substr(open + 1, text.size() - open - 2), " \t")};
-  }
-  return {text, ""};
-}
-
-// The vector whose first axis a column of this name is: "" where it is none. Otherwise the
-// names of the three columns differ in their last letter only.
-std::string vector_name(const std::string& column) {
-  if (column.empty() || (column.back() != 'x' && column.back() != 'X')) return {};
-  const std::string stem = trimmed(column.substr(0, column.size() - 1));
-  if (stem.empty()) return "position";
-  if (equal_ignoring_case(stem, "v")) return "velocity";
-  if (equal_ignoring_case(stem, "a")) return "acceleration";
-  if (equal_ignoring_case(stem, "b")) return "magnetic_field";
-  const std::string canonical = canonical_field_name(stem);
-  return canonical.empty() ? stem : canonical;
-}
-
-std::string with_axis(std::string column, int axis) {
-  const bool is_upper = column.back() == 'X';
-  column.back() = static_cast<char>((is_upper ? 'X' : 'x') + axis);
-  return column;
-}
-
-class TableSnapshot : public Snapshot {
+// A table, and the fields that its columns are.
+class FieldTable {
  public:
-  TableSnapshot(std::unique_ptr<const Table> table, SnapshotInfo info);
+  explicit FieldTable(std::unique_ptr<const Table> table);
 
-  const SnapshotInfo& info() const override { return info_; }
-  Column read(int type, const std::string& field) const override;
-  std::vector<std::uint64_t> read_ids(int type) const override;
-  Vec3 position_origin() const override;
+  const Table& table() const { return *table_; }
+  const std::vector<NameAndUnit>& names() const { return names_; }
+  ParticleTypeInfo describe(int type) const;
+  const TableField& field_of(const FieldInfo& info) const;
+  // Calls use(values) for the positions of some rows, in increasing order.
+  template <class Use>
+  void for_ranges(const TableField& positions, const std::vector<SampleRange>& ranges,
+                  Use&& use) const;
 
  private:
   std::optional<std::size_t> find_column(const std::string& name) const;
   std::optional<TableField> find_vector(std::size_t first, std::vector<bool>& used) const;
   void find_fields();
-  void check_positions() const;
-  const TableField& field_of(const FieldInfo& info) const;
+  void name_table_fields();
 
   std::unique_ptr<const Table> table_;
   std::vector<NameAndUnit> names_;
   std::vector<TableField> fields_;
-  SnapshotInfo info_;
-  mutable std::once_flag origin_is_known_;
-  mutable Vec3 origin_ = {{0, 0, 0}};
 };
 
-TableSnapshot::TableSnapshot(std::unique_ptr<const Table> table, SnapshotInfo info)
-    : table_(std::move(table)), info_(std::move(info)) {
+FieldTable::FieldTable(std::unique_ptr<const Table> table) : table_(std::move(table)) {
   for (const TableColumn& column : table_->columns())
     names_.push_back(split_unit(column.name));
   find_fields();
-  check_positions();
-  info_.velocity_doubt =
-      "a table does not tell its units, nor whether its time is the scale factor";
+  name_table_fields();
 }
 
-std::optional<std::size_t> TableSnapshot::find_column(const std::string& name) const {
+std::optional<std::size_t> FieldTable::find_column(const std::string& name) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (names_[i].name == name && table_->columns()[i].values_per_row == 1) return i;
   }
@@ -101,8 +60,8 @@ std::optional<std::size_t> TableSnapshot::find_column(const std::string& name) c
 }
 
 // The vector that begins with this column, if its other two axes are there.
-std::optional<TableField> TableSnapshot::find_vector(std::size_t first,
-                                                     std::vector<bool>& used) const {
+std::optional<TableField> FieldTable::find_vector(std::size_t first,
+                                                  std::vector<bool>& used) const {
   const std::string& name = names_[first].name;
   const std::string vector = vector_name(name);
   if (vector.empty() || table_->columns()[first].values_per_row != 1) return std::nullopt;
@@ -120,7 +79,7 @@ std::optional<TableField> TableSnapshot::find_vector(std::size_t first,
   return field;
 }
 
-void TableSnapshot::find_fields() {
+void FieldTable::find_fields() {
   std::vector<bool> used(names_.size(), false);
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (used[i]) continue;
@@ -135,29 +94,82 @@ void TableSnapshot::find_fields() {
       field.values.push_back({i, axis});
     fields_.push_back(std::move(field));
   }
-  ParticleTypeInfo type;
-  type.count = table_->rows();
-  for (const TableField& field : fields_)
-    type.fields.push_back(field.info);
-  // A vector of three columns has its name already; where two fields mean the same quantity,
-  // the second keeps that of the file.
-  std::vector<std::string> taken;
-  for (FieldInfo& field : type.fields) {
-    std::string name = field.name.empty() ? canonical_field_name(field.file_name) : field.name;
-    const bool is_new = !name.empty() && std::find(taken.begin(), taken.end(), name) == taken.end();
-    field.name = is_new ? name : field.file_name;
-    taken.push_back(field.name);
-  }
-  for (std::size_t i = 0; i < fields_.size(); ++i)
-    fields_[i].info = type.fields[i];
-  info_.types.push_back(std::move(type));
 }
 
-void TableSnapshot::check_positions() const {
-  const FieldInfo* const position = find_field(info_.types.front(), "position");
+// A vector of three columns has its name already; where two fields mean the same quantity, the
+// second keeps that of the file.
+void FieldTable::name_table_fields() {
+  std::vector<std::string> taken;
+  for (TableField& field : fields_) {
+    FieldInfo& info = field.info;
+    const std::string name = info.name.empty() ? canonical_field_name(info.file_name) : info.name;
+    const bool is_new = !name.empty() && std::find(taken.begin(), taken.end(), name) == taken.end();
+    info.name = is_new ? name : info.file_name;
+    taken.push_back(info.name);
+  }
+}
+
+ParticleTypeInfo FieldTable::describe(int type) const {
+  ParticleTypeInfo info;
+  info.type = type;
+  info.count = table_->rows();
+  for (const TableField& field : fields_)
+    info.fields.push_back(field.info);
+  return info;
+}
+
+const TableField& FieldTable::field_of(const FieldInfo& info) const {
+  return *std::find_if(fields_.begin(), fields_.end(),
+                       [&](const TableField& field) { return field.info.name == info.name; });
+}
+
+template <class Use>
+void FieldTable::for_ranges(const TableField& positions, const std::vector<SampleRange>& ranges,
+                            Use&& use) const {
+  std::uint64_t row = 0;
+  auto range = ranges.begin();
+  table_->for_rows(positions.values, [&](const double* values) {
+    while (range != ranges.end() && row >= range->first + range->count)
+      ++range;
+    if (range != ranges.end() && row >= range->first) use(values);
+    ++row;
+  });
+}
+
+class TableSnapshot : public Snapshot {
+ public:
+  TableSnapshot(TablesByType tables, SnapshotInfo info);
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_ids(int type) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
+  Vec3 position_origin() const override;
+
+ private:
+  void check_positions(const ParticleTypeInfo& type) const;
+
+  std::map<int, FieldTable> tables_;
+  SnapshotInfo info_;
+  mutable std::once_flag origin_is_known_;
+  mutable Vec3 origin_ = {{0, 0, 0}};
+};
+
+TableSnapshot::TableSnapshot(TablesByType tables, SnapshotInfo info) : info_(std::move(info)) {
+  for (auto& [type, table] : tables) {
+    const FieldTable& added = tables_.emplace(type, FieldTable(std::move(table))).first->second;
+    info_.types.push_back(added.describe(type));
+    check_positions(info_.types.back());
+  }
+  info_.velocity_doubt =
+      "a table does not tell its units, nor whether its time is the scale factor";
+}
+
+void TableSnapshot::check_positions(const ParticleTypeInfo& type) const {
+  const FieldInfo* const position = find_field(type, "position");
   if (position != nullptr && position->values_per_particle == 3) return;
   std::vector<std::string> names;
-  for (const NameAndUnit& column : names_)
+  for (const NameAndUnit& column : tables_.at(type.type).names())
     names.push_back(column.name);
   throw DataError(fmt::format(
       "{}: no positions: its columns are {}; expected x, y and z: name the columns in their order, "
@@ -165,27 +177,25 @@ void TableSnapshot::check_positions() const {
       info_.files.front().string(), fmt::join(names, ", ")));
 }
 
-const TableField& TableSnapshot::field_of(const FieldInfo& info) const {
-  return *std::find_if(fields_.begin(), fields_.end(),
-                       [&](const TableField& field) { return field.info.name == info.name; });
-}
-
 // Text has to be read for it, so not before it is asked for.
 Vec3 TableSnapshot::position_origin() const {
   std::call_once(origin_is_known_, [this] {
-    const std::vector<SampleRange> ranges = sample_ranges({table_->rows()});
+    std::vector<std::uint64_t> sizes;
+    for (const ParticleTypeInfo& type : info_.types)
+      sizes.push_back(type.count);
+    const std::vector<SampleRange> ranges = sample_ranges(sizes);
     std::vector<std::array<double, 3>> sample;
-    std::uint64_t row = 0;
-    auto range = ranges.begin();
-    const FieldInfo& position = require_field(info_, 0, "position");
-    table_->for_rows(field_of(position).values, [&](const double* values) {
-      while (range != ranges.end() && row >= range->first + range->count)
-        ++range;
-      if (range != ranges.end() && row >= range->first) {
-        sample.push_back({values[0], values[1], values[2]});
-      }
-      ++row;
-    });
+    for (std::size_t part = 0; part < sizes.size(); ++part) {
+      const int type = info_.types[part].type;
+      std::vector<SampleRange> of_part;
+      std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(of_part),
+                   [part](const SampleRange& range) { return range.part == part; });
+      const FieldTable& table = tables_.at(type);
+      table.for_ranges(table.field_of(require_field(info_, type, "position")), of_part,
+                       [&sample](const double* values) {
+                         sample.push_back({values[0], values[1], values[2]});
+                       });
+    }
     origin_ = choose_position_origin(sample);
   });
   return origin_;
@@ -193,12 +203,14 @@ Vec3 TableSnapshot::position_origin() const {
 
 Column TableSnapshot::read(int type, const std::string& name) const {
   const FieldInfo& info = require_field(info_, type, name);
-  const TableField& field = field_of(info);
+  const FieldTable& table = tables_.at(type);
+  const TableField& field = table.field_of(info);
   const Vec3 origin = info.name == "position" ? position_origin() : Vec3{{0, 0, 0}};
   const bool is_vector = field.values.size() == 3;
   std::vector<float> values;
-  values.reserve(table_->rows() * field.values.size());
-  table_->for_rows(field.values, [&](const double* row) {
+  table.table().for_rows(field.values, [&](const double* row) {
+    // Not before the table has seen that the rows are all there.
+    if (values.empty()) values.reserve(table.table().rows() * field.values.size());
     for (std::size_t axis = 0; axis < field.values.size(); ++axis) {
       values.push_back(static_cast<float>(row[axis] - (is_vector ? origin.a[axis] : 0)));
     }
@@ -208,18 +220,44 @@ Column TableSnapshot::read(int type, const std::string& name) const {
 
 std::vector<std::uint64_t> TableSnapshot::read_ids(int type) const {
   const FieldInfo& info = require_ids(info_, type);
-  const TableField& field = field_of(info);
+  const FieldTable& table = tables_.at(type);
+  const TableField& field = table.field_of(info);
   if (field.values.size() != 1) refuse_ids(info_, type, info);
-  auto ids = table_->integers(field.values.front().column);
+  auto ids = table.table().integers(field.values.front().column);
   if (!ids) refuse_ids(info_, type, info);
   return std::move(*ids);
+}
+
+std::vector<std::uint64_t> TableSnapshot::read_integers(int type, const std::string& name) const {
+  const FieldInfo& info = require_field(info_, type, name);
+  const FieldTable& table = tables_.at(type);
+  const TableField& field = table.field_of(info);
+  if (field.values.size() != 1) refuse_integers(info_, type, info);
+  if (auto numbers = table.table().integers(field.values.front().column)) {
+    return std::move(*numbers);
+  }
+  // Those below zero, and whole numbers among reals.
+  std::vector<std::uint64_t> numbers;
+  table.table().for_rows(field.values, [&](const double* value) {
+    constexpr double largest = 9007199254740992.0;  // beyond 2^53 a double is not exact
+    const bool is_whole = std::abs(*value) <= largest && *value == std::floor(*value);
+    if (!is_whole) refuse_integers(info_, type, info);
+    numbers.push_back(static_cast<std::uint64_t>(static_cast<std::int64_t>(*value)));
+  });
+  return numbers;
 }
 
 }  // namespace
 
 std::unique_ptr<Snapshot> make_table_snapshot(std::unique_ptr<const Table> table,
                                               SnapshotInfo info) {
-  return std::make_unique<TableSnapshot>(std::move(table), std::move(info));
+  TablesByType tables;
+  tables.emplace(0, std::move(table));
+  return make_table_snapshot(std::move(tables), std::move(info));
+}
+
+std::unique_ptr<Snapshot> make_table_snapshot(TablesByType tables, SnapshotInfo info) {
+  return std::make_unique<TableSnapshot>(std::move(tables), std::move(info));
 }
 
 }  // namespace splotchcl

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,5 +43,8 @@ class Table {
 // Throws DataError when there are no positions.
 std::unique_ptr<Snapshot> make_table_snapshot(std::unique_ptr<const Table> table,
                                               SnapshotInfo info);
+// The same of a table for each type.
+using TablesByType = std::map<int, std::unique_ptr<const Table>>;
+std::unique_ptr<Snapshot> make_table_snapshot(TablesByType tables, SnapshotInfo info);
 
 }  // namespace splotchcl

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "formats/halo_catalog.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "fuzz/fuzz.h"
 
@@ -28,10 +29,12 @@ class Plan {
   std::size_t size_, place_ = 0;
 };
 
-const std::array<const char*, 10> groups = {"Header",    "header",     "particles", "PartType0",
-                                            "PartType1", "PartType3",  "PartType9", "Units",
-                                            "Config",    "HydroScheme"};
-const std::array<const char*, 32> names = {"Coordinates",
+// An empty one is the root.
+const std::array<const char*, 15> groups = {"Header",    "header",      "particles", "PartType0",
+                                            "PartType1", "PartType3",   "PartType9", "Units",
+                                            "Config",    "HydroScheme", "",          "Group",
+                                            "gas",       "star",        "something"};
+const std::array<const char*, 45> names = {"Coordinates",
                                            "Masses",
                                            "ParticleIDs",
                                            "SmoothingLength",
@@ -62,8 +65,21 @@ const std::array<const char*, 32> names = {"Coordinates",
                                            "sinks",
                                            "Color",
                                            "SmoothingLengths",
-                                           "Densities"};
-const std::array<const char*, 20> attributes = {"NumPart_ThisFile",
+                                           "Densities",
+                                           "pos",
+                                           "any",
+                                           "particle_position_x",
+                                           "particle_position_y",
+                                           "particle_position_z",
+                                           "particle_index",
+                                           "GroupLenType",
+                                           "GroupOffsetType",
+                                           "GroupNr_bound",
+                                           "FOFGroupIDs",
+                                           "Group_Size",
+                                           "Offset",
+                                           "Particle_IDs"};
+const std::array<const char*, 28> attributes = {"NumPart_ThisFile",
                                                 "NumPart_Total",
                                                 "NumPart_Total_HighWord",
                                                 "MassTable",
@@ -82,7 +98,15 @@ const std::array<const char*, 20> attributes = {"NumPart_ThisFile",
                                                 "Code",
                                                 "a_scaling",
                                                 "h_scaling",
-                                                "length_scaling"};
+                                                "length_scaling",
+                                                "units",
+                                                "data_type",
+                                                "domain_left_edge",
+                                                "domain_right_edge",
+                                                "Unit length in cgs (U_L)",
+                                                "Ngroups_Total",
+                                                "NumFiles",
+                                                "cosmological_simulation"};
 const std::array<double, 16> numbers = {0,    1,     2,   3,    4,      5,    7,   -1,
                                         1e15, 1e300, 0.5, 1e-9, 1e-300, 1.25, 1.8, 4294967296.0};
 
@@ -124,7 +148,8 @@ void add_dataset(const Hdf5Output& file, const std::string& path, Plan& plan) {
 }
 
 void add_attribute(const Hdf5Output& file, const std::string& owner_path, Plan& plan) {
-  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), owner_path.c_str(), H5P_DEFAULT));
+  const std::string path = owner_path.empty() ? "/" : owner_path;
+  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), path.c_str(), H5P_DEFAULT));
   if (!owner.is_valid()) return;
   const std::string name = plan.one_of(attributes);
   if (H5Aexists(owner.id(), name.c_str()) > 0) return;
@@ -137,6 +162,10 @@ void add_attribute(const Hdf5Output& file, const std::string& owner_path, Plan& 
     H5Awrite(attribute.id(), text.id(), "SWIFT");
     return;
   }
+  if ((name == "units" || name == "data_type") && plan.below(4) != 0) {
+    write_text(file, path, name, plan.below(2) == 0 ? "yt_cm" : "");
+    return;
+  }
   const hsize_t length = 1 + plan.below(8);
   const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &length, nullptr));
   const Hdf5Handle<H5Aclose> attribute(H5Acreate2(owner.id(), name.c_str(), type_of(plan.below(10)),
@@ -145,6 +174,26 @@ void add_attribute(const Hdf5Output& file, const std::string& owner_path, Plan& 
   for (double& value : values)
     value = plan.one_of(numbers);
   if (attribute.is_valid()) H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
+}
+
+void make_group_once(const Hdf5Output& file, const std::string& group) {
+  if (group.empty() || H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) > 0) return;
+  make_group(file, group);
+}
+
+// Whatever it is, it may be named as a catalog of haloes.
+void read_haloes() {
+  for (const std::uint64_t number : {0U, 1U, 3U}) {
+    for (const int type : {0, 1, 5}) {
+      try {
+        const HaloMembers members = read_halo(fuzz::scratch_file(), number, type);
+        volatile bool has_place = members.has_place(number);
+        static_cast<void>(has_place);
+      } catch (const Error&) {
+        // refused
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -160,24 +209,25 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       switch (plan.below(4)) {
         case 0:
           group = plan.one_of(groups);
-          if (H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) <= 0) make_group(file, group);
+          make_group_once(file, group);
           break;
         case 1:
           add_attribute(file, group, plan);
           break;
         case 2: {
-          const std::string path = group + "/" + plan.one_of(names);
+          const std::string path = (group.empty() ? "" : group + "/") + plan.one_of(names);
           if (H5Lexists(file.id(), path.c_str(), H5P_DEFAULT) <= 0) add_dataset(file, path, plan);
           break;
         }
         default:
           // Phantom's files have no group Header.
           if (plan.below(8) == 0) H5Ldelete(file.id(), "Header", H5P_DEFAULT);
-          if (H5Lexists(file.id(), group.c_str(), H5P_DEFAULT) <= 0) make_group(file, group);
+          make_group_once(file, group);
           break;
       }
     }
   }
   fuzz::read_as(hdf5_formats());
+  read_haloes();
   return 0;
 }

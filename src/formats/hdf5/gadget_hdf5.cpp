@@ -56,6 +56,11 @@ Member read_member(const std::filesystem::path& path, std::vector<std::string>& 
   return member;
 }
 
+// By another name than that of the snapshot's function.
+std::optional<std::vector<std::uint64_t>> read_integers_of(const std::vector<Hdf5Values>& parts) {
+  return read_integers(parts);
+}
+
 class GadgetHdf5Snapshot : public Snapshot {
  public:
   explicit GadgetHdf5Snapshot(const std::filesystem::path& path);
@@ -63,6 +68,7 @@ class GadgetHdf5Snapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
@@ -96,6 +102,16 @@ void GadgetHdf5Snapshot::read_dialect() {
   const Hdf5File file(members_.front().path);
   const bool is_swift = is_swift_file(file);
   info_.format = hdf5_dialect(file);
+  if (is_swift_start_file(file)) {
+    // What SWIFT's own kernel, the cubic spline, has in three dimensions.
+    constexpr double cubic_spline_gamma = 1.825742;
+    smoothing_length_factor_ = cubic_spline_gamma;
+    if (file.has("PartType0/SmoothingLength") || file.has("PartType0/SmoothingLengths")) {
+      info_.notes.push_back(
+          "initial conditions for SWIFT do not say its kernel: the cubic spline's is taken, which "
+          "reaches 1.8257 times the smoothing lengths in the file");
+    }
+  }
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
   const auto gamma = file.number("HydroScheme", "Kernel gamma");
@@ -180,9 +196,17 @@ Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
 
 std::vector<std::uint64_t> GadgetHdf5Snapshot::read_ids(int type) const {
   const FieldInfo& field = require_ids(info_, type);
-  auto ids = read_integers(find_parts(type, field.file_name));
+  auto ids = read_integers_of(find_parts(type, field.file_name));
   if (!ids) refuse_ids(info_, type, field);
   return std::move(*ids);
+}
+
+std::vector<std::uint64_t> GadgetHdf5Snapshot::read_integers(int type,
+                                                             const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  auto numbers = read_integers_of(find_parts(type, field.file_name));
+  if (!numbers) refuse_integers(info_, type, field);
+  return std::move(*numbers);
 }
 
 }  // namespace

@@ -49,6 +49,15 @@ std::string child_path(const std::string& group, const std::string& name) {
   return group == "/" ? group + name : group + "/" + name;
 }
 
+// A text of any length, which HDF5 allocates.
+std::optional<std::string> variable_text(hid_t attribute, hid_t type) {
+  char* text = nullptr;
+  if (H5Aread(attribute, type, &text) < 0 || text == nullptr) return std::nullopt;
+  std::string value = text;
+  H5free_memory(text);
+  return value;
+}
+
 }  // namespace
 
 Hdf5Silence::Hdf5Silence() {
@@ -201,10 +210,10 @@ std::optional<std::string> Hdf5File::text(const std::string& object,
   if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
   const Space space(H5Aget_space(attribute.id()));
-  const bool is_one_fixed_text = H5Tget_class(type.id()) == H5T_STRING &&
-                                 H5Tis_variable_str(type.id()) == 0 &&
-                                 H5Sget_simple_extent_npoints(space.id()) == 1;
-  if (!is_one_fixed_text) return std::nullopt;
+  const bool is_one_text =
+      H5Tget_class(type.id()) == H5T_STRING && H5Sget_simple_extent_npoints(space.id()) == 1;
+  if (!is_one_text) return std::nullopt;
+  if (H5Tis_variable_str(type.id()) > 0) return variable_text(attribute.id(), type.id());
   std::string value(H5Tget_size(type.id()), '\0');
   if (H5Aread(attribute.id(), type.id(), value.data()) < 0) return std::nullopt;
   return std::string(value.c_str());

@@ -13,7 +13,9 @@ class Hdf5Formats : public SnapshotFormat {
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
                                  const SnapshotOptions&) const override {
-    return is_phantom_hdf5(Hdf5File(path)) ? open_phantom_hdf5(path) : open_gadget_hdf5(path);
+    const Hdf5File file(path);
+    if (is_phantom_hdf5(file)) return open_phantom_hdf5(path);
+    return is_plain_hdf5(file) ? open_plain_hdf5(path) : open_gadget_hdf5(path);
   }
 };
 

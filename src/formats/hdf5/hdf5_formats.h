@@ -11,6 +11,10 @@ namespace splotchcl {
 // Dialects of HDF5; which one a file speaks is decided in hdf5_formats.cpp.
 std::unique_ptr<Snapshot> open_gadget_hdf5(const std::filesystem::path& path);
 
+// Datasets of positions without a header that counts particles.
+bool is_plain_hdf5(const Hdf5File& file);
+std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path);
+
 bool is_phantom_hdf5(const Hdf5File& file);
 std::unique_ptr<Snapshot> open_phantom_hdf5(const std::filesystem::path& path);
 

@@ -392,7 +392,10 @@ Column PhantomSnapshot::read(int type, const std::string& name) const {
 }  // namespace
 
 bool is_phantom_hdf5(const Hdf5File& file) {
-  return file.has("/particles") && !file.has("/Header");
+  if (!file.has("/particles") || file.has("/Header")) return false;
+  const bool has_its_names = file.has("/header/massoftype") || file.has("/particles/xyz") ||
+                             file.has("/particles/x");
+  return has_its_names || !is_plain_hdf5(file);
 }
 
 std::unique_ptr<Snapshot> open_phantom_hdf5(const std::filesystem::path& path) {

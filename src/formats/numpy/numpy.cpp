@@ -12,6 +12,7 @@
 #include "formats/numpy/zip_archive.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
+#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -72,6 +73,8 @@ class NumpyTable : public Table {
  private:
   void open_archive(std::vector<std::string>& notes);
   void read_numbers(SnapshotInfo& info);
+  std::vector<TableColumn> arrays_as_columns() const;
+  void name_positions(std::vector<std::string>& notes);
   void choose_rows();
   void add_array(std::size_t array, const std::vector<std::string>& names);
   void add_members(std::size_t array);
@@ -102,6 +105,7 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
     info.format = "NumPy archive";
     open_archive(info.notes);
     read_numbers(info);
+    name_positions(info.notes);
   }
   if (!names.empty() && arrays_.size() > 1) {
     throw DataError(path.string() +
@@ -164,18 +168,42 @@ void NumpyTable::read_numbers(SnapshotInfo& info) {
   }
 }
 
+// The plain arrays of an archive as columns, in their order; others have no name.
+std::vector<TableColumn> NumpyTable::arrays_as_columns() const {
+  std::vector<TableColumn> columns;
+  for (const NumpyArray& array : arrays_) {
+    const NumpyHeader& header = array.header;
+    const bool is_column = !header.is_structured && header.members.front().is_usable &&
+                           (header.shape.size() == 1 || header.shape.size() == 2);
+    const std::uint64_t width = header.shape.size() == 2 ? header.shape[1] : 1;
+    const bool has_few = width == 1 || width == 3;
+    columns.push_back(is_column && has_few ? TableColumn{array.name, static_cast<int>(width)}
+                                           : TableColumn{"", 1});
+  }
+  return columns;
+}
+
+// Where no array has the name of positions, the only one that can be them is taken.
+void NumpyTable::name_positions(std::vector<std::string>& notes) {
+  const bool has_records = std::any_of(arrays_.begin(), arrays_.end(), [](const NumpyArray& array) {
+    return array.header.is_structured;
+  });
+  const auto guessed = has_records ? std::nullopt : guess_positions(arrays_as_columns());
+  if (!guessed) return;
+  notes.push_back(fmt::format("the array {} is taken for the positions", arrays_[*guessed].name));
+  arrays_[*guessed].name = "position";
+}
+
 // As many as the positions have, or the first array.
 void NumpyTable::choose_rows() {
-  bool is_known = false;
-  for (const NumpyArray& array : arrays_) {
-    if (array.header.shape.empty()) continue;
-    const bool is_position =
-        canonical_field_name(array.name) == "position" || equal_ignoring_case(array.name, "x");
-    if (is_known && !is_position) continue;
-    rows_ = array.header.rows();
-    is_known = true;
-    if (is_position) return;
+  if (const auto positions = find_positions(arrays_as_columns())) {
+    rows_ = arrays_[*positions].header.rows();
+    return;
   }
+  const auto first = std::find_if(arrays_.begin(), arrays_.end(), [](const NumpyArray& array) {
+    return !array.header.shape.empty();
+  });
+  if (first != arrays_.end()) rows_ = first->header.rows();
 }
 
 void NumpyTable::add(const std::string& name, NumpyColumn column) {

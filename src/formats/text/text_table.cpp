@@ -59,11 +59,13 @@ class Lines {
       offset_ = stop + 1;
       ++number_;
       line_ = trim(std::string_view(data_ + start_, stop - start_));
+      begins_with_blank_ = data_[start_] == ' ' || data_[start_] == '\t';
       if (!line_.empty()) return true;
     }
     return false;
   }
   std::string_view line() const { return line_; }
+  bool begins_with_blank() const { return begins_with_blank_; }
   std::uint64_t number() const { return number_; }  // from 1
   std::uint64_t start() const { return start_; }
 
@@ -72,6 +74,7 @@ class Lines {
   std::uint64_t size_, offset_, number_;
   std::uint64_t start_ = 0;
   std::string_view line_;
+  bool begins_with_blank_ = false;
 };
 
 // The separator of a line: a comma or semicolon outside of quotes, else white space.
@@ -147,16 +150,50 @@ struct Layout {
   std::uint64_t lines_before = 0;
 };
 
-// The words of a line as names of columns; none where they are not as many as wanted.
+// A unit in brackets belongs to the name before it: "x [kpc] y [kpc]" are two names.
+std::vector<std::string> with_units(const std::vector<std::string_view>& words) {
+  std::vector<std::string> names;
+  char closing = 0;  // of the bracket that is open
+  for (const std::string_view word : words) {
+    const bool is_bracket = !word.empty() && (word.front() == '[' || word.front() == '(');
+    const bool opens = closing == 0 && !names.empty() && is_bracket;
+    const bool continues = closing != 0;
+    if (opens) closing = word.front() == '[' ? ']' : ')';
+    if (opens || continues) {
+      names.back() += ' ';
+      names.back() += word;
+    } else {
+      names.emplace_back(word);
+    }
+    if (closing != 0 && !word.empty() && word.back() == closing) closing = 0;
+  }
+  return names;
+}
+
+// The words of a line as names of columns; none where they are not as many as wanted. The first
+// may be empty: tables of data frames begin with a column of row numbers that has no name.
 std::vector<std::string> names_in(std::string_view line, std::size_t wanted) {
   for (const char candidate : {',', ';', ' '}) {
     const std::vector<std::string_view> words = split(line, candidate);
     const bool is_complete =
-        words.size() == wanted && std::none_of(words.begin(), words.end(),
+        words.size() == wanted && std::none_of(words.begin() + 1, words.end(),
                                                [](std::string_view word) { return word.empty(); });
     if (is_complete) return {words.begin(), words.end()};
   }
-  return {};
+  const bool is_empty = trim(line).empty();
+  const std::vector<std::string> names =
+      is_empty ? std::vector<std::string>() : with_units(split(line, ' '));
+  return names.size() == wanted ? names : std::vector<std::string>();
+}
+
+// As above, where a tab or blank before the first name stands for an empty one.
+std::vector<std::string> names_in_line(const std::string_view line, bool begins_with_blank,
+                                       std::size_t wanted) {
+  std::vector<std::string> names = names_in(line, wanted);
+  if (!names.empty() || !begins_with_blank || wanted == 0) return names;
+  names = names_in(line, wanted - 1);
+  if (!names.empty()) names.insert(names.begin(), "");
+  return names;
 }
 
 bool is_row(const std::vector<std::string_view>& cells) {
@@ -171,7 +208,7 @@ bool is_row(const std::vector<std::string_view>& cells) {
 std::optional<Layout> find_layout(const MappedFile& file) {
   constexpr std::uint64_t farthest_row = 1U << 20;  // a text that is no table is given up
   std::string_view header;
-  bool has_plain_header = false;
+  bool has_plain_header = false, begins_with_blank = false;
   Lines lines(file);
   while (lines.next() && lines.start() < farthest_row) {
     std::string_view line = lines.line();
@@ -188,12 +225,15 @@ std::optional<Layout> find_layout(const MappedFile& file) {
     if (is_row(layout.cells)) {
       layout.first_row = lines.start();
       layout.lines_before = lines.number() - 1;
-      if (!header.empty()) layout.names = names_in(header, layout.cells.size());
+      if (!header.empty()) {
+        layout.names = names_in_line(header, begins_with_blank, layout.cells.size());
+      }
       if (has_plain_header && layout.names.empty()) return std::nullopt;
       return layout;
     }
     if (has_plain_header) return std::nullopt;
     has_plain_header = true;
+    begins_with_blank = lines.begins_with_blank();
     header = line;
   }
   return std::nullopt;
@@ -248,7 +288,9 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, const std::vector<s
   std::vector<std::string> left_out;
   for (std::size_t i = 0; i < width; ++i) {
     if (wanted[i] == "-") continue;
-    if (parse_number(layout_.cells[i])) {
+    if (wanted[i].empty()) {
+      notes.push_back(fmt::format("column {} left out, as it has no name", i + 1));
+    } else if (parse_number(layout_.cells[i])) {
       columns_.push_back({wanted[i], 1});
       cells_.push_back(i);
     } else {

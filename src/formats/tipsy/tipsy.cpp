@@ -20,9 +20,16 @@ namespace {
 constexpr std::uint64_t unpadded_header_bytes = 28;
 constexpr std::uint64_t header_bytes = 32;
 
-// The auxiliary array of Gasoline and ChaNGa: half of the radius that the kernel reaches.
-constexpr const char* smoothing_label = "smoothlength";
+// The auxiliary arrays of Gasoline and ChaNGa, and that of pynbody: half of the radius that the
+// kernel reaches.
+constexpr std::array<const char*, 2> smoothing_labels = {"smoothlength", "smooth"};
 constexpr double smoothing_length_factor = 2;
+
+double factor_of(const std::string& array) {
+  const bool is_half =
+      std::find(smoothing_labels.begin(), smoothing_labels.end(), array) != smoothing_labels.end();
+  return is_half ? smoothing_length_factor : 1;
+}
 
 struct TipsyField {
   const char* label;
@@ -208,7 +215,7 @@ Column TipsySnapshot::read(int type, const std::string& name) const {
                                   [&](const TipsyField& f) { return f.label == field.file_name; });
   if (!is_own) {
     return read_tipsy_array(*find_array(field.file_name), first_of(i), header_.counts[i],
-                            field.file_name == smoothing_label ? smoothing_length_factor : 1);
+                            factor_of(field.file_name));
   }
   for (auto before = layout.fields.begin(); before->label != field.file_name; ++before) {
     offset += before->bytes();

@@ -38,6 +38,20 @@ TEST_F(Hdf5Dialects, GizmoIsTold) {
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
 }
 
+TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
+  {
+    const Hdf5Output file = create();
+    make_group(file, "Units");
+    write_attribute(file, "Units", "Unit length in cgs (U_L)", {3.08567758e24});
+    write_values(file, "PartType0/SmoothingLength", {0.5, 0.25});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().format, "SWIFT initial conditions, HDF5");
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")),
+              ElementsAre(0.5F * 1.825742F, 0.25F * 1.825742F));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("the cubic spline's is taken")));
+}
+
 TEST_F(Hdf5Dialects, ArepoIsToldByItsCells) {
   {
     const Hdf5Output file = create();

@@ -44,4 +44,18 @@ inline void write_attribute(const Hdf5Output& file, const std::string& group,
   H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
 }
 
+// As h5py writes a text: UTF-8 of any length.
+inline void write_text(const Hdf5Output& file, const std::string& object, const std::string& name,
+                       const std::string& text) {
+  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), object.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Tclose> type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.id(), H5T_VARIABLE);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  const Hdf5Handle<H5Sclose> space(H5Screate(H5S_SCALAR));
+  const Hdf5Handle<H5Aclose> attribute(
+      H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT));
+  const char* const content = text.c_str();
+  H5Awrite(attribute.id(), type.id(), &content);
+}
+
 }  // namespace splotchcl::testing

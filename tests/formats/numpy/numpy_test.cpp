@@ -158,6 +158,33 @@ TEST_P(NumpyArchive, AxesInArraysOfTheirOwnAreJoined) {
   EXPECT_THAT(positions(*open_snapshot(folder / "a.npz")), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
+TEST_P(NumpyArchive, TheOnlyRowsOfThreeThatAreNothingElseArePositions) {
+  const TemporaryFolder folder;
+  const std::string threes =
+      numpy_bytes(numpy_header("<f8", "(2, 3)"), bytes_of<double>({1, 2, 3, 4, 5, 6}));
+  for (const char* name : {"arr_0.npy", "r.npy", "x.npy", "particles.npy"}) {
+    write_zip(folder / "a.npz",
+              {{"a_number_of_haloes.npy",
+                numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({7, 8, 9}))},
+               {"mass.npy", numpy_bytes(numpy_header("<f4", "(2,)"), bytes_of<float>({7, 8}))},
+               {name, threes},
+               {"vel.npy", threes}},
+              GetParam());
+    const auto snapshot = open_snapshot(folder / "a.npz");
+    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6)) << name;
+    EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8)) << name;
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("taken for the positions"))) << name;
+  }
+}
+
+TEST_P(NumpyArchive, OfTwoArraysThatCouldBePositionsNoneIsTaken) {
+  const TemporaryFolder folder;
+  const std::string threes =
+      numpy_bytes(numpy_header("<f8", "(2, 3)"), bytes_of<double>({1, 2, 3, 4, 5, 6}));
+  write_zip(folder / "a.npz", {{"arr_0.npy", threes}, {"arr_1.npy", threes}}, GetParam());
+  EXPECT_THAT(refusal(folder / "a.npz"), HasSubstr("no positions: its columns are arr_0, arr_1"));
+}
+
 TEST_P(NumpyArchive, ADamagedArchiveIsRefused) {
   const TemporaryFolder folder;
   std::vector<float> values(3000);

@@ -75,6 +75,35 @@ TEST_F(TextTable, SemicolonsQuotesAndUnitsAreRead) {
   EXPECT_EQ(snapshot->info().types[0].fields[1].unit, "Msun");
 }
 
+TEST_F(TextTable, AColumnOfRowNumbersWithoutANameIsLeftOutWithANote) {
+  for (const char* text :
+       {",x,y,z,mass\n0,1,2,3,4\n1,5,6,7,8\n", "\tx\ty\tz\tmass\n0\t1\t2\t3\t4\n1\t5\t6\t7\t8\n",
+        "\"\",\"x\",\"y\",\"z\",\"mass\"\n\"0\",1,2,3,4\n\"1\",5,6,7,8\n",
+        ";x;y;z;mass\n0;1;2;3;4\n1;5;6;7;8\n"}) {
+    const auto snapshot = open(text);
+    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << text;
+    EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8)) << text;
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("column 1 left out"))) << text;
+  }
+}
+
+TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
+  for (const char* header : {"x [kpc] y [kpc] z [kpc] rho [Msun / kpc^3]\n",
+                             "# x (kpc) y (kpc) z (kpc) rho (Msun / kpc^3)\n",
+                             "x[kpc] y[kpc] z[kpc] rho [Msun / kpc^3]\n"}) {
+    const auto snapshot = open(std::string(header) + "1 2 3 4\n5 6 7 8\n");
+    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
+    EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(4, 8)) << header;
+    EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc") << header;
+    EXPECT_EQ(snapshot->info().types[0].fields[1].unit, "Msun / kpc^3") << header;
+  }
+}
+
+TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
+  EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
+  EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
+}
+
 TEST_F(TextTable, VectorsAreFoundByTheirAxes) {
   const auto snapshot = open(
       "vz,pos_x,pos_y,pos_z,vx,vy,Bx,By,Bz,tx\n"

@@ -59,9 +59,12 @@ TEST(TipsyArrays, NumbersOfTheFilesEndiannessAreRead) {
 TEST(TipsyArrays, SmoothingLengthsReachTheEndOfTheKernel) {
   const TemporaryFolder folder;
   write_tipsy(folder / "snap");
-  write_bytes(folder / "snap.smoothlength", "4\n1\n2\n3\n4\n");
-  const auto snapshot = open_snapshot(folder / "snap");
-  EXPECT_THAT(values_of(snapshot->read(4, "smoothing_length")), ElementsAre(6, 8));
+  for (const char* array : {"snap.smoothlength", "snap.smooth"}) {  // ChaNGa's, pynbody's
+    write_bytes(folder / array, "4\n1\n2\n3\n4\n");
+    const auto snapshot = open_snapshot(folder / "snap");
+    EXPECT_THAT(values_of(snapshot->read(4, "smoothing_length")), ElementsAre(6, 8)) << array;
+    std::filesystem::remove(folder / array);
+  }
 }
 
 TEST(TipsyArrays, OtherFilesBesideItAreNoArrays) {

@@ -1,0 +1,230 @@
+#include "formats/halo_catalog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "common/mapped_file.h"
+#include "formats/hdf5/hdf5_column.h"
+#include "formats/hdf5/hdf5_file.h"
+#include "snapshot/snapshot_files.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+namespace fs = std::filesystem;
+using Numbers = std::vector<std::uint64_t>;
+
+constexpr const char* lengths_by_type = "/Group/GroupLenType";
+constexpr const char* offsets_by_type = "/Group/GroupOffsetType";
+
+[[noreturn]] void refuse_number(const fs::path& path, std::uint64_t number, std::uint64_t first,
+                                std::uint64_t haloes) {
+  throw DataError(haloes == 0 ? fmt::format("{}: the catalog has no haloes", path.string())
+                              : fmt::format("{}: no halo {}, expected a number from {} to {}",
+                                            path.string(), number, first, first + haloes - 1));
+}
+
+// One value per row. Throws DataError where the dataset is anything else.
+Numbers read_numbers(const Hdf5File& file, const std::string& dataset) {
+  auto numbers =
+      file.has(dataset) ? read_integers({{file.path(), file.dataset(dataset)}}) : std::nullopt;
+  if (numbers) return std::move(*numbers);
+  throw DataError(fmt::format("{}: no dataset {} of whole numbers, as was expected",
+                              file.path().string(), dataset));
+}
+
+// A table of haloes by types of particles.
+struct TypeTable {
+  std::uint64_t haloes = 0;
+  std::uint64_t types = 0;
+  Numbers numbers;
+
+  std::uint64_t at(std::uint64_t halo, int type) const {
+    const auto column = static_cast<std::uint64_t>(type);
+    return column < types ? numbers[halo * types + column] : 0;
+  }
+};
+
+// Files without haloes may be without the dataset, too.
+TypeTable read_type_table(const Hdf5File& file, const char* path) {
+  TypeTable table;
+  if (!file.has(path)) return table;
+  const Hdf5Dataset dataset = file.dataset(path);
+  if (dataset.shape.size() != 2 || dataset.kind != Hdf5Dataset::Kind::integer) {
+    throw DataError(
+        fmt::format("{}: {} is no table of whole numbers for each halo and type; the "
+                    "catalog is damaged or of an unknown dialect",
+                    file.path().string(), path));
+  }
+  file.check_complete(dataset);
+  table.haloes = dataset.rows();
+  table.types = dataset.values_per_row();
+  table.numbers.resize(table.haloes * table.types);
+  if (!table.numbers.empty()) {
+    file.read_rows(dataset, 0, dataset.rows(), table.numbers.data());
+  }
+  return table;
+}
+
+int files_of(const Hdf5File& file) {
+  for (const char* name : {"NumFiles", "NumFilesPerSnapshot"}) {
+    const double files = file.number("Header", name).value_or(0);
+    if (files >= 1 && files <= 1e6) return static_cast<int>(files);
+  }
+  return 1;
+}
+
+// SUBFIND and FOF: the particles of a type lie halo after halo.
+HaloMembers read_by_lengths(const fs::path& path, std::uint64_t number, int type) {
+  std::uint64_t offset = 0, haloes = 0;
+  for (const fs::path& member : find_members(path, files_of(Hdf5File(path)))) {
+    const Hdf5File file(member);
+    const TypeTable lengths = read_type_table(file, lengths_by_type);
+    if (number >= haloes + lengths.haloes) {
+      for (std::uint64_t halo = 0; halo < lengths.haloes; ++halo)
+        offset += lengths.at(halo, type);
+      haloes += lengths.haloes;
+      continue;
+    }
+    const std::uint64_t row = number - haloes;
+    for (std::uint64_t halo = 0; halo < row; ++halo)
+      offset += lengths.at(halo, type);
+    const TypeTable offsets = read_type_table(file, offsets_by_type);
+    if (offsets.haloes == lengths.haloes) offset = offsets.at(row, type);
+    HaloMembers members;
+    members.places.push_back({offset, lengths.at(row, type)});
+    return members;
+  }
+  refuse_number(path, number, 0, haloes);
+}
+
+// SOAP: the number of each particle's halo, in the snapshot's order.
+HaloMembers read_by_membership(const fs::path& path, std::uint64_t number, int type,
+                               const std::string& label) {
+  HaloMembers members;
+  std::uint64_t place = 0;
+  for (const fs::path& member : find_members(path, files_of(Hdf5File(path)))) {
+    const Hdf5File file(member);
+    const std::string dataset = fmt::format("/PartType{}/{}", type, label);
+    if (!file.has(dataset)) continue;
+    for (const std::uint64_t halo : read_numbers(file, dataset)) {
+      if (halo == number) {
+        const bool goes_on = !members.places.empty() &&
+                             members.places.back().first + members.places.back().count == place;
+        if (goes_on) {
+          ++members.places.back().count;
+        } else {
+          members.places.push_back({place, 1});
+        }
+      }
+      ++place;
+    }
+  }
+  return members;
+}
+
+// The identifiers of one halo: those from its offset to the next one's.
+void append_ids(const fs::path& groups, const fs::path& particles, const char* offsets_name,
+                std::uint64_t row, Numbers& ids) {
+  const Numbers offsets = read_numbers(Hdf5File(groups), offsets_name);
+  const Numbers all = read_numbers(Hdf5File(particles), "Particle_IDs");
+  const std::uint64_t first = row < offsets.size() ? offsets[row] : all.size();
+  const std::uint64_t end = row + 1 < offsets.size() ? offsets[row + 1] : all.size();
+  if (first > end || end > all.size()) {
+    throw DataError(fmt::format(
+        "{}: halo {} has particles {} to {}, but {} has {}; the catalog is damaged, or its files "
+        "belong to different ones",
+        groups.string(), row + 1, first, end, particles.filename().string(), all.size()));
+  }
+  ids.insert(ids.end(), all.begin() + static_cast<std::ptrdiff_t>(first),
+             all.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+// VELOCIraptor: bound and unbound particles by their identifiers.
+HaloMembers read_by_ids(const fs::path& groups, std::uint64_t number) {
+  const std::string mark = "catalog_groups", name = groups.filename().string();
+  const std::size_t at = name.rfind(mark);
+  const auto beside = [&](const std::string& kind) {
+    return groups.parent_path() / (name.substr(0, at) + kind + name.substr(at + mark.size()));
+  };
+  if (at == std::string::npos || !fs::is_regular_file(beside("catalog_particles"))) {
+    throw DataError(fmt::format(
+        "{}: the catalog_particles of this catalog_groups are not beside it, expected both with "
+        "the names that VELOCIraptor gave them",
+        groups.string()));
+  }
+  const Hdf5File file(groups);
+  const Numbers sizes = read_numbers(file, "Group_Size");
+  if (number < 1 || number > sizes.size()) refuse_number(groups, number, 1, sizes.size());
+  Numbers ids;
+  append_ids(groups, beside("catalog_particles"), "Offset", number - 1, ids);
+  const fs::path unbound = beside("catalog_particles.unbound");
+  if (fs::is_regular_file(unbound)) append_ids(groups, unbound, "Offset_unbound", number - 1, ids);
+  std::sort(ids.begin(), ids.end());
+  return {{}, std::move(ids)};
+}
+
+void check_is_hdf5(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  if (Hdf5File::has_signature(file->data(), file->size())) return;
+  throw DataError(
+      fmt::format("{}: not an HDF5 file, expected a catalog of haloes of Gadget-4, AREPO, SOAP or "
+                  "VELOCIraptor in HDF5; select.ids takes lists of identifiers",
+                  path.string()));
+}
+
+}  // namespace
+
+bool HaloMembers::has_place(std::uint64_t place) const {
+  const auto after = std::upper_bound(
+      places.begin(), places.end(), place,
+      [](std::uint64_t wanted, const PlaceRange& range) { return wanted < range.first; });
+  return after != places.begin() && place - std::prev(after)->first < std::prev(after)->count;
+}
+
+HaloMembers read_halo(const fs::path& path, std::uint64_t number, int type) {
+  check_is_hdf5(path);
+  const Hdf5File file(path);
+  if (file.has(lengths_by_type) || file.number("Header", "Ngroups_Total")) {
+    return read_by_lengths(path, number, type);
+  }
+  if (file.has("/Group_Size") && file.has("/Offset")) return read_by_ids(path, number);
+  for (const std::string& group : file.groups("/")) {
+    for (const char* label : {"GroupNr_bound", "FOFGroupIDs", "GroupNr_all"}) {
+      if (file.has("/" + group + "/" + label)) {
+        return read_by_membership(path, number, type, label);
+      }
+    }
+  }
+  throw DataError(fmt::format(
+      "{}: found no Group/GroupLenType (SUBFIND, FOF), PartType0/GroupNr_bound (SOAP) nor "
+      "Group_Size with Offset (VELOCIraptor), expected a catalog that says which particles a halo "
+      "has",
+      path.string()));
+}
+
+std::optional<fs::path> find_halo_catalog(const fs::path& snapshot) {
+  std::string name = snapshot.filename().string();
+  name.resize(std::min(name.find('.'), name.size()));
+  const std::size_t line = name.rfind('_');
+  if (line == std::string::npos) return std::nullopt;
+  const std::string number = name.substr(line + 1);
+  const fs::path folder = snapshot.parent_path();
+  for (const fs::path& place :
+       {folder, folder / ("groups_" + number), folder / ".." / ("groups_" + number)}) {
+    for (const char* stem : {"fof_subhalo_tab_", "fof_tab_"}) {
+      for (const char* ending : {".hdf5", ".0.hdf5"}) {
+        const fs::path catalog = place / (stem + number + ending);
+        std::error_code ignored;
+        if (fs::is_regular_file(catalog, ignored)) return catalog;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,78 @@
+#include "formats/table_names.h"
+
+#include <algorithm>
+#include <array>
+
+#include "snapshot/field_names.h"
+
+namespace splotchcl {
+namespace {
+
+std::string trimmed(const std::string& text, const char* what = " \t_.-") {
+  const std::size_t first = text.find_first_not_of(what);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(what) - first + 1);
+}
+
+// Vectors that have no common name, or none under which they are often kept.
+bool is_another_vector(const std::string& name) {
+  constexpr std::array<const char*, 8> others = {"v", "a", "acc", "b", "j", "l", "rgb", "color"};
+  return std::any_of(others.begin(), others.end(),
+                     [&](const char* other) { return equal_ignoring_case(name, other); });
+}
+
+}  // namespace
+
+NameAndUnit split_unit(const std::string& text) {
+  for (const char* brackets : {"[]", "()"}) {
+    const std::size_t open = text.find(brackets[0]);
+    if (open == std::string::npos || open == 0 || text.back() != brackets[1]) continue;
+    const std::string name = trimmed(text.substr(0, open), " \t");
+    if (name.empty()) continue;
+    return {name, trimmed(text.substr(open + 1, text.size() - open - 2), " \t")};
+  }
+  return {text, ""};
+}
+
+std::string vector_name(const std::string& column) {
+  if (column.empty() || (column.back() != 'x' && column.back() != 'X')) return {};
+  const std::string stem = trimmed(column.substr(0, column.size() - 1));
+  if (stem.empty()) return "position";
+  if (equal_ignoring_case(stem, "v")) return "velocity";
+  if (equal_ignoring_case(stem, "a")) return "acceleration";
+  if (equal_ignoring_case(stem, "b")) return "magnetic_field";
+  const std::string canonical = canonical_field_name(stem);
+  return canonical.empty() ? stem : canonical;
+}
+
+std::string with_axis(std::string column, int axis) {
+  const bool is_upper = column.back() == 'X';
+  column.back() = static_cast<char>((is_upper ? 'X' : 'x') + axis);
+  return column;
+}
+
+std::optional<std::size_t> find_positions(const std::vector<TableColumn>& columns) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string name = split_unit(columns[i].name).name;
+    const bool is_it = columns[i].values_per_row == 3 ? canonical_field_name(name) == "position"
+                                                      : vector_name(name) == "position";
+    if (is_it) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> guess_positions(const std::vector<TableColumn>& columns) {
+  if (find_positions(columns)) return std::nullopt;
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string name = split_unit(columns[i].name).name;
+    const bool may_be_it = columns[i].values_per_row == 3 && canonical_field_name(name).empty() &&
+                           !is_another_vector(name);
+    if (!may_be_it) continue;
+    if (only) return std::nullopt;  // which of them is for the user to say
+    only = i;
+  }
+  return only;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/table.h"
+
+namespace splotchcl {
+
+struct NameAndUnit {
+  std::string name, unit;
+};
+
+// "x [kpc]" is x in kpc.
+NameAndUnit split_unit(const std::string& text);
+
+// The vector whose first axis a column of this name is: "" where it is none. The names of the
+// three columns differ in their last letter only.
+std::string vector_name(const std::string& column);
+// The name of another axis' column, 0 to 2, from that of the first.
+std::string with_axis(std::string column, int axis);
+
+// The column that positions are in, by its name: also the first of three axes.
+std::optional<std::size_t> find_positions(const std::vector<TableColumn>& columns);
+
+// Where none has such a name: the only column of three values that is nothing else by its name.
+std::optional<std::size_t> guess_positions(const std::vector<TableColumn>& columns);
+
+}  // namespace splotchcl

@@ -1,0 +1,180 @@
+#include "formats/hdf5/hdf5_values.h"
+#include "formats/snapshot_checks.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class PlainHdf5 : public ::testing::Test {
+ protected:
+  std::vector<double> positions(const Snapshot& snapshot, int type) const {
+    const Column offsets = snapshot.read(type, "position");
+    std::vector<double> values;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      values.push_back(static_cast<double>(offsets[i]) + snapshot.position_origin().a[i % 3]);
+    }
+    return values;
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "particles.h5";
+};
+
+TEST_F(PlainHdf5, DatasetsAtTheRootAreRead) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "mass", {7, 8});
+    write_values(file, "ids", {4294967297.0, 2}, 1, H5T_STD_U64LE);
+    write_values(file, "halo_masses", {1, 2, 3});
+    write_attribute(file, "/", "BoxSize", {64});
+    write_attribute(file, "/", "time", {0.5});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().format, "HDF5 without a header");
+  EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
+  EXPECT_EQ(snapshot->info().box_size, 64);
+  EXPECT_EQ(snapshot->info().time, 0.5);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+  EXPECT_THAT(snapshot->read_ids(0), ElementsAre(4294967297U, 2U));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("halo_masses")));
+}
+
+TEST_F(PlainHdf5, AxesOfTheirOwnAreJoined) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    for (const auto& [name, values] : std::vector<std::pair<std::string, std::vector<double>>>{
+             {"x", {1, 4}}, {"y", {2, 5}}, {"z", {3, 6}}, {"rho", {7, 8}}}) {
+      write_values(file, name, values);
+    }
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(7, 8));
+}
+
+TEST_F(PlainHdf5, TheOnlyRowsOfThreeArePositionsWhateverTheirName) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "dataset", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "velocities", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(snapshot->info().notes, Contains("dataset /dataset is taken for the positions"));
+}
+
+TEST_F(PlainHdf5, GroupsAreTypesByTheirNames) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "dark_matter/pos", {7, 8, 9}, 3);
+    write_values(file, "star/pos", {1, 1, 1, 2, 2, 2, 3, 3, 3}, 3);
+    write_values(file, "all/pos", {7, 8, 9}, 3);
+    write_values(file, "profile/radius", {7, 8, 9});
+  }
+  const auto snapshot = open_snapshot(path_);
+  ASSERT_EQ(snapshot->info().types.size(), 3U);
+  EXPECT_EQ(snapshot->info().find_type(4)->count, 3U);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(positions(*snapshot, 1), ElementsAre(7, 8, 9));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("group /all is left out")));
+}
+
+TEST_F(PlainHdf5, GroupsOfOtherNamesAreTypesInTheirOrder) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "first/pos", {1, 2, 3}, 3);
+    write_values(file, "second/pos", {7, 8, 9}, 3);
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(positions(*snapshot, 1), ElementsAre(7, 8, 9));
+  EXPECT_THAT(snapshot->info().notes, Contains("the particles of /second are taken for type 1"));
+}
+
+TEST_F(PlainHdf5, YtsNamesUnitsAndDomainAreUnderstood) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_text(file, "/", "data_type", "yt_data_container");
+    write_attribute(file, "/", "current_redshift", {2});
+    write_attribute(file, "/", "domain_left_edge", {0, 0, 0});
+    write_attribute(file, "/", "domain_right_edge", {64, 64, 64});
+    write_text(file, "/", "domain_right_edge_units", "cm");
+    for (const char* axis : {"x", "y", "z"}) {
+      const std::string name = std::string("PartType4/particle_position_") + axis;
+      write_values(file, name, {1, 2});
+      write_text(file, name, "units", "cm");
+    }
+    write_values(file, "PartType4/particle_mass", {5, 6});
+    write_values(file, "PartType4/particle_index", {9007199254740991.0, 10});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().format, "HDF5 by yt's save_as_dataset");
+  EXPECT_EQ(snapshot->info().redshift, 2);
+  EXPECT_EQ(snapshot->info().box_size, 64);
+  EXPECT_THAT(positions(*snapshot, 4), ElementsAre(1, 1, 1, 2, 2, 2));
+  EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(5, 6));
+  EXPECT_THAT(snapshot->read_ids(4), ElementsAre(9007199254740991U, 10U));
+  EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "cm");
+}
+
+TEST_F(PlainHdf5, IdentifiersThatAreNotWholeAreRefused) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "ids", {1, 2.5});
+  }
+  EXPECT_THAT([&] { open_snapshot(path_)->read_ids(0); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("not one whole number")));
+}
+
+TEST_F(PlainHdf5, AHeaderThatCountsNothingIsNoObstacle) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "Redshift", {3});
+    write_values(file, "PartType1/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().redshift, 3);
+  EXPECT_EQ(snapshot->info().find_type(1)->count, 2U);
+}
+
+TEST_F(PlainHdf5, WithoutPositionsIsRefusedWithWhatIsExpected) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "mass", {1, 2, 3});
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("or datasets of positions at its root"));
+}
+
+TEST_F(PlainHdf5, PositionsWithoutRowsAreRefused) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {}, 3);
+  }
+  EXPECT_THAT(refusal(path_), HasSubstr("have no rows"));
+}
+
+TEST_F(PlainHdf5, RowsThatWereNeverWrittenAreRefusedBeforeMemoryIsTaken) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    const hsize_t shape[2] = {hsize_t{1} << 50, 3}, chunk[2] = {1024, 3};
+    const Hdf5Handle<H5Sclose> space(H5Screate_simple(2, shape, nullptr));
+    const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
+    H5Pset_chunk(properties.id(), 2, chunk);
+    const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "pos", H5T_IEEE_F64LE, space.id(),
+                                                  H5P_DEFAULT, properties.id(), H5P_DEFAULT));
+  }
+  EXPECT_THAT([&] { open_snapshot(path_)->read(0, "position"); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("they are not all in the file")));
+}
+
+}  // namespace
+}  // namespace splotchcl
