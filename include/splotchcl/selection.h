@@ -14,7 +14,10 @@ struct ParticleSet {
   // Conditions such as "temperature > 1e6" or "density >= 3 or mass < 1", one of <, <=, >,
   // >=, ==, != between a field and a number. A value that is not a number fulfils none.
   std::vector<std::string> where;
-  std::string id_file;  // a text file of identifiers, one on a line
+  std::string id_file;  // identifiers: a text file, one on a line, or an array of NumPy
+  // The number of a halo, as the snapshot's field of group ids or the catalog has it.
+  std::optional<int> halo;
+  std::string halo_catalog;  // empty: the snapshot's field, else a catalog beside it
   // Faces belong to the box, the surface to the sphere.
   std::optional<Vec3> box_minimum, box_maximum;
   std::optional<Vec3> sphere_center;
@@ -22,8 +25,8 @@ struct ParticleSet {
 
   // Whether it says anything; else no particle belongs to it.
   bool is_given() const {
-    return !where.empty() || !id_file.empty() || box_minimum || box_maximum || sphere_center ||
-           sphere_radius;
+    return !where.empty() || !id_file.empty() || halo || box_minimum || box_maximum ||
+           sphere_center || sphere_radius;
   }
 };
 

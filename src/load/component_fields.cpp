@@ -45,8 +45,9 @@ Column joined(const std::vector<Part>& parts, std::size_t width) {
 }  // namespace
 
 ComponentFields::ComponentFields(const Component& component, const Snapshot& snapshot,
-                                 const MissingSizes& sizes, std::vector<std::string>& notes)
-    : component_(component), snapshot_(snapshot), notes_(notes) {
+                                 const MissingSizes& sizes, std::vector<std::string>& notes,
+                                 double periodic_box)
+    : component_(component), snapshot_(snapshot), notes_(notes), periodic_box_(periodic_box) {
   for (const int type : component.types) {
     const ParticleTypeInfo* const info = snapshot.info().find_type(type);
     if (info != nullptr) {
@@ -79,6 +80,8 @@ void ComponentFields::check(const SortOrder& sort) const {
   };
   for (const TypeFields& type : types_) {
     check_selection(component_, type, snapshot_);
+    const std::string catalog = tell_found_catalog(component_, type, snapshot_);
+    if (!catalog.empty()) note(catalog);
     if (!component_.color_vector.empty()) {
       type.check_vectors(component_.color_vector, "color.vector");
     }
@@ -91,7 +94,7 @@ void ComponentFields::check(const SortOrder& sort) const {
 
 void ComponentFields::select() {
   for (std::size_t t = 0; t < types_.size(); ++t) {
-    selected_[t] = select_particles(component_, types_[t], snapshot_);
+    selected_[t] = select_particles(component_, types_[t], snapshot_, periodic_box_);
   }
   if (count() > 0) return;
   std::size_t total = 0;
@@ -132,7 +135,7 @@ std::string ComponentFields::particles_key() const {
   std::string key = "particles of types";
   for (const TypeFields& type : types_)
     key += fmt::format(" {}", type.info().type);
-  return fmt::format("{}, {}", key, selection_key(component_));
+  return fmt::format("{}, {}", key, selection_key(component_, periodic_box_));
 }
 
 Vec3 ComponentFields::origin() const {

@@ -19,8 +19,9 @@ class ComponentFields {
  public:
   // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
   // the component's types. Reads nothing yet.
+  // `periodic_box` is the side of the box across whose faces it selects; 0: none.
   ComponentFields(const Component& component, const Snapshot& snapshot, const MissingSizes& sizes,
-                  std::vector<std::string>& notes);
+                  std::vector<std::string>& notes, double periodic_box = 0);
   ComponentFields(const ComponentFields&) = delete;
   ComponentFields& operator=(const ComponentFields&) = delete;
 
@@ -61,6 +62,7 @@ class ComponentFields {
   const Component& component_;
   const Snapshot& snapshot_;
   std::vector<std::string>& notes_;
+  double periodic_box_;
   std::vector<TypeFields> types_;
   std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "load/choose_palette.h"
+#include "load/periodic_wrap.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -45,7 +46,8 @@ void check(const Component& component, const SortOrder& sort, const ComponentFie
 }  // namespace
 
 OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
-                               const MissingSizes& sizes, std::vector<std::string>& notes) {
+                               const MissingSizes& sizes, std::vector<std::string>& notes,
+                               double periodic_box) {
   for (const Component& component : scene.components) {
     const Snapshot* source = &snapshot;
     if (!component.snapshot.empty()) {
@@ -54,7 +56,8 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
       source = companions_.back().get();
     }
     sources_.insert(source);
-    fields_.emplace_back(component, *source, sizes, notes);
+    fields_.emplace_back(component, *source, sizes, notes,
+                         is_in_the_box(component) ? periodic_box : 0);
   }
   auto fields = fields_.begin();
   for (const Component& component : scene.components)

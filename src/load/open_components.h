@@ -18,8 +18,9 @@ namespace splotchcl {
 class OpenComponents {
  public:
   // Throws UsageError, or DataError for snapshots of components that cannot be opened.
+  // `periodic_box` is the side of the box that particles are wrapped into; 0: none.
   OpenComponents(const Scene& scene, const Snapshot& snapshot, const MissingSizes& sizes,
-                 std::vector<std::string>& notes);
+                 std::vector<std::string>& notes, double periodic_box = 0);
 
   // A frame is loaded from now on: what the snapshots remember and frames no longer ask for is
   // forgotten.

@@ -16,6 +16,10 @@ double periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapsh
                    " does not say the size of a box, expected one; set periodic.box");
 }
 
+bool is_in_the_box(const Component& component) {
+  return component.snapshot.empty() && !component.placement.moves();
+}
+
 void wrap_around(const Vec3& center, double box, Particles& particles) {
   const Column& position = particles.position;
   if (!position.is_array()) return;

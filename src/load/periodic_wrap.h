@@ -10,6 +10,9 @@ namespace splotchcl {
 // the snapshot says one.
 double periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot);
 
+// Whether it is a part of the periodic box: what is placed elsewhere is not.
+bool is_in_the_box(const Component& component);
+
 // Moves each particle to its periodic image nearest to `center`, along each axis by itself:
 // d = x - center becomes d - box * round(d / box), in double precision. The center becomes
 // the particles' origin. Values that are not finite stay so.

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <utility>
 
+#include "formats/halo_catalog.h"
+#include "formats/numpy/numpy_integers.h"
 #include "select/condition.h"
 #include "select/id_list.h"
 #include "snapshot/field_names.h"
@@ -18,12 +21,46 @@ namespace {
 
 using Ids = std::vector<std::uint64_t>;
 
+// In increasing order, from a text or an array of NumPy.
+Ids read_wanted_ids(const std::string& file) {
+  std::error_code ignored;
+  const bool is_array = std::filesystem::is_regular_file(file, ignored) && is_numpy_file(file);
+  if (!is_array) return read_id_list(file);
+  Ids ids = read_numpy_integers(file);
+  if (ids.empty()) throw DataError(file + ": found no identifier, expected some");
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+const Ids& wanted_ids(const Snapshot& snapshot, const std::string& file) {
+  return snapshot.memory().get_for_all_times<Ids>("ids " + file,
+                                                  [&file] { return read_wanted_ids(file); });
+}
+
+// Where a halo's particles are looked up: in a catalog, or in the field that has the number of
+// each particle's halo.
+std::optional<std::filesystem::path> catalog_of(const ParticleSet& set, const std::string& key,
+                                                const TypeFields& fields,
+                                                const Snapshot& snapshot) {
+  if (!set.halo_catalog.empty()) return set.halo_catalog;
+  if (find_field(fields.info(), "halo_id") != nullptr) return std::nullopt;
+  const std::filesystem::path& file = snapshot.info().files.front();
+  if (const auto found = find_halo_catalog(file)) return found;
+  throw UsageError(fmt::format(
+      "component with {}.halo {}: particles of type {} in {} have no field of group ids, and there "
+      "is no fof_subhalo_tab beside it; expected {}.catalog, a catalog of haloes",
+      key, *set.halo, fields.info().type, file.string(), key));
+}
+
 // Which particles of a type still belong to a set, while its conditions are applied one after the
 // other.
 class Membership {
  public:
-  Membership(const TypeFields& fields, const Snapshot& snapshot)
-      : fields_(fields), snapshot_(snapshot), is_member_(fields.count(), true) {}
+  Membership(const TypeFields& fields, const Snapshot& snapshot, double periodic_box)
+      : fields_(fields),
+        snapshot_(snapshot),
+        periodic_box_(periodic_box),
+        is_member_(fields.count(), true) {}
 
   void keep(const ParticleSet& set, const std::string& key) {
     for (const std::string& text : set.where)
@@ -33,6 +70,7 @@ class Membership {
       keep_sphere(*set.sphere_center, *set.sphere_radius);
     }
     if (!set.id_file.empty()) keep_ids(set.id_file);
+    if (set.halo) keep_halo(set, key);
   }
 
   const std::vector<bool>& flags() const { return is_member_; }
@@ -50,14 +88,20 @@ class Membership {
     if (!condition) {
       throw UsageError(fmt::format("{}: found \"{}\", expected {}", key, text, condition_form));
     }
-    std::vector<bool> holds(is_member_.size(), false);
-    for (const Comparison& comparison : *condition) {
-      const Column values = fields_.scalars(comparison.field, key);
-      for (std::size_t i = 0; i < holds.size(); ++i) {
-        if (!holds[i]) holds[i] = comparison.holds(static_cast<double>(values[i]));
+    std::vector<bool> any(is_member_.size(), false);
+    for (const Conjunction& conjunction : *condition) {
+      std::vector<bool> all(is_member_.size(), true);
+      for (const Comparison& comparison : conjunction) {
+        const Column values = fields_.scalars(comparison.field, key);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          if (all[i]) all[i] = comparison.holds(static_cast<double>(values[i]));
+        }
+      }
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i]) any[i] = true;
       }
     }
-    keep_if([&holds](std::size_t i) { return holds[i]; });
+    keep_if([&any](std::size_t i) { return any[i]; });
   }
 
   void keep_box(const Vec3& minimum, const Vec3& maximum) {
@@ -69,9 +113,15 @@ class Membership {
     });
   }
 
+  // Across the faces of a periodic box as far as the nearest image.
   void keep_sphere(const Vec3& center, double radius) {
     keep_places([&](const Vec3& x) {
-      return std::hypot(x.a[0] - center.a[0], x.a[1] - center.a[1], x.a[2] - center.a[2]) <= radius;
+      double d[3];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        d[axis] = x.a[axis] - center.a[axis];
+        if (periodic_box_ > 0) d[axis] -= periodic_box_ * std::nearbyint(d[axis] / periodic_box_);
+      }
+      return std::hypot(d[0], d[1], d[2]) <= radius;
     });
   }
 
@@ -87,24 +137,58 @@ class Membership {
     });
   }
 
-  void keep_ids(const std::string& file) {
-    const Ids& wanted = snapshot_.memory().get_for_all_times<Ids>(
-        "ids " + file, [&] { return read_id_list(file); });
+  void keep_ids(const std::string& file) { keep_listed(wanted_ids(snapshot_, file)); }
+
+  void keep_listed(const Ids& wanted) {
     const Ids own = fields_.ids();
     keep_if(
         [&](std::size_t i) { return std::binary_search(wanted.begin(), wanted.end(), own[i]); });
   }
 
+  void keep_halo(const ParticleSet& set, const std::string& key) {
+    const int type = fields_.info().type;
+    const auto number = static_cast<std::uint64_t>(*set.halo);
+    const auto catalog = catalog_of(set, key, fields_, snapshot_);
+    if (!catalog) {
+      const Ids haloes = snapshot_.read_integers(type, "halo_id");
+      keep_if([&](std::size_t i) { return haloes[i] == number; });
+      return;
+    }
+    const HaloMembers members = read_halo(*catalog, number, type);
+    if (members.ids) {
+      keep_listed(*members.ids);
+      return;
+    }
+    check_places(members, *catalog);
+    keep_if([&](std::size_t i) { return members.has_place(snapshot_.place_in_file(type, i)); });
+  }
+
+  // A snapshot of which only a part is read does not say how many there are.
+  void check_places(const HaloMembers& members, const std::filesystem::path& catalog) const {
+    const bool is_whole = snapshot_.info().particles_per_drawn == 1;
+    for (const PlaceRange& range : members.places) {
+      const bool fits =
+          range.first <= fields_.count() && range.count <= fields_.count() - range.first;
+      if (fits || !is_whole || range.count == 0) continue;
+      throw DataError(fmt::format(
+          "{}: the halo's particles of type {} are {} from number {} on, but {} has only {}; the "
+          "catalog belongs to another snapshot",
+          catalog.string(), fields_.info().type, range.count, range.first,
+          snapshot_.info().files.front().string(), fields_.count()));
+    }
+  }
+
   const TypeFields& fields_;
   const Snapshot& snapshot_;
+  double periodic_box_;
   std::vector<bool> is_member_;
 };
 
 ParticleIndices find_indices(const Component& component, const TypeFields& fields,
-                             const Snapshot& snapshot) {
-  Membership selected(fields, snapshot);
+                             const Snapshot& snapshot, double periodic_box) {
+  Membership selected(fields, snapshot, periodic_box);
   selected.keep(component.select, "select");
-  Membership excluded(fields, snapshot);
+  Membership excluded(fields, snapshot, periodic_box);
   if (component.exclude.is_given()) excluded.keep(component.exclude, "exclude");
   ParticleIndices indices;
   for (std::size_t i = 0; i < fields.count(); ++i) {
@@ -119,28 +203,35 @@ std::string text_of(const std::optional<Vec3>& v) {
 }
 
 std::string text_of(const ParticleSet& set) {
-  return fmt::format("where {} ids {} box {} {} sphere {} {}", fmt::join(set.where, "; "),
-                     set.id_file, text_of(set.box_minimum), text_of(set.box_maximum),
+  return fmt::format("where {} ids {} halo {} of {} box {} {} sphere {} {}",
+                     fmt::join(set.where, "; "), set.id_file, set.halo.value_or(-1),
+                     set.halo_catalog, text_of(set.box_minimum), text_of(set.box_maximum),
                      text_of(set.sphere_center),
                      set.sphere_radius ? fmt::format("{}", *set.sphere_radius) : "-");
+}
+
+void check_comparison(const Comparison& comparison, const std::string& text, const std::string& key,
+                      const TypeFields& fields) {
+  if (canonical_field_name(comparison.field) == "id") {
+    throw UsageError(fmt::format(
+        "component with {}.where \"{}\": found a condition on ids, which may be too long for "
+        "a number, expected {}.ids, a file that lists them",
+        key, text, key));
+  }
+  fields.check_scalars(comparison.field, key + ".where");
 }
 
 void check_set(const ParticleSet& set, const std::string& key, const TypeFields& fields,
                const Snapshot& snapshot) {
   for (const std::string& text : set.where) {
-    for (const Comparison& comparison : parse_condition(text).value_or(Condition())) {
-      if (canonical_field_name(comparison.field) == "id") {
-        throw UsageError(fmt::format(
-            "component with {}.where \"{}\": found a condition on ids, which may be too long for "
-            "a number, expected {}.ids, a file that lists them",
-            key, text, key));
-      }
-      fields.check_scalars(comparison.field, key + ".where");
+    for (const Conjunction& conjunction : parse_condition(text).value_or(Condition())) {
+      for (const Comparison& comparison : conjunction)
+        check_comparison(comparison, text, key, fields);
     }
   }
+  if (set.halo) catalog_of(set, key, fields, snapshot);
   if (set.id_file.empty()) return;
-  snapshot.memory().get_for_all_times<Ids>("ids " + set.id_file,
-                                           [&set] { return read_id_list(set.id_file); });
+  wanted_ids(snapshot, set.id_file);
   if (find_field(fields.info(), "id") == nullptr) snapshot.read_ids(fields.info().type);
 }
 
@@ -148,12 +239,15 @@ void check_set(const ParticleSet& set, const std::string& key, const TypeFields&
 
 std::shared_ptr<const ParticleIndices> select_particles(const Component& component,
                                                         const TypeFields& fields,
-                                                        const Snapshot& snapshot) {
+                                                        const Snapshot& snapshot,
+                                                        double periodic_box) {
   if (!component.select.is_given() && !component.exclude.is_given()) return nullptr;
   using Selected = std::shared_ptr<const ParticleIndices>;
   return snapshot.memory().get<Selected>(
-      fmt::format("type {}: {}", fields.info().type, selection_key(component)), [&]() -> Selected {
-        return std::make_shared<ParticleIndices>(find_indices(component, fields, snapshot));
+      fmt::format("type {}: {}", fields.info().type, selection_key(component, periodic_box)),
+      [&]() -> Selected {
+        return std::make_shared<ParticleIndices>(
+            find_indices(component, fields, snapshot, periodic_box));
       });
 }
 
@@ -163,10 +257,21 @@ void check_selection(const Component& component, const TypeFields& fields,
   check_set(component.exclude, "exclude", fields, snapshot);
 }
 
-std::string selection_key(const Component& component) {
+std::string tell_found_catalog(const Component& component, const TypeFields& fields,
+                               const Snapshot& snapshot) {
+  for (const ParticleSet* const set : {&component.select, &component.exclude}) {
+    if (!set->halo || !set->halo_catalog.empty()) continue;
+    const auto catalog = catalog_of(*set, "select", fields, snapshot);
+    if (catalog) return fmt::format("halo {} is looked up in {}", *set->halo, catalog->string());
+  }
+  return {};
+}
+
+std::string selection_key(const Component& component, double periodic_box) {
   const auto& center = component.center.a;
-  return fmt::format("center {} {} {} select {} exclude {}", center[0], center[1], center[2],
-                     text_of(component.select), text_of(component.exclude));
+  return fmt::format("center {} {} {} select {} exclude {} in box {}", center[0], center[1],
+                     center[2], text_of(component.select), text_of(component.exclude),
+                     periodic_box);
 }
 
 Column gather(const Column& column, const ParticleIndices* selected, std::size_t width) {

@@ -15,18 +15,24 @@ namespace splotchcl {
 using ParticleIndices = std::vector<std::size_t>;
 
 // The particles that component.select and component.exclude leave of a type; null where
-// the component has neither, and all are drawn. Found once per snapshot. Throws UsageError
-// for a field that the type does not have, DataError for ids that cannot be read.
+// the component has neither, and all are drawn. Spheres reach across the faces of a periodic box,
+// unless its side is 0. Found once per snapshot. Throws UsageError for a field that the type does
+// not have, DataError for ids and catalogs that cannot be read.
 std::shared_ptr<const ParticleIndices> select_particles(const Component& component,
                                                         const TypeFields& fields,
-                                                        const Snapshot& snapshot);
+                                                        const Snapshot& snapshot,
+                                                        double periodic_box = 0);
 
 // Refuses, before anything is read, what select_particles() would.
 void check_selection(const Component& component, const TypeFields& fields,
                      const Snapshot& snapshot);
 
+// Which catalog of haloes is used without having been named, as a note; empty where none is.
+std::string tell_found_catalog(const Component& component, const TypeFields& fields,
+                               const Snapshot& snapshot);
+
 // The text that stands for the component's selection where it is remembered.
-std::string selection_key(const Component& component);
+std::string selection_key(const Component& component, double periodic_box);
 
 // What is selected of a column with `width` values per particle; the column itself where
 // `selected` is null or it is the same for all.

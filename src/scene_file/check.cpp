@@ -149,6 +149,9 @@ void check_set(const ParticleSet& set, const std::string& label, const Origins& 
   check_pair(set.box_minimum.has_value(), set.box_maximum.has_value(), ".box.min", ".box.max");
   check_pair(set.sphere_center.has_value(), set.sphere_radius.has_value(), ".sphere.center",
              ".sphere.radius");
+  if (!set.halo_catalog.empty() && !set.halo) {
+    refuse(origins.at(label + ".catalog"), label + ".catalog", "it alone", label + ".halo as well");
+  }
   if (!set.box_minimum || !set.box_maximum) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = set.box_minimum->a[axis], high = set.box_maximum->a[axis];

@@ -41,8 +41,10 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
           field_text),
       key<Component, Scaling>(
           path + ".scaling",
-          choice<Scaling>(
-              {{"linear", Scaling::linear}, {"log", Scaling::log}, {"asinh", Scaling::asinh}}),
+          choice<Scaling>({{"linear", Scaling::linear},
+                           {"log", Scaling::log},
+                           {"asinh", Scaling::asinh},
+                           {"log10", Scaling::log}}),
           [map](const Component& component) {
             const FieldMap& field_map = component.*map;
             return field_map.field.empty() ? std::nullopt : std::optional(field_map.scaling);

@@ -28,6 +28,8 @@ const std::map<std::string, bool (*)(const std::string&)>& file_keys() {
       {"component.snapshot", is_any_name},
       {"component.select.ids", is_any_name},
       {"component.exclude.ids", is_any_name},
+      {"component.select.catalog", is_any_name},
+      {"component.exclude.catalog", is_any_name},
       {"component.palette", is_palette_path},
       {"component.absorption_palette", is_palette_path},
   };

@@ -9,6 +9,8 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
+constexpr int most_haloes = 2147483647;
+
 // A condition, or an array of them.
 std::optional<Texts> read_conditions(const toml::node& node) {
   Texts conditions;
@@ -64,9 +66,29 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::s
             return file.empty() ? std::nullopt : std::optional(file);
           },
           [=](Component& component, const std::string& value) { (component.*set).id_file = value; },
-          {effect + " whose identifiers this text file lists, one on a line; what follows a `#` "
-                    "does not count. A relative path starts at the scene file's folder.",
+          {effect + " whose identifiers this file lists: a text, one on a line (what follows a `#` "
+                    "does not count), or a NumPy array (.npy). A relative path starts at the scene "
+                    "file's folder.",
            "", "not used"}),
+      key<Component, int>(
+          path + ".halo", integer(0, most_haloes),
+          [=](const Component& component) { return (component.*set).halo; },
+          [=](Component& component, int value) { (component.*set).halo = value; },
+          {effect + " that belong to this halo, by its number in the snapshot's group ids or in "
+                    "the catalog; see formats.md.",
+           "", "not used"}),
+      key<Component, std::string>(
+          path + ".catalog", text(),
+          [=](const Component& component) {
+            const std::string& file = (component.*set).halo_catalog;
+            return file.empty() ? std::nullopt : std::optional(file);
+          },
+          [=](Component& component, const std::string& value) {
+            (component.*set).halo_catalog = value;
+          },
+          {"The catalog that `halo` is looked up in. A relative path starts at the scene file's "
+           "folder.",
+           "", "the snapshot's group ids, else a catalog beside it"}),
       optional_vector(".box.min", &ParticleSet::box_minimum,
                       effect + " from this corner of a box to `box.max`, both included."),
       optional_vector(".box.max", &ParticleSet::box_maximum, "The other corner."),

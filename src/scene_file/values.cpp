@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -12,7 +13,7 @@
 namespace splotchcl::scene_file {
 namespace {
 
-constexpr int largest_type = 31;
+constexpr int largest_type = particle_type_limit - 1;
 
 // Integers are numbers too: 45 and 45.0 mean the same, with any number of digits.
 std::optional<double> read_number(const toml::node& node, const Range& range) {
@@ -80,10 +81,22 @@ std::string write_three_numbers(const Three& values) {
 std::optional<int> read_particle_type(const toml::node& node) {
   const std::optional<std::string> name = node.value_exact<std::string>();
   if (!name) return read_integer(node, 0, largest_type);
-  const auto& names = particle_type_names;
-  const auto found = std::find(names.begin(), names.end(), *name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<int>(found - names.begin());
+  return find_particle_type(*name);
+}
+
+// "1920x1080".
+std::optional<std::pair<int, int>> read_size(const std::string& text, int at_most) {
+  const auto read = [at_most](std::string_view digits) -> std::optional<int> {
+    int number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+    return is_number && number >= 1 && number <= at_most ? std::optional(number) : std::nullopt;
+  };
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos) return std::nullopt;
+  const auto width = read(std::string_view(text).substr(0, cross));
+  const auto height = read(std::string_view(text).substr(cross + 1));
+  return width && height ? std::optional(std::pair(*width, *height)) : std::nullopt;
 }
 
 // One type, or an array of different ones.
@@ -218,6 +231,7 @@ ValueType<Vec3> vector() {
 
 ValueType<std::pair<int, int>> size_in_pixels(int at_most) {
   const auto read = [at_most](const toml::node& node) -> std::optional<std::pair<int, int>> {
+    if (const auto text = node.value_exact<std::string>()) return read_size(*text, at_most);
     const toml::array* array = node.as_array();
     if (array == nullptr || array->size() != 2) return std::nullopt;
     const std::optional<int> width = read_integer((*array)[0], 1, at_most);
@@ -228,12 +242,13 @@ ValueType<std::pair<int, int>> size_in_pixels(int at_most) {
   const auto write = [](const std::pair<int, int>& size) {
     return fmt::format("[{}, {}]", size.first, size.second);
   };
-  return {fmt::format("[width, height], each an integer from 1 to {}", at_most), read, write};
+  return {fmt::format("[width, height] or \"WIDTHxHEIGHT\", each an integer from 1 to {}", at_most),
+          read, write};
 }
 
 ValueType<std::vector<int>> particle_types() {
   return {fmt::format("a particle type or an array of different ones, each a number from 0 to {} "
-                      "or one of {}",
+                      "or one of {} (or star, dm, dark_matter, PartType1, ...)",
                       largest_type, fmt::join(particle_type_names, ", ")),
           read_particle_types, write_particle_types};
 }

@@ -24,13 +24,31 @@ constexpr std::array<std::pair<const char*, Operator>, 6> operators = {{
 
 constexpr const char* operator_characters = "<>=!";
 
+// A word that joins what is not there.
+bool begins_with_joint(const std::string& text) {
+  return text.compare(0, 3, "or ") == 0 || text.compare(0, 4, "and ") == 0;
+}
+
+// The parts of a text between a word.
+std::vector<std::string> split_at(const std::string& text, const std::string& word) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(word, begin);
+    if (end == std::string::npos) {
+      parts.push_back(text.substr(begin));
+      return parts;
+    }
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + word.size();
+  }
+}
+
 std::optional<Comparison> parse_comparison(const std::string& text) {
   const std::size_t place = text.find_first_of(operator_characters);
   if (place == std::string::npos) return std::nullopt;
   Comparison comparison;
   comparison.field = trimmed(text.substr(0, place));
-  // A word that joins what is not there.
-  if (comparison.field.empty() || comparison.field.compare(0, 3, "or ") == 0) return std::nullopt;
+  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
   for (const auto& [symbol, op] : operators) {
     const std::string spelled = symbol;
     if (text.compare(place, spelled.size(), spelled) != 0) continue;
@@ -46,7 +64,9 @@ std::optional<Comparison> parse_comparison(const std::string& text) {
 }  // namespace
 
 const char* const condition_form =
-    "a condition such as \"temperature > 1e6\" or \"density >= 3 or mass < 1\", or an array of "
+    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
+    "an "
+    "array of "
     "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
 
 bool Comparison::holds(double value) const {
@@ -69,15 +89,15 @@ bool Comparison::holds(double value) const {
 }
 
 std::optional<Condition> parse_condition(const std::string& text) {
-  const std::string word = " or ";
   Condition condition;
-  for (std::size_t begin = 0; begin != std::string::npos;) {
-    const std::size_t end = text.find(word, begin);
-    const auto comparison = parse_comparison(
-        text.substr(begin, end == std::string::npos ? std::string::npos : end - begin));
-    if (!comparison) return std::nullopt;
-    condition.push_back(*comparison);
-    begin = end == std::string::npos ? end : end + word.size();
+  for (const std::string& part : split_at(text, " or ")) {
+    Conjunction all;
+    for (const std::string& one : split_at(part, " and ")) {
+      const auto comparison = parse_comparison(one);
+      if (!comparison) return std::nullopt;
+      all.push_back(*comparison);
+    }
+    condition.push_back(std::move(all));
   }
   return condition;
 }

@@ -17,10 +17,13 @@ struct Comparison {
   bool holds(double value) const;
 };
 
-// Holds where any of its comparisons does.
-using Condition = std::vector<Comparison>;
+// Holds where all of its comparisons do.
+using Conjunction = std::vector<Comparison>;
+// Holds where any of its parts does.
+using Condition = std::vector<Conjunction>;
 
-// Comparisons joined by the word "or"; nothing when the text is no condition.
+// Comparisons joined by the words "and" and "or", of which "and" binds more closely; nothing when
+// the text is no condition.
 std::optional<Condition> parse_condition(const std::string& text);
 
 // Completes "expected ...".

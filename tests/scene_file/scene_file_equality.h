@@ -28,6 +28,8 @@ inline void expect_same(const std::optional<Vec3>& a, const std::optional<Vec3>&
 inline void expect_same(const ParticleSet& a, const ParticleSet& b) {
   EXPECT_EQ(a.where, b.where);
   EXPECT_EQ(a.id_file, b.id_file);
+  EXPECT_EQ(a.halo, b.halo);
+  EXPECT_EQ(a.halo_catalog, b.halo_catalog);
   expect_same(a.box_minimum, b.box_minimum);
   expect_same(a.box_maximum, b.box_maximum);
   expect_same(a.sphere_center, b.sphere_center);

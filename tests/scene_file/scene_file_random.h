@@ -260,6 +260,8 @@ class RandomScenes {
     ParticleSet set;
     if (coin()) set.where = {"U > 1e5", "RHO <= -3.5 or \"é\" != 0"};
     if (coin()) set.id_file = word();
+    if (coin()) set.halo = 12;
+    if (set.halo && coin()) set.halo_catalog = word();
     if (coin()) {
       set.box_minimum = place();
       set.box_maximum = Vec3(*set.box_minimum + Vec3{{unit(), positive(1e-3, 1e3), 0}});

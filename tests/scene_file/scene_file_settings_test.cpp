@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"camera=30", "key camera: found integer 30, expected a table"},
         Refused{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
         Refused{"image.size=[640,480", "key image.size: found string \"[640,480\""},
-        Refused{"image.size=640x480", "key image.size: found string \"640x480\""},
+        Refused{"image.size=640x480x3", "key image.size: found string \"640x480x3\""},
         Refused{"component=1", "key component: found integer 1"},
         Refused{"component.palette=magma", "key component.palette: found no such component"},
         Refused{"component.3.palette=magma", "expected a number from 0 to 2 or a name (gas, dark"},
