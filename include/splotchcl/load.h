@@ -18,6 +18,11 @@ namespace splotchcl {
 // A camera, components, fields and palettes that suit the data, every value spelled
 // out so that it can be saved as a scene file.
 Scene suggest_scene(const Snapshot& snapshot);
+// A component that suits these types alone, where a user wants others than those suggested.
+Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types);
+// The particles of the snapshot that no component draws, "not drawn: disk 20000, bulge 5000";
+// empty where all are drawn.
+std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot);
 
 // Called with what is being done and the fraction done, 0 to 1, where it takes long.
 using LoadProgress = std::function<void(const std::string& what, double fraction)>;

@@ -35,7 +35,8 @@ Camera choose_camera(const Scene& scene, const Snapshot& snapshot) {
         "the scene has no camera and every component is placed elsewhere than its snapshot has "
         "it, expected a camera; add a [camera]");
   }
-  return suggest_camera(snapshot, types, scene.image.width, scene.image.height);
+  return suggest_camera(
+      suggest_target(snapshot, types, scene.image.width, scene.image.height));
 }
 
 // Read once for all frames of a film.
@@ -49,11 +50,6 @@ std::shared_ptr<const Image> background_image(const ImageSettings& image,
   });
 }
 
-// What is placed elsewhere is no part of the periodic box.
-bool is_in_the_box(const Component& component) {
-  return component.snapshot.empty() && !component.placement.moves();
-}
-
 }  // namespace
 
 FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
@@ -64,7 +60,7 @@ FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
   }
   check_finish(scene, snapshot.info());
   if (scene.periodic.wrap) periodic_box_ = periodic_box(scene.periodic, snapshot.info());
-  components_.emplace(scene, snapshot, missing_sizes(scene, progress), notes);
+  components_.emplace(scene, snapshot, missing_sizes(scene, progress), notes, periodic_box_);
   auto fields = components_->fields().begin();
   for (const Component& component : scene.components)
     parts_.push_back({ComponentReader(component, scene.sort, *fields++), std::nullopt});

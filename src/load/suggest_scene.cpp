@@ -1,6 +1,7 @@
 // The scene that is drawn when only a snapshot is given. Every choice here is one of
 // taste, made by looking at pictures; a scene file overrides any of it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/decimals.h"
@@ -15,7 +16,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr int gas = 0, halo = 1, stars = 4;
+constexpr int gas = 0, halo = 1, disk = 2, bulge = 3, stars = 4;
 
 // Columns of matter span far more than a display does: a bright picture's dark parts need
 // lifting.
@@ -30,12 +31,26 @@ double rounded(double value) {
   return value == 0 ? 0 : round_to_decimals(value, decimals_for(value, 3));
 }
 
+// Where the bulk of the values lies. Of a logarithm that reaches down to what are almost zeros, the
+// lower end is cut at as many per cent as it takes.
+std::optional<ValueRange> robust_range(const Column& column, Scaling scaling) {
+  constexpr double largest_span = 8;  // powers of ten
+  std::optional<ValueRange> range = bulk_range(column, scaling);
+  if (!range || scaling != Scaling::log) return range;
+  for (const double low : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    if (range->maximum - range->minimum <= largest_span) break;
+    range = percentile_range(column, scaling, low, 99.5);
+  }
+  range->minimum = std::max(range->minimum, range->maximum - largest_span);
+  return range;
+}
+
 // The field with its limits spelled out, if the type has it and it has something to show.
 std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTypeInfo& type,
                                       const std::string& field, Scaling scaling) {
   const FieldInfo* const info = find_field(type, field);
   if (info == nullptr || info->values_per_particle != 1) return std::nullopt;
-  const auto range = bulk_range(snapshot.read(type.type, field), scaling);
+  const auto range = robust_range(snapshot.read(type.type, field), scaling);
   if (!range) return std::nullopt;
   const double scale = scaling == Scaling::log ? 1.0 : std::abs(range->maximum);
   if (!(range->maximum - range->minimum > smallest_span * scale)) return std::nullopt;
@@ -44,6 +59,22 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
   map.minimum = rounded(is_log ? std::pow(10, range->minimum) : range->minimum);
   map.maximum = rounded(is_log ? std::pow(10, range->maximum) : range->maximum);
   return map;
+}
+
+// The field of particles that have colours of their own: three values, none below 0. Empty where
+// there is none.
+std::string own_colors(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+  for (const FieldInfo& field : type.fields) {
+    const bool is_named_so = equal_ignoring_case(field.name, "color") ||
+                             equal_ignoring_case(field.name, "colors") ||
+                             equal_ignoring_case(field.name, "rgb");
+    if (!is_named_so || field.values_per_particle != 3) continue;
+    const Column values = snapshot.read(type.type, field.name);
+    const bool are_light = std::all_of(values.data(), values.data() + values.size(),
+                                       [](float v) { return std::isfinite(v) && v >= 0; });
+    if (are_light) return field.name;
+  }
+  return {};
 }
 
 // load_frame estimates it where the file has none; its range is not known before.
@@ -59,32 +90,36 @@ Component component_for(const ParticleTypeInfo& type) {
   return component;
 }
 
+// In gas whose heat hardly varies the density is what there is to see.
+bool tells_more(const FieldMap& density, const FieldMap& heat) {
+  constexpr double much_heat = 2;  // largest over smallest
+  const auto ratio = [](const FieldMap& map) { return *map.maximum / *map.minimum; };
+  return ratio(heat) < much_heat && ratio(density) > ratio(heat);
+}
+
 Component gas_component(const Snapshot& snapshot, const ParticleTypeInfo& type) {
   Component component = component_for(type);
+  const auto density = varying_field(snapshot, type, "density", Scaling::log);
   for (const char* const heat : {"temperature", "internal_energy"}) {
-    if (const auto map = varying_field(snapshot, type, heat, Scaling::log)) {
-      component.color = *map;
-      component.palette = "hot_gas";
-      return component;
-    }
-  }
-  if (const auto map = varying_field(snapshot, type, "density", Scaling::log)) {
+    const auto map = varying_field(snapshot, type, heat, Scaling::log);
+    if (!map || (density && tells_more(*density, *map))) continue;
     component.color = *map;
-    component.palette = "gas";
+    component.palette = "hot_gas";
     return component;
   }
-  // Neither heat nor density: initial conditions, whose matter is still so even that every
-  // line of sight shows the same. What is denser than the rest must stand out.
-  component.color = estimated_density(Scaling::log);
-  component.intensity = estimated_density(Scaling::linear);
-  component.palette = "hot_gas";
-  component.brightness = 0.6;
+  component.color = density.value_or(estimated_density(Scaling::log));
+  component.palette = density ? "gas" : "hot_gas";
   return component;
 }
 
 Component star_component(const Snapshot& snapshot, const ParticleTypeInfo& type) {
   Component component = component_for(type);
   component.palette = "stars";
+  // A length that reaches to the 64th neighbour would reach across all of a few.
+  constexpr std::uint64_t few = 512;
+  if (type.count < few && find_field(type, "smoothing_length") == nullptr) {
+    component.size_factor = 0.2;
+  }
   component.color = varying_field(snapshot, type, "stellar_age", Scaling::linear)
                         .value_or(estimated_density(Scaling::log));
   return component;
@@ -92,9 +127,9 @@ Component star_component(const Snapshot& snapshot, const ParticleTypeInfo& type)
 
 // Discs and stars are bright against the halo that they lie in, which is but a glow
 // around them; dark matter by itself is the picture.
-Component collisionless_component(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+Component collisionless_component(const Snapshot& snapshot, const ParticleTypeInfo& type,
+                                  bool is_alone) {
   if (type.type == stars) return star_component(snapshot, type);
-  const bool is_alone = snapshot.info().types.size() == 1;
   Component component = component_for(type);
   component.color = estimated_density(Scaling::log);
   component.palette = type.type == halo ? "halo" : "hot_gas";
@@ -102,21 +137,101 @@ Component collisionless_component(const Snapshot& snapshot, const ParticleTypeIn
   return component;
 }
 
-// Gas with the stars in it; dark matter beside gas would only veil it.
+// Whether the file gives all particles of a type the same smoothing length.
+bool has_one_size(const Snapshot& snapshot, int type) {
+  if (find_field(*snapshot.info().find_type(type), "smoothing_length") == nullptr) return false;
+  const Column lengths = snapshot.read(type, "smoothing_length");
+  return lengths.is_uniform() || std::all_of(lengths.data(), lengths.data() + lengths.size(),
+                                             [&](float length) { return length == lengths[0]; });
+}
+
+// Light as it is: it adds up.
+void give_own_colors(Component& component, const std::string& field) {
+  component.color = FieldMap();
+  component.intensity = FieldMap();
+  component.color_vector = field;
+  component.brightness = 1;
+  component.absorption = {Absorption::Kind::none, 0};
+}
+
+Component type_component(const Snapshot& snapshot, const ParticleTypeInfo& type, bool is_alone) {
+  Component component = type.type == gas ? gas_component(snapshot, type)
+                                         : collisionless_component(snapshot, type, is_alone);
+  const std::string colors = own_colors(snapshot, type);
+  if (!colors.empty()) give_own_colors(component, colors);
+  return component;
+}
+
+// Gas with the stars in it; dark matter beside gas would only veil it. Discs and bulges are stars
+// of a galaxy by itself, but in a universe the dark matter far from what is looked at.
+bool is_drawn_beside_gas(int type, const SnapshotInfo& info) {
+  const bool is_of_galaxy = type == disk || type == bulge;
+  return type == gas || type == stars || (is_of_galaxy && !info.cosmology);
+}
+
+// Types with colours of their own are one kind of light, as bright as each other.
+std::optional<Component> colored_component(const Snapshot& snapshot) {
+  Component component;
+  std::string field;
+  for (const ParticleTypeInfo& type : snapshot.info().types) {
+    const std::string colors = own_colors(snapshot, type);
+    if (colors.empty() || (!field.empty() && colors != field)) continue;
+    if (field.empty()) {
+      component = component_for(type);
+      component.types.clear();
+    }
+    field = colors;
+    component.types.push_back(type.type);
+    if (!has_masses(type)) component.weight = WeightModel::constant;
+  }
+  if (component.types.size() < 2 || field.empty()) return std::nullopt;
+  component.name = "colored";
+  give_own_colors(component, field);
+  return component;
+}
+
 std::vector<Component> choose_components(const Snapshot& snapshot) {
   std::vector<Component> components;
   const SnapshotInfo& info = snapshot.info();
-  if (const ParticleTypeInfo* const type = info.find_type(gas)) {
-    components.push_back(gas_component(snapshot, *type));
-    if (const ParticleTypeInfo* const star_type = info.find_type(stars)) {
-      components.push_back(star_component(snapshot, *star_type));
-    }
-    return components;
-  }
+  const bool has_gas = info.find_type(gas) != nullptr;
+  const std::optional<Component> colored = colored_component(snapshot);
+  if (colored) components.push_back(*colored);
   for (const ParticleTypeInfo& type : info.types) {
-    components.push_back(collisionless_component(snapshot, type));
+    const bool is_colored = colored && std::find(colored->types.begin(), colored->types.end(),
+                                                 type.type) != colored->types.end();
+    if (is_colored || (has_gas && !is_drawn_beside_gas(type.type, info))) continue;
+    components.push_back(type_component(snapshot, type, info.types.size() == 1));
   }
   return components;
+}
+
+// Of several types together: what any particle has.
+Component joint_component(const Snapshot& snapshot, const std::vector<int>& types) {
+  Component component;
+  component.types = types;
+  component.color = estimated_density(Scaling::log);
+  component.palette = "hot_gas";
+  const bool have_masses = std::all_of(types.begin(), types.end(), [&](int type) {
+    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
+    return info == nullptr || has_masses(*info);
+  });
+  component.weight = have_masses ? WeightModel::mass : WeightModel::constant;
+  return component;
+}
+
+// Initial conditions and even boxes: every line of sight shows the same, unless what is denser than
+// the rest stands out. Where all have one size, no density says what is denser, but smaller clouds
+// show how they lie.
+void show_contrast(const Snapshot& snapshot, Component& component) {
+  if (component.color.field != "density") return;
+  constexpr std::array<double, 2> upper_half = {50, 99.9};
+  component.color.minimum.reset();
+  component.color.maximum.reset();
+  component.color.percentiles = upper_half;
+  component.intensity = estimated_density(Scaling::linear);
+  component.intensity.percentiles = upper_half;
+  constexpr double small = 0.25;
+  if (has_one_size(snapshot, component.types.front())) component.size_factor = small;
 }
 
 std::vector<int> types_of(const std::vector<Component>& components) {
@@ -129,6 +244,28 @@ std::vector<int> types_of(const std::vector<Component>& components) {
 
 }  // namespace
 
+Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types) {
+  const ParticleTypeInfo* const only =
+      types.size() == 1 ? snapshot.info().find_type(types.front()) : nullptr;
+  return only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
+}
+
+std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
+  std::string text;
+  for (const ParticleTypeInfo& type : snapshot.info().types) {
+    const bool is_drawn = std::any_of(
+        scene.components.begin(), scene.components.end(), [&type](const Component& component) {
+          return component.snapshot.empty() &&
+                 std::find(component.types.begin(), component.types.end(), type.type) !=
+                     component.types.end();
+        });
+    if (is_drawn) continue;
+    text += (text.empty() ? "not drawn: " : ", ") + particle_type_name(type.type) + " " +
+            std::to_string(type.count);
+  }
+  return text;
+}
+
 Scene suggest_scene(const Snapshot& snapshot) {
   const SnapshotInfo& info = snapshot.info();
   if (info.types.empty()) {
@@ -139,8 +276,13 @@ Scene suggest_scene(const Snapshot& snapshot) {
   scene.snapshot = info.files.front().string();
   scene.image.gamma = gamma;
   scene.components = choose_components(snapshot);
-  scene.camera =
-      suggest_camera(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
+  const Target target =
+      suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
+  scene.camera = suggest_camera(target);
+  if (target.is_smooth) {
+    for (Component& component : scene.components)
+      show_contrast(snapshot, component);
+  }
   return scene;
 }
 

@@ -25,6 +25,34 @@ ReadSettings read_settings_in(const std::vector<std::string>& settings) {
   return apply_settings(Scene(), own).read;
 }
 
+// component.NAME.types=...
+bool sets_types(const std::string& setting) {
+  const std::string key = trimmed(setting.substr(0, setting.find('=')));
+  const std::string ending = ".types";
+  return key.rfind("component.", 0) == 0 && key.size() > ending.size() &&
+         key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// What was suggested for other types than a setting wants does not fit them: it is suggested anew,
+// and so is the camera.
+Scene with_wanted_types(Scene suggested, const std::vector<std::string>& settings,
+                        const Snapshot& snapshot) {
+  std::vector<std::string> own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own), sets_types);
+  if (own.empty()) return suggested;
+  const Scene wanted = apply_settings(suggested, own);
+  for (std::size_t i = 0; i < wanted.components.size(); ++i) {
+    const std::vector<int>& types = wanted.components[i].types;
+    if (types == suggested.components[i].types) continue;
+    const std::string name = suggested.components[i].name;
+    suggested.components[i] = suggest_component(snapshot, types);
+    suggested.components[i].name = name;
+  }
+  suggested.camera.reset();
+  suggested.camera = decide_camera(suggested, snapshot);
+  return suggested;
+}
+
 // Most snapshots are binary: their first bytes hold some that no text does.
 bool begins_like_text(const std::filesystem::path& path) {
   std::error_code error;
@@ -56,7 +84,11 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
     result.snapshot = SnapshotSource().at(result.scene);
   } else {
     result.snapshot = open_snapshot_for(path, read_settings_in(settings));
-    result.scene = apply_settings(suggest_scene(*result.snapshot), settings);
+    const Scene suggested =
+        with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
+    result.scene = apply_settings(suggested, settings);
+    const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
+    if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }
   return result;
 }

@@ -76,6 +76,67 @@ TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
   EXPECT_LT(scene.components[0].brightness, scene.components[1].brightness);
 }
 
+TEST(SuggestScene, DrawsTheDiscAndBulgeOfAGalaxyThatHasGas) {
+  MemorySnapshot snapshot;
+  for (const int type : {0, 1, 2, 3, 4})
+    snapshot.add(type, "position", ball(100, 0, 1), 3);
+  std::vector<std::string> names;
+  for (const Component& component : suggest_scene(snapshot).components)
+    names.push_back(component.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"gas", "disk", "bulge", "stars"}));
+}
+
+TEST(SuggestScene, LeavesOutTheFarDarkMatterOfAUniverse) {
+  MemorySnapshot snapshot;
+  for (const int type : {0, 1, 2, 3})
+    snapshot.add(type, "position", ball(100, 0, 1), 3);
+  snapshot.set_cosmology(Cosmology());
+  const Scene scene = suggest_scene(snapshot);
+  ASSERT_EQ(scene.components.size(), 1u);
+  EXPECT_EQ(tell_not_drawn(scene, snapshot), "not drawn: halo 100, disk 100, bulge 100");
+}
+
+TEST(SuggestScene, HasNothingToTellWhereAllIsDrawn) {
+  MemorySnapshot snapshot;
+  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  snapshot.add(2, "position", ball(100, 0, 1), 3);
+  EXPECT_EQ(tell_not_drawn(suggest_scene(snapshot), snapshot), "");
+}
+
+TEST(SuggestScene, DrawsParticlesInColorsOfTheirOwnTogether) {
+  MemorySnapshot snapshot;
+  for (const int type : {0, 2, 4}) {
+    snapshot.add(type, "position", ball(100, 0, 1), 3);
+    if (type != 4) snapshot.add(type, "Color", std::vector<float>(300, 0.5f), 3);
+  }
+  const Scene scene = suggest_scene(snapshot);
+  ASSERT_EQ(scene.components.size(), 2u);
+  EXPECT_EQ(scene.components[0].types, (std::vector<int>{0, 2}));
+  EXPECT_EQ(scene.components[0].color_vector, "Color");
+  EXPECT_EQ(scene.components[0].color.field, "");
+  EXPECT_EQ(scene.components[1].types, (std::vector<int>{4}));
+}
+
+TEST(SuggestScene, TakesNoColorsBelowZeroForLight) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  std::vector<float> colors(300, 0.5f);
+  colors[7] = -1;
+  snapshot.add(0, "Color", colors, 3);
+  EXPECT_EQ(suggest_scene(snapshot).components[0].color_vector, "");
+}
+
+TEST(SuggestComponent, FitsTheTypesThatAreAskedFor) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
+  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  EXPECT_EQ(suggest_component(snapshot, {0}).color.field, "internal_energy");
+  EXPECT_EQ(suggest_component(snapshot, {1}).color.field, "density");
+  EXPECT_EQ(suggest_component(snapshot, {0, 1}).color.field, "density");
+  EXPECT_EQ(suggest_component(snapshot, {0, 1}).types, (std::vector<int>{0, 1}));
+}
+
 TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
   MemorySnapshot snapshot;
   snapshot.add(0, "position", ball(100, 0, 1), 3);
@@ -93,6 +154,66 @@ TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatIsTheSameEverywhere) {
   snapshot.add(0, "density", powers_of_ten(100, 3));
   snapshot.add(0, "internal_energy", std::vector<float>(100, 0.05f));
   EXPECT_EQ(suggest_scene(snapshot).components[0].color.field, "density");
+}
+
+TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatHardlyVaries) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  snapshot.add(0, "density", powers_of_ten(100, 1));
+  snapshot.add(0, "temperature", powers_of_ten(100, 0.1));
+  EXPECT_EQ(suggest_scene(snapshot).components[0].color.field, "density");
+}
+
+TEST(SuggestScene, CutsARangeThatReachesDownToWhatIsAlmostZero) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(1000, 0, 1), 3);
+  std::vector<float> density = powers_of_ten(1000, 3);
+  std::fill(density.begin(), density.begin() + 40, 9e-43f);  // 4 %
+  snapshot.add(0, "density", density);
+  const Component gas = suggest_scene(snapshot).components[0];
+  EXPECT_NEAR(*gas.color.minimum, 1.3, 0.2);
+  EXPECT_NEAR(*gas.color.maximum, 970, 30);
+}
+
+TEST(SuggestScene, NeverSpansMoreThanEightPowersOfTen) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(1000, 0, 1), 3);
+  std::vector<float> density = powers_of_ten(1000, 3);
+  std::fill(density.begin(), density.begin() + 700, 9e-43f);
+  snapshot.add(0, "density", density);
+  const Component gas = suggest_scene(snapshot).components[0];
+  EXPECT_NEAR(*gas.color.maximum / *gas.color.minimum, 1e8, 2e6);
+}
+
+TEST(SuggestScene, LetsWhatIsDenserStandOutInAnEvenBox) {
+  MemorySnapshot snapshot;
+  snapshot.add(1, "position", cube(5000, 100), 3);
+  snapshot.set_box_size(100);
+  const Component even = suggest_scene(snapshot).components[0];
+  EXPECT_EQ(even.intensity.field, "density");
+  ASSERT_TRUE(even.intensity.percentiles);
+  EXPECT_GE((*even.intensity.percentiles)[0], 30);
+  EXPECT_EQ(even.size_factor, 1);
+}
+
+TEST(SuggestScene, LeavesTheContrastOfAClusteredBoxAsItIs) {
+  MemorySnapshot snapshot;
+  std::vector<float> position = cube(2000, 100);
+  for (const double center : {20.0, 40.0, 60.0, 80.0}) {
+    const std::vector<float> halo = ball(2000, center, 1);
+    position.insert(position.end(), halo.begin(), halo.end());
+  }
+  snapshot.add(1, "position", position, 3);
+  snapshot.set_box_size(100);
+  EXPECT_EQ(suggest_scene(snapshot).components[0].intensity.field, "");
+}
+
+TEST(SuggestScene, DrawsSmallerCloudsWhereAllOfAnEvenBoxHaveOneSize) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", cube(5000, 100), 3);
+  snapshot.add(0, "smoothing_length", std::vector<float>(5000, 12));
+  snapshot.set_box_size(100);
+  EXPECT_LT(suggest_scene(snapshot).components[0].size_factor, 0.5);
 }
 
 TEST(SuggestScene, WeighsByMassOnlyWhereMassesAreKnown) {
@@ -132,6 +253,33 @@ TEST(SuggestCamera, FindsAnObjectInALargeBox) {
     EXPECT_NEAR(x, 700, 1);
   EXPECT_GT(half_width(camera), 2);
   EXPECT_LT(half_width(camera), 10);
+}
+
+TEST(SuggestCamera, SeesASlabFromItsSideAndFillsThePictureWithIt) {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    MemorySnapshot snapshot;
+    std::vector<float> position = cube(5000, 1);
+    for (std::size_t i = axis; i < position.size(); i += 3)
+      position[i] *= 10;
+    snapshot.add(0, "position", position, 3);
+    const Camera camera = *suggest_scene(snapshot).camera;
+    EXPECT_NEAR(half_width(camera), 5.6, 0.3) << axis;
+    const Vec3 view = camera.look_at - camera.position;
+    EXPECT_NEAR(view.a[axis], 0, 0.01) << axis;
+    EXPECT_EQ(camera.sky.a[axis], 0) << axis;
+    EXPECT_NEAR(camera.look_at.a[axis], 5, 0.1) << axis;
+  }
+}
+
+TEST(SuggestCamera, FramesAPairOfSmallObjectsClosely) {
+  MemorySnapshot snapshot;
+  std::vector<float> position = ball(2000, 0, 1);
+  for (std::size_t i = 0; i < position.size() / 2; i += 3)
+    position[i] += 60;
+  snapshot.add(2, "position", position, 3);
+  const double half = half_width(*suggest_scene(snapshot).camera);
+  EXPECT_GT(half, 26);  // as it appears from 30 degrees beside the line of sight
+  EXPECT_LT(half, 38);
 }
 
 TEST(SuggestCamera, IsNotMovedByOutliersOrBadPositions) {
