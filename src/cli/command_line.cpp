@@ -25,6 +25,8 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--set", options.settings, wrapped("Override a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  sub.add_option("--size", options.size, wrapped("Width and height of the picture, in pixels"))
+      ->type_name("WIDTHxHEIGHT");
   sub.add_option(
          "--tolerance", options.tolerance,
          wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
@@ -80,7 +82,7 @@ void add_render(CLI::App& app, Run& run, Console& console) {
   sub->footer(
       "Examples:\n"
       "  splotchcl render snapshot_006 -o universe.png\n"
-      "  splotchcl render snapshot_006 --set image.width=1920 --set image.height=1080\n"
+      "  splotchcl render snapshot_006 --size 1920x1080\n"
       "  splotchcl render snapshot_006 --explain > scene.toml\n"
       "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128");
 }

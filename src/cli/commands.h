@@ -19,6 +19,7 @@ struct DrawOptions {
   std::filesystem::path scene;  // a scene file or a snapshot
   std::string device;
   std::vector<std::string> settings;  // key=value
+  std::optional<std::string> size;    // WIDTHxHEIGHT
   std::optional<double> tolerance;
   std::optional<int> every, max_particles;
   bool cache_smoothing_lengths = false;
