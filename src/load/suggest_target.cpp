@@ -149,14 +149,19 @@ bool is_smooth(const Sample& sample, const Target& box) {
   return variance / (mean * mean) - 1 / mean < largest_contrast * largest_contrast;
 }
 
-// Half of what a picture must span along an axis: without a few particles far out, which would
-// make all else small, but with all of what ends sharply.
-double half_to_show(std::vector<double>& along) {
+struct Span {
+  double middle, half;
+};
+
+// What a picture must span along an axis: without a few particles far out, which would make all
+// else small, but with all of what ends sharply.
+Span span_to_show(std::vector<double>& along) {
   constexpr double outliers = 0.05, few_outliers = 0.01;
-  constexpr double wide_margin = 1.6, margin = 1.15;
+  constexpr double wide_margin = 1.6, margin = 1.25;
   const ValueRange most = extent(along, outliers), nearly_all = extent(along, few_outliers);
-  return 0.5 * std::min(wide_margin * (most.maximum - most.minimum),
-                        margin * (nearly_all.maximum - nearly_all.minimum));
+  const Span wide = {middle(most), 0.5 * wide_margin * (most.maximum - most.minimum)};
+  const Span close = {middle(nearly_all), 0.5 * margin * (nearly_all.maximum - nearly_all.minimum)};
+  return close.half < wide.half ? close : wide;
 }
 
 // Its place and size as seen from its viewpoint, along the picture's axes.
@@ -173,9 +178,9 @@ void fit_to_picture(Target& target, const Sample& sample, double aspect) {
       along.push_back(sample[0][i] * axis.a[0] + sample[1][i] * axis.a[1] +
                       sample[2][i] * axis.a[2]);
     }
-    const double place = middle(extent(along, 0.05));
-    target.center = Vec3(target.center + place * axis);
-    half_width = std::max(half_width, share * half_to_show(along));
+    const Span span = span_to_show(along);
+    target.center = Vec3(target.center + span.middle * axis);
+    half_width = std::max(half_width, share * span.half);
   }
   // A single particle, or all in one place: any size will do.
   target.size = half_width > 0 ? half_width : 1.0;
@@ -191,14 +196,17 @@ bool has_middle(const std::vector<double>& values, const ValueRange& range) {
   return static_cast<double>(inside) > least_share * static_cast<double>(values.size());
 }
 
-// The axis along which the particles reach much farther than along both others, without a gap.
+// The long axis of a slab: particles fill it to its faces, without a gap, and reach much farther
+// along one axis than along both others.
 std::optional<std::size_t> find_long_axis(Sample sample) {
-  constexpr double much = 2.5;
+  constexpr double much = 2.5, filled = 0.8;
   std::array<double, 3> spans;
   std::array<ValueRange, 3> ranges;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ranges[axis] = extent(sample[axis], 0.02);
+    ranges[axis] = extent(sample[axis], 0);
     spans[axis] = ranges[axis].maximum - ranges[axis].minimum;
+    const ValueRange most = extent(sample[axis], 0.05);
+    if (!(most.maximum - most.minimum > filled * spans[axis])) return std::nullopt;
   }
   const auto longest =
       static_cast<std::size_t>(std::max_element(spans.begin(), spans.end()) - spans.begin());
