@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "cli/program.h"
@@ -26,11 +28,19 @@ class OddFiles : public ::testing::Test {
   ProgramResult run(const std::string& arguments) const {
     return run_in(folder_, "timeout 20 \"$splotchcl\" " + arguments);
   }
+  // What is drawn of a file is told before another is found to be odd.
+  static std::string without_notes(const std::string& text) {
+    std::istringstream lines(text);
+    std::string kept;
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind("splotchcl: note: ", 0) != 0) kept += line + "\n";
+    return kept;
+  }
   void expect_refused(const std::string& arguments) const {
     const ProgramResult result = run(arguments);
     EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 2)
         << arguments << ": " << result.exit_code;
-    EXPECT_TRUE(is_one_line(result.err)) << arguments << "\n" << result.err;
+    EXPECT_TRUE(is_one_line(without_notes(result.err))) << arguments << "\n" << result.err;
   }
   TemporaryFolder folder_;
 };

@@ -393,8 +393,8 @@ Column PhantomSnapshot::read(int type, const std::string& name) const {
 
 bool is_phantom_hdf5(const Hdf5File& file) {
   if (!file.has("/particles") || file.has("/Header")) return false;
-  const bool has_its_names = file.has("/header/massoftype") || file.has("/particles/xyz") ||
-                             file.has("/particles/x");
+  const bool has_its_names =
+      file.has("/header/massoftype") || file.has("/particles/xyz") || file.has("/particles/x");
   return has_its_names || !is_plain_hdf5(file);
 }
 
