@@ -41,7 +41,7 @@ class ArraySnapshot : public Snapshot {
   // The side of a periodic box, in the unit of positions; 0: there is none. Throws UsageError for
   // what is no finite number >= 0.
   void set_box_size(double size);
-  void set_time(double time);      // in the simulation's unit, for texts in pictures
+  void set_time(double time);  // in the simulation's unit, for texts in pictures
   // What positions are relative to, in their unit: floats are taken as offsets from it, doubles
   // as positions from which it is subtracted. Throws UsageError when double positions are set
   // already.

@@ -11,15 +11,15 @@ INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
 }
 
 // Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
-// empty x range where there is none. With room for the rounding of the center; compositing knows it
-// better. First pixels are turned round, so that first and last ones are found alike: the last
-// whole number below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to
-// the camera may lie anywhere.
+// empty x range where there is none. Also of one that is only listed (splat.h). With room for the
+// rounding of the center; compositing knows it better. First pixels are turned round, so that first
+// and last ones are found alike: the last whole number below, as floor() is a call on PoCL. Clamped
+// before the conversion: a splat close to the camera may lie anywhere.
 INLINED int4 tile_range(const Splat splat, const Grid grid) {
   const float unit = unit_of(splat, grid);
   const float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
                         (float2)((float)grid.middle_x, (float)grid.middle_y);
-  const float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
+  const float2 radius = fabs((float2)(RADIUS_X(splat), splat.radius)) + grid.room;
   const float2 size = (float2)((float)grid.width, (float)grid.height);
   const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
   const float4 clamped =

@@ -48,7 +48,7 @@ struct Splat {
   int x, y;
   float sigma;                      // widened, unless pixel means are taken; negative: of a
                                     // bright splat, whose means keep more digits (shape.cl)
-  float radius;                     // drawn up to here
+  float radius;                     // drawn up to here; negative: only listed, so far
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
   unsigned int component_and_grid;  // component | grid << 16 | power of the coarser unit << 24

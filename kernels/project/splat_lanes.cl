@@ -182,16 +182,34 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
 }
 
-// Whether the square that is drawn reaches what is in memory of its grid, or nearly.
-INLINED INTEGER reaches_grid(const SplatLanes s, const ProjectParameters p) {
+// How far the center lies beyond the part of its grid that is drawn, along the axis where it is
+// farthest; below 0: within.
+INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
   const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
-  const VALUE room = s.radius + choose((VALUE)(0.0f), (VALUE)(p.beside), s.grid > 0);
-  INTEGER reaches = s.y + room >= p.top * shrink & s.y - room <= p.bottom * shrink;
+  VALUE beyond = max(p.top * shrink - s.y, s.y - p.bottom * shrink);
 #ifndef ELLIPSES
-  reaches &= s.x + room >= p.left * shrink & s.x - room <= p.right_end * shrink;
+  beyond = max(beyond, max(p.left * shrink - s.x, s.x - p.right_end * shrink));
 #endif
-  return reaches;
+  return beyond;
+}
+
+// Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Those
+// that end short of it by no more than their own radius leave something out, though: they are
+// listed, with a minus before a radius that reaches, so that the check after drawing knows them,
+// and not drawn.
+INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
+  const VALUE beyond = distance_beyond(*s, p);
+  const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
+  const INTEGER reaches = beyond <= s->radius + room;
+#ifdef ELLIPSES
+  s->visible &= reaches;
+#else
+  const INTEGER ends_short =
+      (reaches == 0) & (beyond <= 2.0f * s->radius) & (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
+  s->visible &= reaches | ends_short;
+  s->radius = choose(s->radius, -(beyond + 1.0f), ends_short);
+#endif
 }
 
 // Half of the light beyond the square goes back into it: the sum of many errs by as much
@@ -287,7 +305,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            ? (VALUE)(p.kernel_cut)
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
-  s.visible &= reaches_grid(s, p);
+  keep_those_that_reach(&s, p);
   s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);

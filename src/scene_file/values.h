@@ -34,9 +34,9 @@ struct Range {
 ValueType<double> number(const Range& range = {});
 ValueType<int> integer(int at_least, int at_most);
 ValueType<bool> boolean();
-ValueType<std::string> text();                // not empty
+ValueType<std::string> text();                                                 // not empty
 ValueType<std::string> words(std::size_t most_bytes, std::size_t most_lines);  // not empty either
-ValueType<std::vector<std::string>> texts();  // none of them empty
+ValueType<std::vector<std::string>> texts();                                   // none of them empty
 ValueType<std::array<double, 2>> two_numbers(const Range& range, const std::string& order);
 ValueType<std::array<double, 3>> three_numbers(const Range& range, const std::string& order);
 ValueType<Vec3> vector();
