@@ -10,16 +10,28 @@ INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
   return part.z > part.w ? (int4)(0, -1, 0, -1) : part;
 }
 
+// A splat that is only listed (splat.h) is so once, in the tile next to it.
+INLINED float2 nearest_in_memory(float2 center, const Grid grid) {
+  const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
+  const float2 size =
+      (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
+  return min(max(center, first + 0.5f), first + size - 0.5f);
+}
+
 // Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
-// empty x range where there is none. Also of one that is only listed (splat.h). With room for the
-// rounding of the center; compositing knows it better. First pixels are turned round, so that first
-// and last ones are found alike: the last whole number below, as floor() is a call on PoCL. Clamped
-// before the conversion: a splat close to the camera may lie anywhere.
+// empty x range where there is none. With room for the rounding of the center; compositing knows it
+// better. First pixels are turned round, so that first and last ones are found alike: the last
+// whole number below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to
+// the camera may lie anywhere.
 INLINED int4 tile_range(const Splat splat, const Grid grid) {
   const float unit = unit_of(splat, grid);
-  const float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
-                        (float2)((float)grid.middle_x, (float)grid.middle_y);
-  const float2 radius = fabs((float2)(RADIUS_X(splat), splat.radius)) + grid.room;
+  float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
+                  (float2)((float)grid.middle_x, (float)grid.middle_y);
+  float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
+  if (splat.radius < 0.0f) {
+    center = nearest_in_memory(center, grid);
+    radius = (float2)(0.5f);
+  }
   const float2 size = (float2)((float)grid.width, (float)grid.height);
   const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
   const float4 clamped =

@@ -14,6 +14,8 @@ struct CertifyParameters {
   unsigned int cells_per_tile;  // of all octaves, peaks and endings, and
   unsigned int listed;          // the one that counts the splats of a tile's list
   struct OctaveCells peaks[WIDTH_OCTAVES], endings[WIDTH_OCTAVES];
+  // Splats of peaks up to edge_peak end at the roots of these, in sigma: of octaves in the picture.
+  float extent2[WIDTH_OCTAVES];
   float widening;     // as in ProjectParameters
   float blur[2];      // as in ProjectParameters; 0 where nothing is blurred
   float edge_peak;    // brighter splats are drawn until they have fallen as far as this one

@@ -22,7 +22,8 @@ inline float amplitude_of(__global const TileSplat* splat) {
 }
 
 // The part of its grid in which centers count in this tile: the tile, and at the grid's edge
-// all that lies beyond. So every splat in a list counts in one tile of its grid.
+// all that lies beyond. So every splat in a list counts in one tile of its grid; those that are
+// only listed (splat.h) are in one list.
 typedef struct Reach {
   float x0, x1, y0, y1;
 } Reach;
@@ -45,21 +46,51 @@ inline int nearest_pixel(float center, float last) {
   return (int)smaller(larger(center, 0.0f), last);
 }
 
-// `blur`: what the square of the width drawn lacks to that of the picture on this grid.
+// What the splat leaves out, as a peak of a splat that ends where others of its octave do: what it
+// has fallen to where it ends. One that is only listed stands for all that it would have added,
+// which is no more than what it has fallen to at the picture's edge.
+INLINED float ending_peak(__global const TileSplat* splat, const CertifyParameters* p,
+                          float extent2, float peak, float width2) {
+  const float most = smaller(peak, p->edge_peak);
+  if (splat->radius >= 0.0f) return most;
+  const float beyond = larger(-splat->radius - 1.0f, 0.0f);
+  return smaller(most, peak * exp(extent2 - beyond * beyond / width2));
+}
+
+// What its splats share of a grid. Blurred grids come in pairs (splat.h).
+typedef struct GridOfCells {
+  int level;
+  float mean_sigma;
+  float blur;       // what the square of the width drawn lacks to that of the picture
+  float most_peak;  // no more than this counts of a peak
+} GridOfCells;
+
+INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid) {
+  GridOfCells of;
+  of.level = (int)(p->blur[0] > 0.0f ? (g + 1) >> 1 : g);
+  of.mean_sigma = grid.mean_sigma;
+  of.blur = g == 0 ? 0.0f : p->blur[(g & 1) == 0];
+  of.most_peak = g == 0 ? p->bright_peak : INFINITY;
+  return of;
+}
+
 INLINED void collect_splat(__global const TileSplat* splat, const CertifyParameters* p,
-                           float mean_sigma, float blur, float most_peak, __global float* cells) {
+                           const GridOfCells grid, __global float* cells) {
   const float sigma = fabs(splat->sigma), sigma_x = fabs(SIGMA_X(*splat));
-  const int by_mean = splat->sigma < mean_sigma;
+  const int by_mean = splat->sigma < grid.mean_sigma;
   const float area = sigma * sigma_x, flux = 3.15f * area;
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
   const float peak = amplitude_of(splat) * (by_mean && flux < 1.0f ? flux : 1.0f);
-  const float width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : blur);
+  const float width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : grid.blur);
   const int power = ((as_int(width2) >> 23) - 127) >> 1;
   const int octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
+  const int in_picture =
+      octave + grid.level < WIDTH_OCTAVES ? octave + grid.level : WIDTH_OCTAVES - 1;
   const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, (float)(TILE_WIDTH - 1));
   const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, (float)(TILE_HEIGHT - 1));
-  cells[cell_at(p->peaks[octave], x, y)] += smaller(peak, most_peak);
-  cells[cell_at(p->endings[octave], x, y)] += smaller(peak, p->edge_peak);
+  cells[cell_at(p->peaks[octave], x, y)] += smaller(peak, grid.most_peak);
+  cells[cell_at(p->endings[octave], x, y)] +=
+      ending_peak(splat, p, p->extent2[in_picture], peak, width2);
 }
 
 // The cells of each tile one after the other.
@@ -72,8 +103,7 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
   if (id > 0 && segments[id - 1].tile == tile) return;
   const uint g = grid_of_tile(grids, p.grid_count, tile);
   const Grid grid = grids[g];
-  const float blur = g == 0 ? 0.0f : p.blur[(g & 1) == 0];
-  const float most_peak = g == 0 ? p.bright_peak : INFINITY;
+  const GridOfCells of_grid = grid_of_cells(&p, g, grid);
   const uint in_grid = tile - grid.first_tile;
   const Reach reach =
       reach_of(grid, (int)(in_grid % (uint)grid.tiles_x), (int)(in_grid / (uint)grid.tiles_x));
@@ -82,9 +112,9 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
     own_cells[p.listed] += (float)(segments[s].end - segments[s].begin);
     for (uint k = segments[s].begin; k < segments[s].end; ++k) {
       __global const TileSplat* splat = entries + k;
-      if (splat->x >= reach.x0 && splat->x < reach.x1 && splat->y >= reach.y0 &&
-          splat->y < reach.y1) {
-        collect_splat(splat, &p, grid.mean_sigma, blur, most_peak, own_cells);
+      if (splat->radius < 0.0f || (splat->x >= reach.x0 && splat->x < reach.x1 &&
+                                   splat->y >= reach.y0 && splat->y < reach.y1)) {
+        collect_splat(splat, &p, of_grid, own_cells);
       }
     }
   }

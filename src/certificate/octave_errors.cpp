@@ -73,10 +73,20 @@ double ending_of(int octave, const Frame& frame, const FramePlan& plan) {
   return frame.kernel.cut ? 0 : std::exp(-extent2(octave, plan));
 }
 
-EndingWindow window_of(int octave, int level, int side, const FramePlan& plan) {
+// So many cells around any cell that a block may look at are all that there are.
+int reach_of_all(const CellSums& cells) {
+  return std::max(cells.columns, cells.rows) + cells_in_block;
+}
+
+EndingWindow window_of(int octave, int level, const CellSums& cells, const FramePlan& plan) {
+  const int side = cells.side, all = reach_of_all(cells);
   const double sigma = std::ldexp(widest_sigma(octave), -level);
   const double radius = std::sqrt(extent2(octave, plan)) * sigma + 0.5;
   EndingWindow window;
+  if (radius > static_cast<double>(all) * side) {
+    window.reach = all;
+    return window;
+  }
   window.reach = static_cast<int>(std::ceil(radius / side));
   const auto left_at = [&](double distance) {
     return std::exp((radius * radius - distance * distance) / (sigma * sigma));
@@ -88,11 +98,11 @@ EndingWindow window_of(int octave, int level, int side, const FramePlan& plan) {
 
 // Where a splat is drawn, and as far as a coarse grid's filters carry it: five pixels of each grid,
 // each half as wide as those of the one before.
-int peak_reach_of(int octave, int level, int side, const FramePlan& plan) {
+int peak_reach_of(int octave, int level, const CellSums& cells, const FramePlan& plan) {
   constexpr double filter_pixels = 10;
   const double sigma = std::ldexp(widest_sigma(octave), -level);
   const double reach = std::sqrt(extent2(octave, plan)) * sigma + (level > 0 ? filter_pixels : 1);
-  return static_cast<int>(std::ceil(reach / side));
+  return static_cast<int>(std::min<double>(std::ceil(reach / cells.side), reach_of_all(cells)));
 }
 
 }  // namespace
@@ -111,8 +121,8 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       peak_error_(error_of_peak(octave_, level_, frame, plan)),
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
-      window_(window_of(octave_, level_, ending_side_, plan)),
-      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, peak_side_, plan) : peak_spread),
+      window_(window_of(octave_, level_, cells.endings, plan)),
+      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan) : peak_spread),
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {}
 

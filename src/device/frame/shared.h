@@ -41,7 +41,7 @@ static_assert(has_words<BinParameters, 13>);
 static_assert(has_words<Segment, 4>);
 static_assert(has_words<CompositeParameters, 5>);
 static_assert(has_words<OctaveCells, 2>);
-static_assert(has_words<CertifyParameters, 73>);
+static_assert(has_words<CertifyParameters, 89>);
 static_assert(has_words<BlurParameters, 72>);
 static_assert(has_words<RefineParameters, 17>);
 static_assert(has_words<ResolveParameters, 14>);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "device/opencl/launch.h"
 
@@ -26,6 +27,19 @@ void lay_out(int narrowest, std::uint32_t width, std::uint32_t height, shared::O
     octaves[octave] = {count, shift};
     count += (width >> shift) * (height >> shift);
   }
+}
+
+// Whether nothing was collected of an octave in any tile of a grid.
+bool is_empty(const std::vector<float>& values, std::size_t cells_per_tile,
+              const shared::OctaveCells& octave, std::size_t cell_count, const shared::Grid& grid) {
+  const std::size_t tiles =
+      static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
+  for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
+    const float* first = values.data() + tile * cells_per_tile + octave.first;
+    if (std::any_of(first, first + cell_count, [](float value) { return value != 0; }))
+      return false;
+  }
+  return true;
 }
 
 // The cells of one octave in all tiles of a grid.
@@ -59,11 +73,6 @@ void take_back_blur(double blur, int octave, std::vector<float>& peaks) {
     peak *= scale;
 }
 
-bool is_empty(const CellSums& sums) {
-  return std::all_of(sums.values.begin(), sums.values.end(),
-                     [](float value) { return value == 0; });
-}
-
 }  // namespace
 
 Certifier::Certifier(const StageContext& context) : context_(context) {
@@ -81,7 +90,11 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
   const SplatLimits& limits = context.plan.splats;
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
-  parameters_.edge_peak = std::exp(limits.least_extent * limits.least_extent) / limits.inverse_edge;
+  const float least2 = limits.least_extent * limits.least_extent;
+  parameters_.edge_peak = std::exp(least2) / limits.inverse_edge;
+  for (std::size_t octave = 0; octave < std::size(parameters_.extent2); ++octave)
+    parameters_.extent2[octave] =
+        least2 + static_cast<float>(context.plan.needs.widths[octave].farther);
   const GridPyramid& pyramid = context.plan.pyramid;
   for (int i = 0; i < 2; ++i)
     parameters_.blur[i] = pyramid.is_blurred ? static_cast<float>(pyramid.blur[i]) : 0.0f;
@@ -125,10 +138,13 @@ CollectedSplats Certifier::collected() const {
     const int level = context_.plan.pyramid.grids[g].level;
     const double blur = g == 0 ? 0 : static_cast<double>(parameters_.blur[g % 2 == 0]);
     for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
+      const shared::OctaveCells& peaks = parameters_.peaks[octave];
+      const auto cell_count =
+          static_cast<std::size_t>((tile_width >> peaks.shift) * (tile_height >> peaks.shift));
+      if (is_empty(values, parameters_.cells_per_tile, peaks, cell_count, grid)) continue;
       PeakCells cells;
-      cells.peaks = gather(values, parameters_.cells_per_tile, parameters_.peaks[octave], grid,
-                           tile_width, tile_height);
-      if (is_empty(cells.peaks)) continue;
+      cells.peaks =
+          gather(values, parameters_.cells_per_tile, peaks, grid, tile_width, tile_height);
       if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
       cells.endings = gather(values, parameters_.cells_per_tile, parameters_.endings[octave], grid,
                              tile_width, tile_height);
