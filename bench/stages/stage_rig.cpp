@@ -22,7 +22,7 @@ void StageRig::project() {
     pipeline_.project(chunk);
 }
 
-CountedSplats StageRig::count() const {
+CountedSplats StageRig::count() {
   if (!plan_.needs_sort()) return pipeline_.binner().count(blocks_);
   return pipeline_.binner().count(sorted_, splat_chunks(sorted_.count, device_.traits).front());
 }
@@ -33,15 +33,20 @@ std::uint32_t StageRig::prepare_lists() {
     sorted_ = pipeline_.sorter().sort(pipeline_.project_all());
     splats = splat_chunks(sorted_.count, device_.traits).front().count;
   } else {
-    blocks_ = pipeline_.project(pipeline_.particle_chunks().front());
+    project_chunk();
     splats = static_cast<std::uint32_t>(pipeline_.projector().count(blocks_).visible);
   }
   if (const std::size_t bands = count().bands.size(); bands > 1) {
     throw DeviceError("the benchmark's chunk needs " + std::to_string(bands) +
                       " bands of the picture, expected 1: give it fewer splats");
   }
+  project_chunk();
   bin();
   return splats;
+}
+
+void StageRig::project_chunk() {
+  if (!plan_.needs_sort()) blocks_ = pipeline_.project(pipeline_.particle_chunks().front());
 }
 
 void StageRig::bin() {

@@ -20,6 +20,8 @@ class StageRig {
   // The first chunk: what binning and compositing are measured on. Returns the number of its
   // splats. Throws DeviceError where its lists do not fit into one band.
   std::uint32_t prepare_lists();
+  // Binning takes what the projection counted: of sums, this comes before each.
+  void project_chunk();
   void bin();
   // No light at all: before composite() and resolve().
   void clear() { planes_ = pipeline_.compositor().start(); }
@@ -33,7 +35,7 @@ class StageRig {
   std::uint64_t particle_count() const { return splotchcl::particle_count(frame_); }
 
  private:
-  CountedSplats count() const;
+  CountedSplats count();
 
   DeviceContext& device_;
   const Frame frame_;

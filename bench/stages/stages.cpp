@@ -35,6 +35,8 @@ void bin(benchmark::State& state, DeviceContext& device, const Frame& frame) {
   const std::uint32_t splats = rig.prepare_lists();
   PieceTimer timer(state);
   for (auto _ : state) {
+    rig.project_chunk();
+    rig.finish();
     timer.time([&] {
       rig.bin();
       rig.finish();

@@ -2,49 +2,6 @@
 // splats; block and tile fix where each entry goes, so lists keep the splats' order and
 // never depend on timing.
 
-// Those of a grid's tiles that are in memory.
-INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
-  const int column = grid.first_x / TILE_WIDTH, row = grid.first_y / TILE_HEIGHT;
-  const int4 part = (int4)(max(range.x, column), min(range.y, column + grid.tiles_x - 1),
-                           max(range.z, row), min(range.w, row + grid.tiles_y - 1));
-  return part.z > part.w ? (int4)(0, -1, 0, -1) : part;
-}
-
-// A splat that is only listed (splat.h) is so once, in the tile next to it.
-INLINED float2 nearest_in_memory(float2 center, const Grid grid) {
-  const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
-  const float2 size =
-      (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
-  return min(max(center, first + 0.5f), first + size - 0.5f);
-}
-
-// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
-// empty x range where there is none. With room for the rounding of the center; compositing knows it
-// better. First pixels are turned round, so that first and last ones are found alike: the last
-// whole number below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to
-// the camera may lie anywhere.
-INLINED int4 tile_range(const Splat splat, const Grid grid) {
-  const float unit = unit_of(splat, grid);
-  float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
-                  (float2)((float)grid.middle_x, (float)grid.middle_y);
-  float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
-  if (splat.radius < 0.0f) {
-    center = nearest_in_memory(center, grid);
-    radius = (float2)(0.5f);
-  }
-  const float2 size = (float2)((float)grid.width, (float)grid.height);
-  const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
-  const float4 clamped =
-      min(max(ends, (float4)(-size, -1.0f, -1.0f)), (float4)(0.0f, 0.0f, size - 1.0f));
-  const int4 truncated = convert_int4(clamped);
-  const int4 pixels = truncated + (convert_float4(truncated) > clamped);
-  const int2 first = -pixels.xy, last = pixels.zw;
-  if (first.x > last.x || first.y > last.y) return (int4)(0, -1, 0, -1);
-  const int4 range = (int4)((uint)first.x / TILE_WIDTH, (uint)last.x / TILE_WIDTH,
-                            (uint)first.y / TILE_HEIGHT, (uint)last.y / TILE_HEIGHT);
-  return grid.is_part ? tiles_in_memory(range, grid) : range;
-}
-
 inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks, uint block) {
   const uint begin = p.first + block * p.stride;
 #ifdef BLOCKS_OF_PROJECTION
@@ -55,7 +12,7 @@ inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
 #endif
 }
 
-#ifdef LIGHT_ORDERED
+#ifndef BLOCKS_OF_PROJECTION
 // Splats that will be needed soon: asked for early, they are there when they are. OpenCL's own
 // prefetch() does nothing on PoCL.
 #define SPLATS_AHEAD 16
@@ -64,36 +21,29 @@ inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
 #else
 #define ask_for(splat)
 #endif
-#endif
 
 // counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
 // fetched once, here, and kept in order for the scatter.
 __kernel void bin_count(const BinParameters p, __global const Grid* grids,
                         __global const Splat* splats, __global const uint* order,
-                        __global const BlockCounts* blocks, __global uint* counts,
-                        __global Splat* in_order) {
+                        __global uint* counts, __global uint* tiles, __global Splat* in_order) {
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
-  const uint end = slots_end(p, blocks, block);
-  for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
-#ifdef LIGHT_ORDERED
+  const uint begin = p.first + block * p.stride;
+  const uint end = min(begin + p.length, p.end);
+  for (uint slot = begin; slot < end; ++slot) {
     ask_for(splats + order[min(slot + SPLATS_AHEAD, end - 1)]);
     const Splat splat = splats[order[slot]];
     in_order[slot - p.first] = splat;
-#else
-    const Splat splat = splats[slot];
-#endif
     const Grid grid = grids[grid_of(splat)];
-    const int4 range = tile_range(splat, grid);
-    for (int ty = range.z; ty <= range.w; ++ty) {
-      for (int tx = range.x; tx <= range.y; ++tx) {
-        ++count[grid.corner_tile + (uint)(ty * grid.tiles_x + tx)];
-      }
-    }
+    const uint touched = tiles_of(splat, grid);
+    tiles[slot - p.first] = touched;
+    count_in_tiles(touched, splat, grid, count);
   }
 }
+#endif
 
 // Per tile, an exclusive scan over the blocks, in place, and the list's length.
 __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
@@ -211,21 +161,23 @@ INLINED void amplitudes(const Splat splat, const ComponentColors colors,
 __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const Splat* splats, __global const uint* order,
                           __global const BlockCounts* blocks, __global uint* counts,
-                          __global const Splat* in_order, __global const uint* starts,
+                          __global const uint* tiles, __global const Splat* in_order,
+                          __global const uint* starts,
                           __global const ComponentColors* component_colors,
                           __global const float* knots, __global TileSplat* entries) {
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   const uint end = slots_end(p, blocks, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
-#ifdef LIGHT_ORDERED
-    const Splat splat = in_order[slot - p.first];
-#else
+    const uint packed = tiles[slot - p.first];
+    if (packed == 0) continue;
+#ifdef BLOCKS_OF_PROJECTION
     const Splat splat = splats[slot];
+#else
+    const Splat splat = in_order[slot - p.first];
 #endif
     const Grid grid = grids[grid_of(splat)];
-    const int4 range = tile_range(splat, grid);
-    if (range.x > range.y) continue;
+    const int4 range = unpack_tiles(packed, splat, grid);
 #ifdef EXTENDED_NUMBERS
     TileSplat entry;
 #ifdef LIGHT_ORDERED
@@ -249,20 +201,17 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     sum_amplitude(splat, colors, knots, entry.summed);
 #endif
 #endif
-    // Of the band that lists are made of, the tiles of this row.
-    const int first = (int)(p.first_tile - grid.corner_tile);
-    const int last = (int)(p.end_tile - grid.corner_tile) - 1;
     for (int ty = range.z; ty <= range.w; ++ty) {
-      const int row = ty * grid.tiles_x;
-      const int end_x = min(range.y, last - row);
-      for (int tx = max(range.x, first - row); tx <= end_x; ++tx) {
+      for (int tx = range.x; tx <= range.y; ++tx) {
+        const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
+        // Of the band that lists are made of.
+        if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
 #ifndef EXTENDED_NUMBERS
         const int middle_x = tx * TILE_WIDTH + TILE_WIDTH / 2;
         const int middle_y = ty * TILE_HEIGHT + TILE_HEIGHT / 2;
         entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
         entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
 #endif
-        const uint tile = grid.corner_tile + (uint)(row + tx);
         entries[(size_t)starts[tile] + count[tile]++] = entry;
       }
     }

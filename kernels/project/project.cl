@@ -1,6 +1,10 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
 
+#if defined(COUNT_TILES) && !defined(ELLIPSES) && !defined(EXTENDED_NUMBERS)
+#define TILES_OF_LANES
+#endif
+
 // SplatLanes as arrays, to be written one by one.
 typedef struct SplatArrays {
   int visible[LANES];
@@ -13,6 +17,9 @@ typedef struct SplatArrays {
   float red[LANES], green[LANES], blue[LANES];
 #endif
   float sort_field[LANES];
+#ifdef TILES_OF_LANES
+  int tiles[LANES];
+#endif
 } SplatArrays;
 
 INLINED void spread(const SplatLanes s, SplatArrays* a) {
@@ -46,23 +53,25 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 }
 
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
-INLINED void write_splat(__global Splat* splat, const SplatArrays* a, uint k) {
-  splat->x = a->x[k];
-  splat->y = a->y[k];
-  splat->component_and_grid = (uint)a->component_and_grid[k];
-  splat->sigma = a->sigma[k];
-  splat->radius = a->radius[k];
-  splat->weight = a->weight[k];
-  splat->color = a->color[k];
+INLINED Splat splat_of(const SplatArrays* a, uint k) {
+  Splat splat;
+  splat.x = a->x[k];
+  splat.y = a->y[k];
+  splat.component_and_grid = (uint)a->component_and_grid[k];
+  splat.sigma = a->sigma[k];
+  splat.radius = a->radius[k];
+  splat.weight = a->weight[k];
+  splat.color = a->color[k];
 #ifdef ELLIPSES
-  splat->along_x.sigma = a->sigma_x[k];
-  splat->along_x.radius = a->radius_x[k];
+  splat.along_x.sigma = a->sigma_x[k];
+  splat.along_x.radius = a->radius_x[k];
 #endif
 #ifdef VECTOR_COLORS
-  splat->own_color.rgb[0] = a->red[k];
-  splat->own_color.rgb[1] = a->green[k];
-  splat->own_color.rgb[2] = a->blue[k];
+  splat.own_color.rgb[0] = a->red[k];
+  splat.own_color.rgb[1] = a->green[k];
+  splat.own_color.rgb[2] = a->blue[k];
 #endif
+  return splat;
 }
 #endif
 
@@ -97,16 +106,28 @@ inline uint field_key(float value) {
 #define EXTENDED_PARAMETERS
 #endif
 
+// Where splats are binned as they come.
+#ifdef COUNT_TILES
+#define TILE_PARAMETERS \
+  , __global const Grid *grids, __global uint *tile_counts, __global uint *tiles
+#else
+#define TILE_PARAMETERS
+#endif
+
 // counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
 // splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
-// the 16 bits below them where depths are keys, and the identity permutation, too.
+// the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
+// tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
+// tiles[slot] which they are.
 __kernel void project(const ProjectParameters p, const ExtendedParameters e,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const uint* offsets, __global BlockCounts* counts,
                       __global Splat* splats, __global uint* keys, __global ushort* key_ends,
-                      __global uint* order OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
+                      __global uint* order,
+                      __global const WidthNeeds* width_needs OWN_COLORS_PARAMETER
+                          EXTENDED_PARAMETERS TILE_PARAMETERS) {
   Columns columns;
   columns.positions = positions;
   columns.smoothing_lengths = smoothing_lengths;
@@ -123,11 +144,16 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   const uint numbered = p.first_block + block;
   const uint first_slot = offsets[numbered];
   uint slot = first_slot, bad_count = 0, too_sharp_count = 0;
+#ifdef COUNT_TILES
+  __global uint* count = tile_counts + (size_t)block * p.tile_count;
+  for (uint t = 0; t < p.tile_count; ++t)
+    count[t] = 0;
+#endif
 #ifdef OUTPUT_KEYS
   const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
 #endif
   for (uint i = begin; i < end; i += LANES) {
-    SplatLanes lanes = project_lanes(i, end, p, &p.width_needs, e, columns);
+    SplatLanes lanes = project_lanes(i, end, p, width_needs, e, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
     const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
     if (ANY(unclear)) {
@@ -139,8 +165,14 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
     if (!ANY(lanes.visible)) continue;
     SplatArrays found;
     spread(lanes, &found);
+#ifdef TILES_OF_LANES
+    STORE(tiles_of_lanes(lanes, p), found.tiles);
+#endif
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
+#if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
+      Splat splat = splat_of(&found, k);
+#endif
 #ifdef EXTENDED_NUMBERS
       Splat splat;
       ExtendedSplat extended;
@@ -158,17 +190,18 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
       for (int copy = copies.x; copy <= copies.y; ++copy) {
 #endif
 #ifdef OUTPUT_SPLATS
+#ifdef ELLIPSES
+        Splat listed = splat;
+        listed.x += steps_to_copy(splat, copy, p);
+#else
+        const Splat listed = splat;
+#endif
+        splats[slot] = listed;
 #ifdef EXTENDED_NUMBERS
-        splats[slot] = splat;
         extended_splats[slot] = extended;
 #ifdef ELLIPSES
         extended_splats[slot].x = pair_of(copy_of(copy, extended, e));
 #endif
-#else
-        write_splat(splats + slot, &found, k);
-#endif
-#ifdef ELLIPSES
-        splats[slot].x += steps_to_copy(splats[slot], copy, p);
 #endif
 #endif
 #ifdef OUTPUT_KEYS
@@ -180,6 +213,16 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
           key_ends[slot] = (ushort)((uint)key ^ keys_turned_round);
         }
         order[slot] = slot;
+#endif
+#ifdef COUNT_TILES
+        const Grid grid = grids[grid_of(listed)];
+#ifdef TILES_OF_LANES
+        const uint touched = tiles_with_memory((uint)found.tiles[k], listed, grid);
+#else
+        const uint touched = tiles_of(listed, grid);
+#endif
+        tiles[slot] = touched;
+        count_in_tiles(touched, listed, grid, count);
 #endif
         ++slot;
 #ifdef ELLIPSES

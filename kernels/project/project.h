@@ -78,7 +78,6 @@ struct ProjectParameters {
   float mean_sigma;    // below: the pixel mean by erf, not the widened center value
   float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
   int octaves_in_need, has_bright_octaves;  // whose needs are not 0; whether any is of light
-  struct WidthNeeds width_needs;
 
   // sharp_places.cl, docs/accuracy.md
   float place_error, place_error_per_pixel;  // roundings of places in single precision
@@ -98,6 +97,9 @@ struct ProjectParameters {
   float coarse_sigma;    // smallest sigma in pixels of a coarse grid
   float coarse_peak;     // brighter splats stay on the picture's own grid
   int grid_count;
+  // Of the picture, and its coarser grids' guard bands (Grid), for finding the tiles of lanes.
+  int width, height, middle_x, middle_y, guard;
+  unsigned int tile_count;
   float beside;  // pixels of a coarse grid beside the picture, or the crop, that are in memory
   float reach;   // sigmas beyond which nothing is drawn on any grid
   // With blurred grids, 2 l - 1 and 2 l are those of level l > 0, blurred afterwards by these

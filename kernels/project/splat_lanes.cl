@@ -66,7 +66,7 @@ typedef struct BrightnessLanes {
 } BrightnessLanes;
 
 // Few octaves need anything.
-inline VALUE value_of_octave(const float* values, int count, INTEGER octave) {
+inline VALUE value_of_octave(__global const float* values, int count, INTEGER octave) {
   VALUE found = (VALUE)(0.0f);
   for (int k = 0; k < count; ++k)
     found = choose(found, (VALUE)(values[k]), octave == k);
@@ -75,7 +75,7 @@ inline VALUE value_of_octave(const float* values, int count, INTEGER octave) {
 
 // `needs` are those of p: as a part of a structure passed by value they would be copied.
 INLINED BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
-                                        VALUE weight, const WidthNeeds* needs,
+                                        VALUE weight, __global const WidthNeeds* needs,
                                         const ProjectParameters p) {
   BrightnessLanes b;
   VALUE brightest = p.peak_color;
@@ -266,7 +266,7 @@ INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widt
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
 INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
-                                 const WidthNeeds* needs, const ExtendedParameters e,
+                                 __global const WidthNeeds* needs, const ExtendedParameters e,
                                  const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);

@@ -51,7 +51,7 @@ Planes Pipeline::draw_sums(Planes planes) {
 }
 
 Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
-  const SplatBlocks blocks = project(chunk);
+  SplatBlocks blocks = project(chunk);
   planes = draw_lists(binner_.count(blocks), std::move(planes));
   // Read last: the device has long counted them.
   const ParticleCounts particles = projector_.count(blocks);

@@ -37,15 +37,20 @@ class FrameBuffers {
     return count * (specialization_.splat_bytes() + specialization_.extended_splat_bytes());
   }
 
+  // Which tiles each is listed in.
+  std::uint64_t tiles(std::uint64_t splats) const { return splats * sizeof(std::uint32_t); }
+
   // Splats that were put in order for their lists.
   std::uint64_t splats_in_order(std::uint64_t count) const {
-    return count * specialization_.splat_bytes();
+    return count * specialization_.splat_bytes() + tiles(count);
   }
 
   // Counts per tile of each block, and the lists of as many tiles as fit.
   std::uint64_t lists(std::uint64_t blocks) const {
-    const std::uint64_t capacity = std::max<std::uint64_t>(
-        traits_.list_capacity, std::uint64_t{traits_.chunk_length()} * splats_per_particle());
+    const std::uint64_t splats =
+        plan_.needs_sort() ? traits_.sorted_chunk
+                           : std::uint64_t{traits_.chunk_length()} * splats_per_particle();
+    const std::uint64_t capacity = std::max(traits_.list_capacity, splats);
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
     return (blocks + 2) * layout_.tile_count * sizeof(std::uint32_t) +
            segments * sizeof(shared::Segment) + capacity * specialization_.tile_splat_bytes();
@@ -79,8 +84,9 @@ class FrameBuffers {
 };
 
 std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
-  const std::uint64_t drawing =
-      buffers.splats(buffers.chunk_splats()) + buffers.lists(buffers.blocks_of_chunk());
+  const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) +
+                                buffers.tiles(buffers.chunk_splats()) +
+                                buffers.lists(buffers.blocks_of_chunk());
   return buffers.planes() + std::max(drawing, buffers.blurred_columns());
 }
 
@@ -92,7 +98,7 @@ std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
   const std::uint64_t key_end = by_depth ? sizeof(std::uint16_t) : 0;
   // Keys and order have a second place each, where they are sorted to.
   const std::uint64_t sorting = count * (2 * key + 2 * order + key_end);
-  const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.chunk_length());
+  const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
   const std::uint64_t drawing =
       count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
   return buffers.planes() + buffers.splats(count) + std::max(sorting, drawing);

@@ -22,6 +22,10 @@ struct SplatMemory {
 struct SplatBlocks {
   SplatMemory splats;
   Buffer<shared::BlockCounts> counts;
+  // What binning begins with, and takes (tiles.cl): how many splats of each block touch each tile;
+  // and per slot, which tiles these are.
+  Buffer<std::uint32_t> tile_counts;
+  Buffer<std::uint32_t> tiles;
   std::uint32_t block_count = 0;
   std::uint32_t stride = 0;
 };

@@ -58,11 +58,15 @@ std::size_t Specialization::tile_splat_bytes() const {
   return shape + (is_ordered() ? 6 : 3) * sizeof(float);
 }
 
-std::string Specialization::tile_defines() const {
+std::string Specialization::tile_size_defines() const {
   return define("TILE_WIDTH " + std::to_string(tile_width_)) +
-         define("TILE_HEIGHT " + std::to_string(tile_height_)) +
-         define("PLANES " + std::to_string(planes())) + define_if(is_ordered(), "LIGHT_ORDERED") +
-         define_if(extended_, "EXTENDED_NUMBERS") + define_if(ellipses_, "ELLIPSES");
+         define("TILE_HEIGHT " + std::to_string(tile_height_));
+}
+
+std::string Specialization::tile_defines() const {
+  return tile_size_defines() + define("PLANES " + std::to_string(planes())) +
+         define_if(is_ordered(), "LIGHT_ORDERED") + define_if(extended_, "EXTENDED_NUMBERS") +
+         define_if(ellipses_, "ELLIPSES");
 }
 
 std::string Specialization::number_defines() const {
@@ -74,13 +78,14 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS");
   if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
+  if (output == ProjectOutput::splats) defines += define("COUNT_TILES") + tile_size_defines();
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
   if (extended_) defines += extended_defines();
-  return {defines, project_files()};
+  return {defines, project_files(output)};
 }
 
-std::vector<std::string> Specialization::project_files() const {
+std::vector<std::string> Specialization::project_files(ProjectOutput output) const {
   const bool wide = is_wide_angle(projection_);
   std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
                                     "lanes.cl", "extended.cl", "load.cl"};
@@ -90,6 +95,7 @@ std::vector<std::string> Specialization::project_files() const {
   if (!extended_) files.insert(files.end(), {"pair_lanes.cl", "sharp_places.cl"});
   files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
+  if (output == ProjectOutput::splats) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
   files.push_back("project.cl");
   return files;
 }
@@ -118,7 +124,7 @@ ProgramSource Specialization::bin() const {
   const std::string defines =
       tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
       define_if(vector_colors_, "VECTOR_COLORS") + define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
-  return {defines, {"splat.h", "project.h", "bin.h", "common.cl", "bin.cl"}};
+  return {defines, {"splat.h", "project.h", "bin.h", "common.cl", "tiles.cl", "bin.cl"}};
 }
 
 ProgramSource Specialization::composite() const {

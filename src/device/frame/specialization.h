@@ -58,7 +58,8 @@ class Specialization {
  private:
   std::string wide_angle_defines() const;
   std::string extended_defines() const;
-  std::vector<std::string> project_files() const;
+  std::vector<std::string> project_files(ProjectOutput output) const;
+  std::string tile_size_defines() const;
   std::string tile_defines() const;
   std::string number_defines() const;
 

@@ -12,12 +12,16 @@ DeviceTraits traits_of(const compute::device& device) {
     traits.rows = false;
     traits.project_block = 256;
     traits.chunk_blocks = 4096;
+    traits.sorted_chunk = 1u << 20;
     traits.sort_blocks = 4096;
     traits.segment_length = 4096;
   } else {
     traits.rows = true;
     traits.project_block = 8192;
-    traits.chunk_blocks = 64;
+    // Every chunk loads and stores all tiles; lists that are much longer leave the caches, and
+    // ordered ones, of more and larger entries per splat, do so sooner.
+    traits.chunk_blocks = 128;
+    traits.sorted_chunk = 1u << 19;
     traits.sort_blocks = 32;
     traits.segment_length = 8192;
   }

@@ -14,7 +14,8 @@ struct DeviceTraits {
   bool rows = true;                        // eight lanes, rows of float8; not groups of work-items
   bool double_numbers = false;             // extended numbers are double precision, not pairs
   std::uint32_t project_block = 0;         // particles per work-item of a projection
-  std::uint32_t chunk_blocks = 0;          // such blocks per chunk
+  std::uint32_t chunk_blocks = 0;          // such blocks per chunk of a sum
+  std::uint32_t sorted_chunk = 0;          // splats per chunk where they are sorted
   std::uint32_t bin_blocks = 0;            // blocks that a chunk's splats are binned in, in order
   std::uint32_t sort_blocks = 0;           // blocks of the radix sort
   std::uint32_t segment_length = 0;        // entries of a tile's list per work-item

@@ -31,8 +31,9 @@ Binner::Binner(const StageContext& context)
   const DeviceTraits& traits = context.device.traits;
   // One tile may have all splats of a chunk.
   const std::uint64_t splats_of_chunk =
-      std::uint64_t{traits.chunk_length()} *
-      static_cast<std::uint64_t>(context.plan.splats_per_particle);
+      context.plan.needs_sort() ? traits.sorted_chunk
+                                : std::uint64_t{traits.chunk_length()} *
+                                      static_cast<std::uint64_t>(context.plan.splats_per_particle);
   entry_capacity_ = std::max(traits.list_capacity, splats_of_chunk);
   const PictureLayout& layout = context.layout;
   parameters_.tile_count = layout.tile_count;
@@ -45,7 +46,7 @@ Binner::Binner(const StageContext& context)
   parameters_.widening = context.plan.splats.widening;
 }
 
-CountedSplats Binner::count(const SplatBlocks& blocks) const {
+CountedSplats Binner::count(SplatBlocks& blocks) const {
   CountedSplats counted;
   counted.parameters = parameters_;
   counted.parameters.stride = blocks.stride;
@@ -56,7 +57,9 @@ CountedSplats Binner::count(const SplatBlocks& blocks) const {
   counted.order = &no_order_;
   counted.blocks = &blocks.counts;
   counted.in_order = context_.device.pool.get<std::byte>(0, "unused");
-  count_tiles(counted);
+  counted.tiles = std::move(blocks.tiles);
+  counted.tile_counts = std::move(blocks.tile_counts);
+  scan_blocks(counted);
   return counted;
 }
 
@@ -76,25 +79,30 @@ CountedSplats Binner::count(const SortedSplats& sorted, const SplatChunk& chunk)
   const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
   counted.in_order = context_.device.pool.get<std::byte>(
       slots * context_.specialization.splat_bytes(), "splats in order");
+  counted.tiles = context_.device.pool.get<std::uint32_t>(slots, "tiles of splats");
+  counted.tile_counts = context_.device.pool.get<std::uint32_t>(
+      std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
   count_tiles(counted);
+  scan_blocks(counted);
   return counted;
 }
 
 void Binner::count_tiles(CountedSplats& counted) const {
-  DeviceContext& device = context_.device;
-  const shared::BinParameters& parameters = counted.parameters;
-  counted.tile_counts = device.pool.get<std::uint32_t>(
-      std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
-  counted.tile_lengths = device.pool.get<std::uint32_t>(parameters.tile_count, "tile lengths");
-  Launch(device, "bin", program_.create_kernel("bin_count"))
-      .value(parameters)
+  Launch(context_.device, "bin", program_.create_kernel("bin_count"))
+      .value(counted.parameters)
       .arg(context_.grids)
       .arg(counted.splats->splats)
       .arg(*counted.order)
-      .arg(*counted.blocks)
       .arg(counted.tile_counts)
+      .arg(counted.tiles)
       .arg(counted.in_order)
-      .run_items(parameters.block_count);
+      .run_items(counted.parameters.block_count);
+}
+
+void Binner::scan_blocks(CountedSplats& counted) const {
+  DeviceContext& device = context_.device;
+  const shared::BinParameters& parameters = counted.parameters;
+  counted.tile_lengths = device.pool.get<std::uint32_t>(parameters.tile_count, "tile lengths");
   Launch(device, "bin", program_.create_kernel("bin_scan_blocks"))
       .value(parameters)
       .arg(counted.tile_counts)
@@ -150,6 +158,7 @@ TileLists Binner::make_lists(const CountedSplats& counted, const TileBand& band)
       .arg(*counted.order)
       .arg(*counted.blocks)
       .arg(counted.tile_counts)
+      .arg(counted.tiles)
       .arg(counted.in_order)
       .arg(starts)
       .arg(context_.colors.components)

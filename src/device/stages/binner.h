@@ -17,6 +17,7 @@ struct CountedSplats {
   const Buffer<std::uint32_t>* order = nullptr;         // of sorted splats
   const Buffer<shared::BlockCounts>* blocks = nullptr;  // of a projection's
   Buffer<std::byte> in_order;                           // copies of sorted splats
+  Buffer<std::uint32_t> tiles;                          // per splat (tiles.cl)
   Buffer<std::uint32_t> tile_counts;                    // per block and tile
   Buffer<std::uint32_t> tile_lengths;
   std::vector<std::uint32_t> lengths;  // the same on the host
@@ -34,13 +35,15 @@ class Binner {
  public:
   explicit Binner(const StageContext& context);
 
-  CountedSplats count(const SplatBlocks& blocks) const;
+  // Takes what the projection counted: once for each projection.
+  CountedSplats count(SplatBlocks& blocks) const;
   CountedSplats count(const SortedSplats& sorted, const SplatChunk& chunk) const;
   // Call once for each band.
   TileLists make_lists(const CountedSplats& counted, const TileBand& band) const;
 
  private:
   void count_tiles(CountedSplats& counted) const;
+  void scan_blocks(CountedSplats& counted) const;
   TileLists measure_lists(const std::vector<std::uint32_t>& lengths, const TileBand& band) const;
 
   const StageContext& context_;

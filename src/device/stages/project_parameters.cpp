@@ -142,8 +142,6 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.bright_peak = limits.bright_peak;
   for (std::size_t octave = 0; octave < plan.needs.widths.size(); ++octave) {
     const WidthNeed& need = plan.needs.widths[octave];
-    p.width_needs.light[octave] = static_cast<float>(need.light);
-    p.width_needs.farther[octave] = static_cast<float>(need.farther);
     if (need.light > 0 || need.farther > 0) p.octaves_in_need = static_cast<int>(octave) + 1;
     p.has_bright_octaves |= need.light > 0;
   }
@@ -177,6 +175,12 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   const Frame& frame = context.frame;
   const FramePlan& plan = context.plan;
   const shared::Grid& grid = context.layout.grids.front();
+  p.width = frame.width;
+  p.height = frame.height;
+  p.middle_x = grid.middle_x;
+  p.middle_y = grid.middle_y;
+  p.guard = plan.pyramid.grids.back().guard;
+  p.tile_count = context.layout.tile_count;
   p.center_x = static_cast<float>(frame.camera.center_x - grid.middle_x);
   p.center_y = static_cast<float>(frame.camera.center_y - grid.middle_y);
 

@@ -36,10 +36,13 @@ struct Projector::Targets {
   const Buffer<std::uint32_t>& keys;
   const Buffer<std::uint16_t>& key_ends;
   const Buffer<std::uint32_t>& order;
+  // Of splats that are binned as they come.
+  const SplatBlocks* blocks = nullptr;
 };
 
 Projector::Projector(const StageContext& context)
     : context_(context),
+      width_needs_(upload_needs()),
       unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
       unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
   // Compiled, or found compiled, before the device has work to do.
@@ -65,6 +68,16 @@ shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
   p.sort_stride = particles.sort_stride;
   p.own_color_stride = particles.own_color_stride;
   return p;
+}
+
+Buffer<shared::WidthNeeds> Projector::upload_needs() const {
+  shared::WidthNeeds needs{};
+  for (std::size_t octave = 0; octave < context_.plan.needs.widths.size(); ++octave) {
+    const WidthNeed& need = context_.plan.needs.widths[octave];
+    needs.light[octave] = static_cast<float>(need.light);
+    needs.farther[octave] = static_cast<float>(need.farther);
+  }
+  return context_.device.pool.upload(std::vector{needs}, "needs of widths");
 }
 
 SplatMemory Projector::splat_memory(std::uint64_t splats) const {
@@ -95,10 +108,14 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
       .arg(targets.splats.splats)
       .arg(targets.keys)
       .arg(targets.key_ends)
-      .arg(targets.order);
+      .arg(targets.order)
+      .arg(width_needs_);
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   if (context_.specialization.is_extended()) {
     launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
+  }
+  if (targets.blocks) {
+    launch.arg(context_.grids).arg(targets.blocks->tile_counts).arg(targets.blocks->tiles);
   }
   launch.run_items(block_count(parameters));
 }
@@ -111,13 +128,17 @@ SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers
       parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
   blocks.block_count = block_count(parameters);
   blocks.counts = pool.get<shared::BlockCounts>(blocks.block_count, "block counts");
-  blocks.splats = splat_memory(std::uint64_t{blocks.block_count} * blocks.stride);
+  const std::uint64_t slots = std::uint64_t{blocks.block_count} * blocks.stride;
+  blocks.splats = splat_memory(slots);
+  blocks.tiles = pool.get<std::uint32_t>(slots, "tiles of splats");
+  blocks.tile_counts = pool.get<std::uint32_t>(
+      std::uint64_t{blocks.block_count} * parameters.tile_count, "tile counts");
   std::vector<std::uint32_t> offsets(blocks.block_count);
   for (std::uint32_t b = 0; b < blocks.block_count; ++b)
     offsets[b] = b * blocks.stride;
   launch(ProjectOutput::splats, parameters, particles,
          {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_,
-          unused_ends_, unused_});
+          unused_ends_, unused_, &blocks});
   return blocks;
 }
 

@@ -28,10 +28,13 @@ class Projector {
   shared::ProjectParameters parameters_for(const ParticleChunk& chunk,
                                            const ParticleBuffers& particles) const;
   SplatMemory splat_memory(std::uint64_t splats) const;
+  // Of any order and lists: the same in every frame of the plan.
+  Buffer<shared::WidthNeeds> upload_needs() const;
   void launch(ProjectOutput output, const shared::ProjectParameters& parameters,
               const ParticleBuffers& particles, const Targets& targets) const;
 
   const StageContext& context_;
+  const Buffer<shared::WidthNeeds> width_needs_;
   // Stand for what a variant of the kernel does not write.
   Buffer<std::uint32_t> unused_;
   Buffer<std::uint16_t> unused_ends_;

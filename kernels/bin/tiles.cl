@@ -1,0 +1,136 @@
+// Which tiles a splat is listed in: found once, by the projection where splats are binned as they
+// come, else by the counting of the sorted ones, and kept in a word per splat.
+
+// Those of a grid's tiles that are in memory.
+INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
+  const int column = grid.first_x / TILE_WIDTH, row = grid.first_y / TILE_HEIGHT;
+  const int4 part = (int4)(max(range.x, column), min(range.y, column + grid.tiles_x - 1),
+                           max(range.z, row), min(range.w, row + grid.tiles_y - 1));
+  return part.z > part.w ? (int4)(0, -1, 0, -1) : part;
+}
+
+// A splat that is only listed (splat.h) is so once, in the tile next to it.
+INLINED float2 nearest_in_memory(float2 center, const Grid grid) {
+  const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
+  const float2 size =
+      (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
+  return min(max(center, first + 0.5f), first + size - 0.5f);
+}
+
+// The same of a splat so wide that its units are pixels or more, or that is only listed (splat.h).
+// First pixels are turned round, so that first and last ones are found alike: the last whole number
+// below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to the camera
+// may lie anywhere.
+inline int4 pixels_of_wide(const Splat splat, const Grid grid) {
+  const float unit = unit_of(splat, grid);
+  float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
+                  (float2)((float)grid.middle_x, (float)grid.middle_y);
+  float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
+  if (splat.radius < 0.0f) {
+    center = nearest_in_memory(center, grid);
+    radius = (float2)(0.5f);
+  }
+  const float2 size = (float2)((float)grid.width, (float)grid.height);
+  const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
+  const float4 clamped =
+      min(max(ends, (float4)(-size, -1.0f, -1.0f)), (float4)(0.0f, 0.0f, size - 1.0f));
+  const int4 truncated = convert_int4(clamped);
+  const int4 pixels = truncated + (convert_float4(truncated) > clamped);
+  return (int4)(-pixels.x, pixels.z, -pixels.y, pixels.w);
+}
+
+// First and last pixel whose centers lie within `radius` units of 2^-bits pixels of a place, as if
+// the grid had no end.
+INLINED int2 pixels_within(int place, int radius, int middle, int bits) {
+  const int to_center = 1 << (bits - 1), almost_one = (1 << bits) - 1;
+  return (int2)(((place - radius - to_center + almost_one) >> bits) + middle,
+                ((place + radius - to_center) >> bits) + middle);
+}
+
+// A radius in units, rounded up. Places are less than 2^30 units from the middle.
+INLINED int radius_in_units(float radius, float units_per_pixel) {
+  const float units = radius * units_per_pixel;
+  return units < 1073741000.0f ? (int)units + 1 : 1073741000;
+}
+
+// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
+// empty x range where there is none. With room for the rounding of the center; compositing knows it
+// better.
+INLINED int4 tile_range(const Splat splat, const Grid grid) {
+  const int bits = place_bits_of(splat, grid);
+  int first_x, last_x, first_y, last_y;
+  if (bits <= 0 || splat.radius < 0.0f) {
+    const int4 pixels = pixels_of_wide(splat, grid);
+    first_x = pixels.x, last_x = pixels.y, first_y = pixels.z, last_y = pixels.w;
+  } else {
+    const float units_per_pixel = as_float((127 + bits) << 23);
+    const int radius = radius_in_units(splat.radius + grid.room, units_per_pixel);
+#ifdef ELLIPSES
+    const int radius_x = radius_in_units(RADIUS_X(splat) + grid.room, units_per_pixel);
+#else
+    const int radius_x = radius;
+#endif
+    const int2 columns = pixels_within(splat.x, radius_x, grid.middle_x, bits);
+    const int2 rows = pixels_within(splat.y, radius, grid.middle_y, bits);
+    first_x = columns.x > 0 ? columns.x : 0;
+    last_x = columns.y < grid.width ? columns.y : grid.width - 1;
+    first_y = rows.x > 0 ? rows.x : 0;
+    last_y = rows.y < grid.height ? rows.y : grid.height - 1;
+  }
+  if (first_x > last_x || first_y > last_y) return (int4)(0, -1, 0, -1);
+  const int4 range = (int4)((uint)first_x / TILE_WIDTH, (uint)last_x / TILE_WIDTH,
+                            (uint)first_y / TILE_HEIGHT, (uint)last_y / TILE_HEIGHT);
+  return grid.is_part ? tiles_in_memory(range, grid) : range;
+}
+
+// A range of tiles in a word: the first column and row, and how many of both. Ranges that do not
+// fit are found again.
+#define FIRST_TILE_BITS 10
+#define TILE_COUNT_BITS 6
+#define FOUND_AGAIN 0xffffffffu
+
+inline uint pack_tiles(int4 range) {
+  const int columns = range.y - range.x + 1, rows = range.w - range.z + 1;
+  if (columns <= 0) return 0;
+  const int fits = max(range.x, range.z) < 1 << FIRST_TILE_BITS &&
+                   max(columns, rows) < (1 << TILE_COUNT_BITS) - 1;
+  if (!fits) return FOUND_AGAIN;
+  return (uint)range.x | (uint)range.z << FIRST_TILE_BITS | (uint)columns << 2 * FIRST_TILE_BITS |
+         (uint)rows << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
+}
+
+INLINED int4 unpack_tiles(uint packed, const Splat splat, const Grid grid) {
+  if (packed == FOUND_AGAIN) return tile_range(splat, grid);
+  const uint first = (1u << FIRST_TILE_BITS) - 1u, count = (1u << TILE_COUNT_BITS) - 1u;
+  const int x = (int)(packed & first), y = (int)(packed >> FIRST_TILE_BITS & first);
+  const int columns = (int)(packed >> 2 * FIRST_TILE_BITS & count);
+  const int rows = (int)(packed >> (2 * FIRST_TILE_BITS + TILE_COUNT_BITS));
+  return (int4)(x, x + columns - 1, y, y + rows - 1);
+}
+
+INLINED uint tiles_of(const Splat splat, const Grid grid) {
+  return pack_tiles(tile_range(splat, grid));
+}
+
+// Of a splat whose tiles in the whole picture are known, unless they are FOUND_AGAIN.
+INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid grid) {
+  if (in_picture == FOUND_AGAIN) return tiles_of(splat, grid);
+  if (in_picture == 0 || !grid.is_part) return in_picture;
+  return pack_tiles(tiles_in_memory(unpack_tiles(in_picture, splat, grid), grid));
+}
+
+// Counts the splat in the tiles that it touches.
+INLINED void count_in_tiles(uint tiles, const Splat splat, const Grid grid, __global uint* count) {
+  // Most splats of a large snapshot.
+  if (tiles >> 2 * FIRST_TILE_BITS == (1u | 1u << TILE_COUNT_BITS)) {
+    const uint column = tiles & ((1u << FIRST_TILE_BITS) - 1u);
+    const uint row = tiles >> FIRST_TILE_BITS & ((1u << FIRST_TILE_BITS) - 1u);
+    ++count[grid.corner_tile + row * (uint)grid.tiles_x + column];
+    return;
+  }
+  const int4 range = unpack_tiles(tiles, splat, grid);
+  for (int ty = range.z; ty <= range.w; ++ty) {
+    for (int tx = range.x; tx <= range.y; ++tx)
+      ++count[grid.corner_tile + (uint)(ty * grid.tiles_x + tx)];
+  }
+}
