@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "splotchcl/frame.h"
+#include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"
 #include "splotchcl/plan.h"
 
@@ -46,25 +47,6 @@ struct RendererOptions {
 struct StageTime {
   std::string stage;  // project, sort, bin, composite, resolve, ...
   double seconds = 0;
-};
-
-// What was found of a frame's errors after it had been drawn, from all of its splats
-// (docs/accuracy.md, "Checked after drawing").
-struct FrameCheck {
-  bool is_bound = false;  // else an estimate
-  // The largest error of any pixel over what is promised, of each drawing in turn. The frame is
-  // drawn again until it is at most 1. In extended precision it is what that promises for any
-  // splats.
-  std::vector<double> errors_of_promise;
-  // Where the last one is largest, what makes it up.
-  double ends = 0;   // of splats, in uneven light
-  double even = 0;   // of splats, in even light
-  double peaks = 0;  // errors that are parts of splats' peaks
-  double rest = 0;   // layers and early stop, ordered
-  // The largest |frame - reference| / max(1, |reference|) of the last drawing, in square blocks of
-  // pixels of the crop, row by row.
-  int block_pixels = 0, columns = 0, rows = 0;
-  std::vector<float> errors;
 };
 
 struct RenderStats {

@@ -26,7 +26,7 @@ struct Part {
 };
 
 PixelBlock pixels_of(const PictureLight& picture, std::size_t block) {
-  constexpr int side = PictureLight::block_pixels;
+  constexpr int side = BlockErrors::block_pixels;
   const int x = static_cast<int>(block) % picture.columns * side;
   const int y = static_cast<int>(block) / picture.columns * side;
   return {x, x + side, y, y + side};
@@ -62,8 +62,6 @@ class FrameErrors {
 
   std::size_t block_count() const { return picture_.blocks.size(); }
 
-  int columns() const { return picture_.columns; }
-  int rows() const { return picture_.rows; }
   // What is promised in a block, of light.
   double promise_of(std::size_t block) const { return promise_ * picture_.blocks[block].allowed; }
 
@@ -141,12 +139,11 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   });
 
   Certificate certificate;
-  certificate.columns = errors.columns();
-  certificate.rows = errors.rows();
+  certificate.blocks = BlockErrors(image.width, image.height);
   std::vector<Part> parts = errors.parts();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double error = blocks[b].sum();
-    certificate.errors.push_back(static_cast<float>(error * plan.shares.promise));
+    certificate.blocks.errors[b] = static_cast<float>(error * plan.shares.promise);
     if (error > certificate.error_of_promise) {
       certificate.error_of_promise = error;
       certificate.worst = blocks[b];
@@ -160,12 +157,9 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
 
 Certificate certify_extended(const Image& image, const Frame& frame) {
   Certificate certificate;
-  constexpr int side = PictureLight::block_pixels;
-  certificate.columns = (image.width + side - 1) / side;
-  certificate.rows = (image.height + side - 1) / side;
-  certificate.errors.assign(
-      static_cast<std::size_t>(certificate.columns) * static_cast<std::size_t>(certificate.rows),
-      static_cast<float>(extended_tolerance));
+  certificate.blocks = BlockErrors(image.width, image.height);
+  std::fill(certificate.blocks.errors.begin(), certificate.blocks.errors.end(),
+            static_cast<float>(extended_tolerance));
   certificate.error_of_promise = extended_tolerance / std::max(frame.tolerance, extended_tolerance);
   certificate.worst.rest = certificate.error_of_promise;
   return certificate;

@@ -4,25 +4,17 @@
 
 #include "certificate/peak_cells.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
 
-// What the error of a block of pixels is made of, over what is promised there.
-struct ErrorParts {
-  double ends = 0, even = 0, peaks = 0, rest = 0;
-
-  double sum() const { return ends + even + peaks + rest; }
-};
-
 // How well a drawn picture keeps its promise, from all of its splats.
 struct Certificate {
   double error_of_promise = 0;  // the largest of any block of pixels
   ErrorParts worst;             // of that block
-  int columns = 0, rows = 0;    // of blocks (PictureLight)
-  // Per block, row by row: the largest |frame - reference| / max(1, |reference|).
-  std::vector<float> errors;
+  BlockErrors blocks;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;
   bool keeps_promise() const { return error_of_promise <= 1; }

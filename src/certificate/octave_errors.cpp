@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "certificate/picture_light.h"
 #include "scene/plan/splat_limits.h"
+#include "splotchcl/frame_check.h"
 
 namespace splotchcl {
 namespace {
@@ -18,7 +18,7 @@ constexpr double uneven = 2;
 constexpr int peak_spread = 2;
 // The smallest cells are two pixels wide. A block at the picture's edge may reach beyond it, and
 // what is looked at around a cell lies up to three more away.
-constexpr int cells_in_block = PictureLight::block_pixels / 2 + 3;
+constexpr int cells_in_block = BlockErrors::block_pixels / 2 + 3;
 // What a coarse grid errs by is interpolated by all further refinements, and the constant of the
 // filter's error grows from 3.5 to 5.2 for wide splats (docs/accuracy.md, "Coarse grids").
 constexpr double repeated_refinements = 1.7;

@@ -7,6 +7,7 @@
 
 #include "parallel/for_blocks.h"
 #include "scene/plan/light_structure.h"
+#include "splotchcl/frame_check.h"
 
 namespace splotchcl {
 namespace {
@@ -62,7 +63,7 @@ struct BlockRanges {
 };
 
 BlockRanges ranges_of(const Image& image, int x0, int y0) {
-  constexpr int side = PictureLight::block_pixels;
+  constexpr int side = BlockErrors::block_pixels;
   std::array<float, 4> least, most{};
   least.fill(std::numeric_limits<float>::max());
   for (int y = y0; y < std::min(y0 + side, image.height); ++y) {
@@ -112,10 +113,10 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around) {
 }  // namespace
 
 PictureLight measure_light(const Image& image, const Frame& frame, const FramePlan& plan) {
-  constexpr int side = PictureLight::block_pixels;
+  constexpr int side = BlockErrors::block_pixels;
   PictureLight picture;
-  picture.columns = (image.width + side - 1) / side;
-  picture.rows = (image.height + side - 1) / side;
+  picture.columns = BlockErrors::blocks_along(image.width);
+  picture.rows = BlockErrors::blocks_along(image.height);
   const Surroundings around = {
       plan.light, plan.source, brightest_background(frame),
       plan.light == LightPlan::ordered ? brightest_behind(image, frame) : 0};

@@ -17,7 +17,6 @@ struct BlockLight {
 
 // A picture in square blocks of pixels, row by row.
 struct PictureLight {
-  static constexpr int block_pixels = 16;
   int columns = 0, rows = 0;
   std::vector<BlockLight> blocks;
 };

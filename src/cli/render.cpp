@@ -112,18 +112,15 @@ std::map<std::string, std::string> metadata(const Scene& scene, const RenderOpti
 
 // The bound of each pixel's error over max(1, its light).
 Image make_error_map(const FrameCheck& check, const Rectangle& crop) {
-  const int columns = (crop.width + check.block_pixels - 1) / std::max(1, check.block_pixels);
-  if (check.columns != columns) {
+  if (check.blocks.columns != BlockErrors::blocks_along(crop.width)) {
     throw UsageError(
         "--error-map: the scene has several views (eyes, faces, an inset), expected one");
   }
   Image map(crop.width, crop.height);
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) {
-      const auto block =
-          static_cast<std::size_t>(y / check.block_pixels * check.columns + x / check.block_pixels);
       float* const pixel = map.at(x, y);
-      std::fill_n(pixel, 3, check.errors[block]);
+      std::fill_n(pixel, 3, check.blocks.at(x, y));
       pixel[3] = 1;
     }
   }

@@ -45,14 +45,8 @@ void check_frame(const Frame& frame) {
 
 void note_check(const Certificate& certificate, FrameCheck& check) {
   check.errors_of_promise.push_back(certificate.error_of_promise);
-  check.ends = certificate.worst.ends;
-  check.even = certificate.worst.even;
-  check.peaks = certificate.worst.peaks;
-  check.rest = certificate.worst.rest;
-  check.block_pixels = PictureLight::block_pixels;
-  check.columns = certificate.columns;
-  check.rows = certificate.rows;
-  check.errors = certificate.errors;
+  check.worst = certificate.worst;
+  check.blocks = certificate.blocks;
 }
 
 // What is known of splats once they are drawn.

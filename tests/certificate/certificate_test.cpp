@@ -67,9 +67,9 @@ TEST_F(CertificateTest, FindsNothingWhereThereAreNoSplats) {
 
 TEST_F(CertificateTest, HasAnErrorForEachBlockOfThePicture) {
   const Certificate certificate = certify_cells(empty_cells());
-  EXPECT_EQ(certificate.columns, size / 16);
-  EXPECT_EQ(certificate.rows, size / 16);
-  EXPECT_EQ(certificate.errors.size(), static_cast<std::size_t>(size / 16) * (size / 16));
+  EXPECT_EQ(certificate.blocks.columns, size / 16);
+  EXPECT_EQ(certificate.blocks.rows, size / 16);
+  EXPECT_EQ(certificate.blocks.errors.size(), static_cast<std::size_t>(size / 16) * (size / 16));
 }
 
 TEST_F(CertificateTest, CountsWhatAClusterLeavesOutBesideIt) {
@@ -107,7 +107,7 @@ TEST_F(CertificateTest, TakesAnEvenFieldForEven) {
   std::fill(cells.peaks.values.begin(), cells.peaks.values.end(), 10.0f);
   const Certificate certificate = certify_cells(cells);
   const std::size_t middle = static_cast<std::size_t>(size / 16) * 4 + 4;
-  EXPECT_LT(certificate.errors[middle], frame_.tolerance);
+  EXPECT_LT(certificate.blocks.errors[middle], frame_.tolerance);
 }
 
 TEST_F(CertificateTest, DoesNotTakeTheEdgeOfAnEvenFieldForEven) {

@@ -109,7 +109,7 @@ TEST(FrameCheckTest, PromisesAtToleranceZeroWhatItsNumbersHold) {
   Renderer renderer;
   renderer.render(frame);
   EXPECT_EQ(renderer.stats().check.errors_of_promise, std::vector<double>{1});
-  for (const float error : renderer.stats().check.errors)
+  for (const float error : renderer.stats().check.blocks.errors)
     EXPECT_GE(error, extended_tolerance * 0.999999);
 }
 
