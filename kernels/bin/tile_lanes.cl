@@ -38,10 +38,11 @@ INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
   const AxisLanes along = axis_of(p.middle_y, p.height, level, guard);
   // Places are rounded to floats here, twice (Grid::room).
   const VALUE room = (max(across.last, along.last) + 1.0f) * 0x1p-22f;
-  const INTEGER first_x = first_pixel(s.x, s.radius + room, across);
-  const INTEGER last_x = last_pixel(s.x, s.radius + room, across);
-  const INTEGER first_y = first_pixel(s.y, s.radius + room, along);
-  const INTEGER last_y = last_pixel(s.y, s.radius + room, along);
+  const VALUE radius = max(s.radius, (VALUE)(0.5f)) + room;
+  const INTEGER first_x = first_pixel(s.x, radius, across);
+  const INTEGER last_x = last_pixel(s.x, radius, across);
+  const INTEGER first_y = first_pixel(s.y, radius, along);
+  const INTEGER last_y = last_pixel(s.y, radius, along);
 
   const int shift_x = LOG2_OF(TILE_WIDTH), shift_y = LOG2_OF(TILE_HEIGHT);
   const INTEGER column = first_x >> shift_x, row = first_y >> shift_y;

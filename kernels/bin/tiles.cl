@@ -47,9 +47,10 @@ INLINED int2 pixels_within(int place, int radius, int middle, int bits) {
                 ((place + radius - to_center) >> bits) + middle);
 }
 
-// A radius in units, rounded up. Places are less than 2^30 units from the middle.
+// A radius in units, rounded up. Places are less than 2^30 units from the middle. A splat between
+// the centers of pixels is listed, too: the check after drawing is to know what it leaves out.
 INLINED int radius_in_units(float radius, float units_per_pixel) {
-  const float units = radius * units_per_pixel;
+  const float units = (radius > 0.5f ? radius : 0.5f) * units_per_pixel;
   return units < 1073741000.0f ? (int)units + 1 : 1073741000;
 }
 

@@ -80,12 +80,15 @@ inline VALUE phi_series(VALUE y) {
 inline VALUE passed_by_series(VALUE y, VALUE phi) {
   return 1.0f - y * phi;
 }
-inline VALUE passed_in_full(VALUE y, VALUE phi) {
-  return exp2_negative(y * -1.44269504f);
-}
 
 // ... and for any y >= 0: the series below 0.1, where 1 - exp(-y) would cancel.
 inline VALUE phi_full(VALUE y) {
   const VALUE direct = (1.0f - exp2_negative(y * -1.44269504f)) / max(y, (VALUE)(0.1f));
   return select(direct, phi_series(y), y < 0.1f);
+}
+
+// Below 0.1 by phi, too: what the polynomial errs by there would be taken away by each of thousands
+// of thin layers.
+inline VALUE passed_in_full(VALUE y, VALUE phi) {
+  return select(exp2_negative(y * -1.44269504f), passed_by_series(y, phi), y < 0.1f);
 }

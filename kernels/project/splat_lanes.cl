@@ -201,7 +201,8 @@ INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
 INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const VALUE beyond = distance_beyond(*s, p);
   const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
-  const INTEGER reaches = beyond <= s->radius + room;
+  // The first pixel's center lies half a pixel within.
+  const INTEGER reaches = beyond + 0.5f <= s->radius + room;
 #ifdef ELLIPSES
   s->visible &= reaches;
 #else
