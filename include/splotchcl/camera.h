@@ -37,9 +37,12 @@ struct Camera {
   std::optional<double> near_limit;
   std::optional<double> far_limit;
   CubeLayout cube_layout = CubeLayout::sheet;
+  // Of the picture at the look-at distance, in lengths, > 0, instead of a field of view. Not for
+  // wide angles.
+  std::optional<double> width = std::nullopt;
 };
 
-// The field of view in degrees, or the projection's own where the camera does not say.
+// The field of view in degrees: as the camera says, by its width, or the projection's own.
 double field_of_view_degrees(const Camera& camera);
 
 // The camera as both renderers use it: orthonormal axes x right, y down, z forward.

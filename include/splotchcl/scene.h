@@ -8,6 +8,7 @@
 #include "splotchcl/camera.h"
 #include "splotchcl/finish.h"
 #include "splotchcl/light_model.h"
+#include "splotchcl/map_settings.h"
 #include "splotchcl/movie.h"
 #include "splotchcl/palette.h"
 #include "splotchcl/particles.h"
@@ -91,6 +92,7 @@ struct Scene {
   double tolerance = 1e-3;  // as Frame has it
   PeriodicSettings periodic;
   FinishSettings finish;
+  MapSettings map;
   std::vector<Component> components;
 };
 

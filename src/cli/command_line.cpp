@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/galaxy_commands.h"
 #include "cli/list_commands.h"
+#include "cli/map_command.h"
 #include "common/nearest_name.h"
 #include "splotchcl/error.h"
 
@@ -335,6 +336,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
+  add_map(app, run, console);
   add_convert(app, run, console);
   add_movie(app, run, console);
   add_path(app, run, console);

@@ -38,6 +38,15 @@ struct RenderOptions : DrawOptions {
 };
 int run_render(const RenderOptions& options, Console& console);
 
+struct MapOptions : DrawOptions {
+  std::vector<std::filesystem::path> outputs;
+  std::string quantity, statistic, weight, types, view, center, unit, size;  // empty: not given
+  std::vector<std::string> select;
+  std::optional<double> width, depth;
+  bool slice = false, noise = false;
+};
+int run_map(const MapOptions& options, Console& console);
+
 struct ConvertOptions {
   std::filesystem::path par;
   std::filesystem::path output;  // a scene file

@@ -47,7 +47,21 @@ double largest_field_of_view(Projection projection) {
   return projection == Projection::fisheye || projection == Projection::equirectangular ? 360 : 180;
 }
 
+void check_width(const Camera& camera) {
+  if (!camera.width) return;
+  if (is_wide_angle(camera.projection)) {
+    throw UsageError("camera.width: found " + text(*camera.width) +
+                     " in a wide-angle projection, expected perspective or orthographic; set "
+                     "camera.field_of_view instead");
+  }
+  if (!(*camera.width > 0) || !std::isfinite(*camera.width)) {
+    throw UsageError("camera.width: found " + text(*camera.width) +
+                     ", expected a finite number > 0");
+  }
+}
+
 void check_field_of_view(const Camera& camera) {
+  if (camera.width) return;
   const double found = field_of_view_degrees(camera);
   const std::string start = "camera.field_of_view: found " + text(found) + " degrees, expected ";
   if (camera.projection == Projection::cube) {
@@ -104,6 +118,11 @@ bool is_wide_angle(Projection projection) {
 }
 
 double field_of_view_degrees(const Camera& camera) {
+  using namespace boost::qvm;
+  if (camera.width) {
+    const double distance = mag(camera.look_at - camera.position);
+    return 2 * std::atan(0.5 * *camera.width / distance) * 180 / pi;
+  }
   if (camera.field_of_view_degrees) return *camera.field_of_view_degrees;
   switch (camera.projection) {
     case Projection::fisheye:
@@ -125,6 +144,7 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   check_finite(camera.look_at, "camera.look_at");
   check_finite(camera.sky, "camera.sky");
   check_limits(camera);
+  check_width(camera);
   check_field_of_view(camera);
   check_shape(camera, width, height);
 
@@ -155,7 +175,9 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   frame.forward = forward;
   frame.right = normalized(right);
   frame.down = cross(forward, frame.right);
-  frame.focal_pixels = focal_length(camera, width, height);
+  // Not by way of an angle: a length of the data keeps all its digits.
+  frame.focal_pixels =
+      camera.width ? distance * width / *camera.width : focal_length(camera, width, height);
   frame.look_at_distance = distance;
   frame.pixels_per_length = frame.focal_pixels / distance;
   frame.center_x = 0.5 * width;

@@ -5,20 +5,6 @@ namespace {
 
 using Percentiles = std::array<double, 2>;
 
-ValueType<Percentiles> percentiles() {
-  const auto read = [](const toml::node& node) -> std::optional<Percentiles> {
-    const toml::array* const array = node.as_array();
-    if (array == nullptr || array->size() != 2) return std::nullopt;
-    const auto low = number(between(0, 100)).read((*array)[0]);
-    const auto high = number(between(0, 100)).read((*array)[1]);
-    if (!low || !high || !(*low < *high)) return std::nullopt;
-    return Percentiles{*low, *high};
-  };
-  return {"[low, high], numbers from 0 to 100 with low < high", read, [](const Percentiles& value) {
-            return "[" + write_number(value[0]) + ", " + write_number(value[1]) + "]";
-          }};
-}
-
 // color.* and intensity.*. Without a field the others mean nothing and are not written.
 Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Text& field_text) {
   const auto optional_number = [map](std::optional<double> FieldMap::*member) {

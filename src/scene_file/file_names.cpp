@@ -32,6 +32,7 @@ const std::map<std::string, bool (*)(const std::string&)>& file_keys() {
       {"component.exclude.catalog", is_any_name},
       {"component.palette", is_palette_path},
       {"component.absorption_palette", is_palette_path},
+      {"map.palette", is_palette_path},
   };
   return keys;
 }

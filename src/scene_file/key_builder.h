@@ -17,6 +17,7 @@ using Keys = std::vector<Key>;
 
 Keys component_keys();
 Keys path_keys();
+Keys map_keys();
 Keys movie_keys();
 Keys particle_keys();  // of components, too
 Keys time_keys();
@@ -89,6 +90,8 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.periodic;
   } else if constexpr (std::is_same_v<Part, FinishSettings>) {
     return scene.finish;
+  } else if constexpr (std::is_same_v<Part, MapSettings>) {
+    return scene.map;
   } else if constexpr (std::is_same_v<Part, ReadSettings>) {
     return scene.read;
   } else {

@@ -109,11 +109,31 @@ Keys camera_keys() {
            "required where there is a `[camera]`"}),
       key("camera.sky", vector(), &Camera::sky,
           {"The direction shown upwards. Any direction that is not parallel to the view."}),
-      key("camera.field_of_view", number(any_field_of_view()), &Camera::field_of_view_degrees,
-          {"Horizontal angle of the picture, between its left and right edges; of a fisheye "
-           "picture across its circle. Less than 180 in perspective and orthographic projection.",
-           "degrees",
-           "perspective, orthographic: 45; fisheye: 180; equirectangular: 360; cube: 90, always"}),
+      excluding(
+          key<Camera, double>(
+              "camera.field_of_view", number(any_field_of_view()),
+              [](const Camera& camera) { return camera.field_of_view_degrees; },
+              [](Camera& camera, double value) {
+                camera.field_of_view_degrees = value;
+                camera.width.reset();
+              },
+              {"Horizontal angle of the picture, between its left and right edges; of a fisheye "
+               "picture across its circle. Less than 180 in perspective and orthographic "
+               "projection.",
+               "degrees",
+               "perspective, orthographic: 45; fisheye: 180; equirectangular: 360; cube: 90, "
+               "always"}),
+          {"camera.width"}),
+      key<Camera, double>(
+          "camera.width", number(more_than(0)), [](const Camera& camera) { return camera.width; },
+          [](Camera& camera, double value) {
+            camera.width = value;
+            camera.field_of_view_degrees.reset();
+          },
+          {"Instead of `field_of_view`: how much the picture shows between its left and right "
+           "edges at the distance of `look_at`. With `orthographic` that is the width at every "
+           "depth. Not for wide angles.",
+           "length", "what `field_of_view` gives"}),
       key("camera.projection",
           choice<Projection>({{"perspective", Projection::perspective},
                               {"orthographic", Projection::orthographic},
@@ -194,7 +214,7 @@ const std::vector<Key>& all_keys() {
     for (const Keys& part :
          {top_level_keys(), read_keys(), image_keys(), background_keys(), camera_keys(),
           stereo_keys(), kernel_keys(), sort_keys(), time_keys(), path_keys(), movie_keys(),
-          periodic_keys(), finish_keys(), component_keys()}) {
+          periodic_keys(), finish_keys(), map_keys(), component_keys()}) {
       append(all, part);
     }
     return all;

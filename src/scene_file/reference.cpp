@@ -38,7 +38,7 @@ std::string row(const Key& key, const std::string& name) {
 std::string key_reference() {
   std::string text;
   for (const std::string table : {"", "read", "image", "camera", "stereo", "kernel", "sort", "time",
-                                  "path", "movie", "periodic", "finish", "component"}) {
+                                  "path", "movie", "periodic", "finish", "map", "component"}) {
     text +=
         fmt::format("### {}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                     heading(table));

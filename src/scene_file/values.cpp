@@ -253,6 +253,24 @@ ValueType<std::vector<int>> particle_types() {
           read_particle_types, write_particle_types};
 }
 
+ValueType<std::array<double, 2>> percentiles() {
+  using Pair = std::array<double, 2>;
+  Range range;
+  range.at_least = 0;
+  range.at_most = 100;
+  const auto read = [range](const toml::node& node) -> std::optional<Pair> {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || array->size() != 2) return std::nullopt;
+    const auto low = number(range).read((*array)[0]);
+    const auto high = number(range).read((*array)[1]);
+    if (!low || !high || !(*low < *high)) return std::nullopt;
+    return Pair{*low, *high};
+  };
+  return {"[low, high], numbers from 0 to 100 with low < high", read, [](const Pair& value) {
+            return "[" + write_number(value[0]) + ", " + write_number(value[1]) + "]";
+          }};
+}
+
 ValueType<Absorption> absorption() {
   return {"\"emission\" or \"none\" or a number >= 0", read_absorption, write_absorption};
 }

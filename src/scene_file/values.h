@@ -42,6 +42,8 @@ ValueType<std::array<double, 3>> three_numbers(const Range& range, const std::st
 ValueType<Vec3> vector();
 ValueType<std::pair<int, int>> size_in_pixels(int at_most);
 ValueType<std::vector<int>> particle_types();
+// [low, high] in per cent.
+ValueType<std::array<double, 2>> percentiles();
 ValueType<Absorption> absorption();
 
 // One of a few words.

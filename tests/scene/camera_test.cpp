@@ -118,6 +118,22 @@ TEST(Camera, SeesHalfTheFieldOfViewOnEitherSide) {
   }
 }
 
+TEST(Camera, ShowsItsWidthAtTheLookAtDistance) {
+  Camera camera = simple_camera();
+  camera.width = 6;
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    camera.projection = projection;
+    EXPECT_NEAR(make_camera_frame(camera, 640, 480).pixels_per_length, 640 / 6.0, 1e-9);
+  }
+}
+
+TEST(Camera, RefusesAWidthInWideAngles) {
+  Camera camera = simple_camera();
+  camera.width = 6;
+  camera.projection = Projection::fisheye;
+  EXPECT_THROW(make_camera_frame(camera, 640, 480), UsageError);
+}
+
 TEST(Camera, HasTheSameScaleVerticallyAsHorizontally) {
   const CameraFrame frame = make_camera_frame(simple_camera(), 640, 480);
   const double right = project(frame, {{-1, 0, 10}}).x - frame.center_x;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "splotchcl/load.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/views.h"
+
+// Maps: pictures whose values are a quantity in a unit (docs/maps.md).
+namespace splotchcl {
+
+// Values of width x height pixels, row 0 at the top.
+struct Map {
+  int width = 0, height = 0;  // pixels
+  // Not a number where a mean has too little matter to be known.
+  std::vector<float> values;
+  std::vector<float> effective_particles;  // empty unless it was asked for
+  std::string quantity;                    // "mean of temperature, weighted by mass"
+  std::string unit;                        // "Msun/pc^2"; "code_mass/code_length^2" where unknown
+
+  // Where it lies. Lengths are in `length_unit`, to the right and upwards of `center`.
+  std::string view;                        // "xy", "xz", "yz", "camera"
+  std::string right_name, up_name;         // of the axes: "x", "y"; of a camera's "right", "up"
+  std::string length_unit;                 // "kpc"; "code_length" where unknown
+  double pixel = 0;                        // side of a pixel
+  Vec3 center = {{0, 0, 0}};               // x, y, z of the middle
+  double center_right = 0, center_up = 0;  // its coordinates along the map's axes
+
+  // How exact: each sum over particles is within tolerance * max(sum, floor).
+  double tolerance = 0;
+  double floor = 0;  // of the column of the weights, in the snapshot's units
+  double total = 0;  // of the quantity over the area, or of the weights of a mean, in those units
+  std::uint64_t particles = 0, images = 0, bad_particles = 0;
+};
+
+// Draws the map that the scene's [map] says, each of its frames by `draw`. Throws as load does.
+Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
+             std::vector<std::string>& notes, const LoadProgress& progress = {});
+
+// Throws UsageError for an ending that no map can be written as, DataError for a folder that cannot
+// be written to.
+void check_map_path(const std::filesystem::path& path);
+
+// By the ending: .fits, .hdf5, .npy and .exr hold the numbers, others a figure with a color bar, by
+// the scene's [map] and [finish]. The metadata is kept by the first two. Throws DataError.
+void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
+               const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata);
+
+}  // namespace splotchcl

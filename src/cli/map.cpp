@@ -1,0 +1,136 @@
+#include "splotchcl/map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "common/output_files.h"
+#include "open_scene/input_files.h"
+#include "splotchcl/error.h"
+#include "splotchcl/open_scene.h"
+#include "splotchcl/reference.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::cli {
+namespace {
+
+std::string map_component(const MapOptions& options) {
+  const std::string key = "map.component=";
+  for (const std::string& setting : options.settings) {
+    if (setting.rfind(key, 0) == 0) return setting.substr(key.size());
+  }
+  return "0";
+}
+
+// "gas,4" as TOML: ["gas", 4]
+std::string list_of_types(const std::string& text) {
+  std::istringstream words(text);
+  std::string list;
+  for (std::string word; std::getline(words, word, ',');) {
+    const bool is_number =
+        !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    list += (list.empty() ? "" : ", ") + (is_number ? word : "'" + word + "'");
+  }
+  return "[" + list + "]";
+}
+
+void add_size(const std::string& size, std::vector<std::string>& settings) {
+  int width = 0, height = 0;
+  const char* const end = size.data() + size.size();
+  const auto first = std::from_chars(size.data(), end, width);
+  const bool has_x = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+  const auto second = has_x ? std::from_chars(first.ptr + 1, end, height) : first;
+  if (!has_x || second.ec != std::errc() || second.ptr != end) {
+    throw UsageError("--size: found '" + size +
+                     "', expected two numbers of pixels such as 1024x768");
+  }
+  settings.push_back(fmt::format("image.size=[{}, {}]", width, height));
+}
+
+// The options as settings of the scene, after those that the user gives.
+std::vector<std::string> settings_of_map(const MapOptions& options) {
+  std::vector<std::string> settings = settings_of(options);
+  const auto add = [&settings](const char* key, const std::string& value) {
+    if (!value.empty()) settings.push_back(fmt::format("map.{}='{}'", key, value));
+  };
+  add("quantity", options.quantity);
+  add("statistic", options.statistic);
+  add("weight", options.weight);
+  add("view", options.view);
+  add("unit", options.unit);
+  if (options.center.find(',') == std::string::npos) {
+    add("center_at", options.center);
+  } else {
+    settings.push_back("map.center=[" + options.center + "]");
+  }
+  if (options.width) settings.push_back(fmt::format("map.width={}", *options.width));
+  if (options.depth) settings.push_back(fmt::format("map.depth={}", *options.depth));
+  if (options.slice) settings.emplace_back("map.slice=true");
+  if (options.noise) settings.emplace_back("map.noise=true");
+  if (!options.size.empty()) add_size(options.size, settings);
+  if (!options.types.empty()) {
+    settings.push_back(
+        fmt::format("component.{}.types={}", map_component(options), list_of_types(options.types)));
+  }
+  return settings;
+}
+
+void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
+  for (Component& component : scene.components) {
+    if (!scene.map.component.empty() && component.name != scene.map.component) continue;
+    component.select.where.insert(component.select.where.end(), conditions.begin(),
+                                  conditions.end());
+    return;
+  }
+}
+
+DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) {
+  if (options.reference) {
+    return [](const Frame& frame) { return reference::render(frame).to_float(); };
+  }
+  renderer.emplace(RendererOptions{options.device});
+  return [&renderer](const Frame& frame) { return renderer->render(frame); };
+}
+
+}  // namespace
+
+int run_map(const MapOptions& options, Console& console) {
+  for (const std::filesystem::path& output : options.outputs)
+    check_map_path(output);
+  SceneWithSnapshot source = open_scene(options.scene, settings_of_map(options));
+  add_selection(options.select, source.scene);
+  std::vector<OutputFile> outputs;
+  for (const std::filesystem::path& output : options.outputs)
+    outputs.push_back({output, "--output"});
+  check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
+  for (const std::string& note : source.notes)
+    console.note(note);
+  console.status("starting the device");
+  std::optional<Renderer> renderer;
+  const DrawFrame draw = drawing(options, renderer);
+
+  const SnapshotInfo& info = source.snapshot->info();
+  console.status("mapping " + info.files.front().filename().string());
+  std::vector<std::string> notes = info.notes;
+  const Map map = draw_map(
+      source.scene, *source.snapshot, draw, notes,
+      [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
+  for (const std::string& note : notes)
+    console.note(note);
+  for (const std::filesystem::path& output : options.outputs) {
+    console.status("writing " + output.string());
+    write_map(output, map, source.scene, info,
+              {{"splotchcl:scene", format_scene(source.scene)},
+               {"splotchcl:version", SPLOTCHCL_VERSION}});
+  }
+  console.done(fmt::format("{}: {} in {}, {}x{} pixels, {} particles",
+                           options.outputs.front().string(), map.quantity, map.unit, map.width,
+                           map.height, map.particles));
+  return 0;
+}
+
+}  // namespace splotchcl::cli

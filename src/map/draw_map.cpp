@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/nearest_name.h"
+#include "load/missing_sizes.h"
+#include "load/open_components.h"
+#include "map/geometry.h"
+#include "map/map_units.h"
+#include "map/noise.h"
+#include "map/placed_particles.h"
+#include "map/quantity.h"
+#include "map/sums.h"
+#include "map/weighted_values.h"
+#include "splotchcl/error.h"
+#include "splotchcl/map.h"
+
+namespace splotchcl {
+namespace {
+
+const Component& choose_component(const Scene& scene) {
+  if (scene.components.empty()) {
+    throw UsageError("the scene has no component, expected at least one; add a [[component]]");
+  }
+  if (scene.map.component.empty()) return scene.components.front();
+  std::vector<std::string> names;
+  for (const Component& component : scene.components) {
+    if (component.name == scene.map.component) return component;
+    names.push_back(component.name);
+  }
+  throw UsageError("key map.component: found \"" + scene.map.component +
+                   "\", expected the name of a component" +
+                   did_you_mean(nearest_name(scene.map.component, names)));
+}
+
+// The scene with the map's component alone.
+Scene scene_of_map(const Scene& scene) {
+  Scene one = scene;
+  one.components = {choose_component(scene)};
+  // What colors its particles in pictures need not be there.
+  Component& component = one.components.front();
+  component.color = {};
+  component.intensity = {};
+  component.color_vector.clear();
+  // It is no picture: what is drawn over pictures is not looked at here.
+  one.finish = {};
+  one.sort = {};
+  return one;
+}
+
+MapMatter read_matter(const Component& component, const ComponentFields& fields) {
+  MapMatter matter;
+  matter.count = fields.count();
+  matter.origin = fields.origin();
+  matter.position = fields.positions();
+  matter.smoothing_length = fields.smoothing_lengths();
+  if (fields.masses_are_known()) matter.mass = fields.masses();
+  matter.size_factor = component.size_fixed ? component.size_factor
+                                            : component.size_factor * component.placement.scale;
+  return matter;
+}
+
+int first_type(const Component& component, const SnapshotInfo& info) {
+  for (const int type : component.types) {
+    if (info.find_type(type) != nullptr) return type;
+  }
+  return component.types.front();  // OpenComponents has refused a component without particles
+}
+
+const char* name_of(MapView view) {
+  switch (view) {
+    case MapView::xy:
+      return "xy";
+    case MapView::xz:
+      return "xz";
+    case MapView::yz:
+      return "yz";
+    case MapView::camera:
+      break;
+  }
+  return "camera";
+}
+
+void describe_place(const MapGeometry& geometry, const MapSettings& settings, const MapUnits& units,
+                    Map& map) {
+  using boost::qvm::dot;
+  map.view = name_of(settings.view);
+  map.right_name = settings.view == MapView::camera ? "right" : map.view.substr(0, 1);
+  map.up_name = settings.view == MapView::camera ? "up" : map.view.substr(1);
+  map.length_unit = units.length_name;
+  map.pixel = geometry.pixel * units.length_factor;
+  map.center = geometry.center * units.length_factor;
+  map.center_right = dot(map.center, geometry.right);
+  map.center_up = dot(map.center, geometry.up);
+}
+
+}  // namespace
+
+Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
+             std::vector<std::string>& notes, const LoadProgress& progress) {
+  const MapSettings& settings = scene.map;
+  check_quantity(settings);
+  const Scene one = scene_of_map(scene);
+  const Component& component = one.components.front();
+  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes);
+  ComponentFields& fields = open.fields().front();
+  fields.select();
+  const MapMatter matter = read_matter(component, fields);
+  const MapGeometry geometry = decide_geometry(one, snapshot.info(), matter);
+  const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
+  const MapUnits units = decide_units(settings, fields.snapshot_info(),
+                                      first_type(component, fields.snapshot_info()), quantity.kind);
+
+  const PlacedParticles placed =
+      place_particles(matter, geometry, one.kernel.width, settings.slice);
+  WeightedValues weighted(placed, quantity, settings.floor, geometry,
+                          fields.snapshot_info().particles_per_drawn);
+  const SumPicture picture = {geometry.width, geometry.height, one.kernel.width, one.tolerance};
+
+  Map map;
+  map.width = geometry.width;
+  map.height = geometry.height;
+  map.quantity = quantity.description;
+  map.unit = units.name;
+  describe_place(geometry, settings, units, map);
+  map.tolerance = one.tolerance;
+  map.floor = weighted.floor();
+  map.particles = matter.count;
+  map.images = placed.count();
+  map.bad_particles = placed.bad + weighted.bad();
+  const std::vector<double> values = weighted.draw(picture, draw);
+  map.total = weighted.total();
+  map.values.resize(values.size());
+  std::transform(values.begin(), values.end(), map.values.begin(),
+                 [&units](double value) { return static_cast<float>(value * units.factor); });
+  if (settings.noise) {
+    map.effective_particles = draw_effective_particles(placed, weighted, picture, draw);
+  }
+  if (map.bad_particles > 0) {
+    notes.push_back(std::to_string(map.bad_particles) +
+                    " particles, periodic images counted, are left out of the map: their "
+                    "position, smoothing length, weight or value is not finite, or the length not "
+                    "above 0");
+  }
+  if (placed.count() == 0) notes.push_back("no particle reaches the map, which is empty");
+  return map;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,130 @@
+#include <fitsio.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "map/map_files.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// The words of the FITS standard for what we call otherwise.
+std::string fits_unit(std::string unit) {
+  for (const char* const sun : {"M_sun", "Msun"}) {
+    for (std::size_t at = unit.find(sun); at != std::string::npos; at = unit.find(sun))
+      unit.replace(at, std::string(sun).size(), "solMass");
+  }
+  return unit;
+}
+
+// A file in memory, so that what is written to the disk is ours to check.
+class FitsFile {
+ public:
+  explicit FitsFile(const std::filesystem::path& path) : path_(path) {
+    constexpr std::size_t block = 2880;
+    size_ = block;
+    memory_ = std::malloc(size_);
+    fits_create_memfile(&file_, &memory_, &size_, block, std::realloc, &status_);
+    check();
+  }
+  ~FitsFile() {
+    int ignored = 0;
+    if (file_ != nullptr) fits_close_file(file_, &ignored);
+    std::free(memory_);
+  }
+  FitsFile(const FitsFile&) = delete;
+  FitsFile& operator=(const FitsFile&) = delete;
+
+  void add_image(const Map& map, const std::vector<float>& values) {
+    long sides[2] = {map.width, map.height};
+    std::vector<float> rows = upside_down(values, map.width);
+    fits_create_img(file_, FLOAT_IMG, 2, sides, &status_);
+    fits_write_img(file_, TFLOAT, 1, static_cast<LONGLONG>(rows.size()), rows.data(), &status_);
+    check();
+  }
+  void add_text(const char* key, const std::string& text, const char* comment) {
+    fits_update_key_longstr(file_, key, text.c_str(), comment, &status_);
+    check();
+  }
+  void add_number(const char* key, double value, const char* comment) {
+    fits_update_key(file_, TDOUBLE, key, &value, comment, &status_);
+    check();
+  }
+  // Lines of a header hold printable ASCII only.
+  void add_history(std::string text) {
+    for (char& c : text) {
+      if (c < ' ' || c > '~') c = ' ';
+    }
+    fits_write_history(file_, text.c_str(), &status_);
+    check();
+  }
+  void announce_long_texts() {
+    fits_write_key_longwarn(file_, &status_);
+    check();
+  }
+
+  std::vector<unsigned char> bytes() {
+    LONGLONG header = 0, data = 0, end = 0;
+    fits_get_hduaddrll(file_, &header, &data, &end, &status_);
+    fits_close_file(file_, &status_);
+    file_ = nullptr;
+    check();
+    const auto* const first = static_cast<const unsigned char*>(memory_);
+    return {first, first + end};
+  }
+
+ private:
+  void check() const {
+    if (status_ == 0) return;
+    char reason[FLEN_STATUS];
+    fits_get_errstatus(status_, reason);
+    throw DataError(path_.string() + ": could not be made: " + reason);
+  }
+
+  std::filesystem::path path_;
+  fitsfile* file_ = nullptr;
+  void* memory_ = nullptr;
+  std::size_t size_ = 0;
+  int status_ = 0;
+};
+
+void add_axis(FitsFile& file, const std::string& number, const std::string& name, double center,
+              int pixels, const Map& map) {
+  // Their kind is not one of the standard's: the transformation is linear.
+  file.add_text(("CTYPE" + number).c_str(), name, "linear");
+  file.add_text(("CUNIT" + number).c_str(), map.length_unit, "");
+  file.add_number(("CRPIX" + number).c_str(), 0.5 * pixels + 0.5, "the middle of the map");
+  file.add_number(("CRVAL" + number).c_str(), center, "");
+  file.add_number(("CDELT" + number).c_str(), map.pixel, "");
+}
+
+void add_place(FitsFile& file, const Map& map) {
+  add_axis(file, "1", map.right_name, map.center_right, map.width, map);
+  add_axis(file, "2", map.up_name, map.center_up, map.height, map);
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
+                                       const MapMetadata& metadata) {
+  FitsFile file(path);
+  file.add_image(map, map.values);
+  file.announce_long_texts();
+  file.add_text("BUNIT", fits_unit(map.unit), "");
+  add_place(file, map);
+  file.add_text("QUANTITY", map.quantity, "");
+  file.add_text("VIEW", map.view, "axes to the right and upwards");
+  file.add_number("TOLERANC", map.tolerance, "of each sum, relative to max(sum, FLOOR)");
+  file.add_number("FLOOR", map.floor, "of the column of weights, in the data's units");
+  for (const auto& [key, text] : metadata)
+    file.add_history(key + ": " + text);
+  if (!map.effective_particles.empty()) {
+    file.add_image(map, map.effective_particles);
+    file.add_text("EXTNAME", "EFFECTIVE_PARTICLES", "");
+    add_place(file, map);
+  }
+  return file.bytes();
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,200 @@
+#include "map/geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "scene/constants.h"
+#include "scene/particle_rules.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace boost::qvm;
+
+constexpr double most_boxes = 64;  // that a map may show side by side
+
+double side_of_box(const Scene& scene, const SnapshotInfo& snapshot) {
+  const double box = scene.periodic.box.value_or(snapshot.box_size.value_or(0));
+  const bool has_box = box > 0 && std::isfinite(box);
+  if (!scene.map.periodic.value_or(has_box)) return 0;
+  if (has_box) return box;
+  throw UsageError("key map.periodic: found true, but " + snapshot.files.front().string() +
+                   " does not say the size of a box, expected one; set periodic.box");
+}
+
+const Camera& camera_of(const Scene& scene) {
+  if (scene.camera) return *scene.camera;
+  throw UsageError("key map.view: found \"camera\", but the scene has none; add a [camera]");
+}
+
+void set_axes(const Scene& scene, MapGeometry& geometry) {
+  const Vec3 x = {{1, 0, 0}}, y = {{0, 1, 0}}, z = {{0, 0, 1}};
+  switch (scene.map.view) {
+    case MapView::xy:
+      geometry.right = x, geometry.up = y;
+      break;
+    case MapView::xz:
+      geometry.right = x, geometry.up = z;
+      break;
+    case MapView::yz:
+      geometry.right = y, geometry.up = z;
+      break;
+    case MapView::camera: {
+      const CameraFrame frame =
+          make_camera_frame(camera_of(scene), geometry.width, geometry.height);
+      geometry.right = frame.right, geometry.up = -frame.down;
+      break;
+    }
+  }
+  geometry.forward = cross(geometry.up, geometry.right);
+}
+
+struct Extent {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+  void take(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  double middle() const { return 0.5 * (least + most); }
+  double span() const { return most - least; }
+};
+
+Extent extent_along(const MapMatter& matter, const Vec3& axis) {
+  Extent extent;
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (matter.is_good(i)) extent.take(dot(matter.position_of(i), axis));
+  }
+  if (extent.most < extent.least) {
+    throw DataError(
+        "found no particle with a finite position and a size > 0, expected some to map");
+  }
+  return extent;
+}
+
+// Some programs put the middle of the box at the origin.
+Vec3 middle_of_box(const MapMatter& matter, double box) {
+  double least = 0;
+  for (const Vec3& axis : {Vec3{{1, 0, 0}}, Vec3{{0, 1, 0}}, Vec3{{0, 0, 1}}})
+    least = std::min(least, extent_along(matter, axis).least);
+  const double middle = least < -0.1 * box ? 0 : 0.5 * box;
+  return {{middle, middle, middle}};
+}
+
+double mass_of(const MapMatter& matter, std::size_t i) {
+  const double mass = matter.mass.is_absent() ? 1 : static_cast<double>(matter.mass[i]);
+  return std::isfinite(mass) && mass > 0 ? mass : 0;
+}
+
+// In a periodic box by the angles that coordinates are there, so that what lies across a face has
+// its center at the face.
+Vec3 center_of_mass(const MapMatter& matter, double box) {
+  Vec3 sum = {{0, 0, 0}}, cosines = {{0, 0, 0}}, sines = {{0, 0, 0}};
+  double total = 0;
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (!matter.is_good(i)) continue;
+    const double mass = mass_of(matter, i);
+    const Vec3 position = matter.position_of(i);
+    total += mass;
+    sum += mass * position;
+    for (std::size_t axis = 0; axis < 3 && box > 0; ++axis) {
+      cosines.a[axis] += mass * std::cos(2 * pi * position.a[axis] / box);
+      sines.a[axis] += mass * std::sin(2 * pi * position.a[axis] / box);
+    }
+  }
+  if (!(total > 0)) {
+    throw DataError("key map.center_at: found no mass above 0, expected some; set map.center");
+  }
+  if (box == 0) return sum / total;
+  Vec3 center;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double angle = std::atan2(sines.a[axis], cosines.a[axis]);
+    center.a[axis] = box * (angle < 0 ? angle / (2 * pi) + 1 : angle / (2 * pi));
+  }
+  return center;
+}
+
+Vec3 densest_place(const MapMatter& matter) {
+  double most = 0;
+  Vec3 place = {{0, 0, 0}};
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (!matter.is_good(i)) continue;
+    const double density = mass_of(matter, i) / std::pow(matter.size_of(i), 3);
+    if (density <= most) continue;
+    most = density;
+    place = matter.position_of(i);
+  }
+  if (most > 0) return place;
+  throw DataError("key map.center_at: found no density above 0, expected some; set map.center");
+}
+
+Vec3 choose_center(const Scene& scene, const MapMatter& matter, const MapGeometry& geometry) {
+  const MapSettings& map = scene.map;
+  if (map.center) return *map.center;
+  if (map.center_at == MapCenter::mass) return center_of_mass(matter, geometry.box);
+  if (map.center_at == MapCenter::densest) return densest_place(matter);
+  if (map.view == MapView::camera) return camera_of(scene).look_at;
+  if (geometry.box > 0) return middle_of_box(matter, geometry.box);
+  return extent_along(matter, geometry.right).middle() * geometry.right +
+         extent_along(matter, geometry.up).middle() * geometry.up +
+         extent_along(matter, geometry.forward).middle() * geometry.forward;
+}
+
+double choose_width(const Scene& scene, const MapMatter& matter, const MapGeometry& geometry) {
+  if (scene.map.width) return *scene.map.width;
+  if (scene.map.view == MapView::camera) {
+    const CameraFrame frame = make_camera_frame(camera_of(scene), geometry.width, geometry.height);
+    return geometry.width / frame.pixels_per_length;
+  }
+  if (geometry.box > 0) return geometry.box;
+  const double aspect = static_cast<double>(geometry.width) / geometry.height;
+  const double width = std::max(extent_along(matter, geometry.right).span(),
+                                extent_along(matter, geometry.up).span() * aspect);
+  if (width > 0) return width;
+  throw UsageError("key map.width: all particles lie in one place, expected the key to be set");
+}
+
+}  // namespace
+
+Vec3 MapMatter::position_of(std::size_t i) const {
+  Vec3 place = origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    place.a[axis] += static_cast<double>(position[3 * i + axis]);
+  return place;
+}
+
+bool MapMatter::is_good(std::size_t i) const {
+  return is_finite_position(position.data() + 3 * i) && is_smoothing_length(smoothing_length[i]);
+}
+
+MapGeometry decide_geometry(const Scene& scene, const SnapshotInfo& snapshot,
+                            const MapMatter& matter) {
+  MapGeometry geometry;
+  geometry.width = scene.image.width;
+  geometry.height = scene.image.height;
+  geometry.box = side_of_box(scene, snapshot);
+  set_axes(scene, geometry);
+  geometry.center = choose_center(scene, matter, geometry);
+  const double width = choose_width(scene, matter, geometry);
+  geometry.pixel = width / geometry.width;
+  geometry.depth = scene.map.depth;
+  if (!geometry.depth && geometry.box > 0) geometry.depth = geometry.box;
+  const double longest =
+      std::max({width, geometry.pixel * geometry.height, geometry.depth.value_or(0)});
+  if (geometry.box > 0 && longest > most_boxes * geometry.box) {
+    throw UsageError(
+        fmt::format("key map.width: the map reaches over {:.0f} times the periodic box, expected "
+                    "at most {:.0f}; "
+                    "make map.width or map.depth smaller, or set map.periodic to false",
+                    longest / geometry.box, most_boxes));
+  }
+  return geometry;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// The positions, sizes and masses that a map's place may follow from. Masses may be absent.
+struct MapMatter {
+  std::size_t count = 0;
+  Vec3 origin = {{0, 0, 0}};
+  Column position, smoothing_length, mass;
+  double size_factor = 1;
+
+  Vec3 position_of(std::size_t i) const;
+  double size_of(std::size_t i) const {
+    return size_factor * static_cast<double>(smoothing_length[i]);
+  }
+  // Whether a particle has a place and a size.
+  bool is_good(std::size_t i) const;
+};
+
+// The map's place in the data.
+struct MapGeometry {
+  int width = 0, height = 0;  // pixels
+  double pixel = 0;           // its side, in lengths
+  Vec3 center;
+  Vec3 right, up, forward;      // unit vectors
+  std::optional<double> depth;  // no limit where unset
+  double box = 0;               // 0: not periodic
+};
+
+// Throws UsageError for what cannot be: a camera that is missing, a width that does not follow.
+MapGeometry decide_geometry(const Scene& scene, const SnapshotInfo& snapshot,
+                            const MapMatter& matter);
+
+}  // namespace splotchcl

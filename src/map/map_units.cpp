@@ -1,0 +1,151 @@
+#include "map/map_units.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "load/derived_fields.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// What the snapshot, and the settings where it is silent, say of units.
+class DataUnits {
+ public:
+  DataUnits(const MapSettings& settings, const SnapshotInfo& snapshot, int type)
+      : settings_(settings), type_(*snapshot.find_type(type)), factors_(unit_factors(snapshot)) {}
+
+  NamedUnits length() const {
+    return named(settings_.length_unit, "map.length_unit", unit_of("position"), "code_length");
+  }
+  NamedUnits mass() const {
+    return named(settings_.mass_unit, "map.mass_unit", unit_of("mass"), "code_mass");
+  }
+  NamedUnits velocity() const {
+    return named(settings_.velocity_unit, "map.velocity_unit", unit_of("velocity"),
+                 "code_velocity");
+  }
+
+  NamedUnits field(const std::string& name) const {
+    const std::string canonical = canonical_field_name(name);
+    if (name == "line_of_sight_velocity" || name == "speed") return velocity();
+    if (const FieldInfo* const info = find_field(type_, name)) return of_field(*info);
+    if (canonical == "temperature") return {"K", true, parse_unit("K", factors_, "unit")};
+    if (canonical == "mass") return mass();
+    if (canonical == "smoothing_length" || name == "radius") return length();
+    if (canonical == "density") return product(mass(), length(), -3);
+    if (const FieldInfo* const vectors = find_axis(type_, name).first) return of_field(*vectors);
+    return {"code_" + name, false, {}};
+  }
+
+  // a * b^exponent
+  static NamedUnits product(const NamedUnits& a, const NamedUnits& b, int exponent) {
+    const auto wrapped = [](const std::string& unit) {
+      return unit.find_first_of(" /*^") == std::string::npos ? unit : "(" + unit + ")";
+    };
+    const std::string power_of_b =
+        wrapped(b.name) + (std::abs(exponent) == 1 ? "" : fmt::format("^{}", std::abs(exponent)));
+    return {wrapped(a.name) + (exponent < 0 ? "/" : " ") + power_of_b, a.is_known && b.is_known,
+            a.unit * power(b.unit, exponent)};
+  }
+
+  const UnitFactors& factors() const { return factors_; }
+
+ private:
+  std::string unit_of(const char* field) const {
+    const FieldInfo* const info = find_field(type_, field);
+    return info == nullptr ? "" : info->unit;
+  }
+  NamedUnits of_field(const FieldInfo& info) const {
+    if (info.name == "position" || info.name == "smoothing_length") return length();
+    if (info.name == "mass") return mass();
+    if (info.name == "velocity") return velocity();
+    if (info.name == "density" && info.unit.empty()) return product(mass(), length(), -3);
+    return named("", "unit of " + info.name, info.unit, "code_" + info.name);
+  }
+  // What the user says counts before what the file says: it may be wrong.
+  NamedUnits named(const std::string& said, const std::string& key, const std::string& stored,
+                   const std::string& code_name) const {
+    if (!said.empty()) return {said, true, parse_unit(said, factors_, "key " + key)};
+    if (stored.empty()) return {code_name, false, {}};
+    // Files may call their units as they like: what we do not know is as good as none.
+    try {
+      return {stored, true, parse_unit(stored, factors_, key)};
+    } catch (const UsageError&) {
+      return {stored, false, {}};
+    }
+  }
+
+  const MapSettings& settings_;
+  const ParticleTypeInfo& type_;
+  UnitFactors factors_;
+};
+
+NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuantity::Kind kind) {
+  switch (kind) {
+    case MapQuantity::Kind::counts:
+      return {"particles/pixel", false, {}};
+    case MapQuantity::Kind::column:
+      return DataUnits::product(data.mass(), data.length(), settings.slice ? -3 : -2);
+    case MapQuantity::Kind::integral:
+      return DataUnits::product(data.field(settings.quantity), data.length(), 1);
+    case MapQuantity::Kind::mean:
+    case MapQuantity::Kind::dispersion:
+      break;
+  }
+  return data.field(settings.quantity);
+}
+
+[[noreturn]] void refuse_unknown(const std::string& wanted, const NamedUnits& found) {
+  const bool is_count = found.name == "particles/pixel";
+  throw UsageError(fmt::format(
+      "key map.unit: found \"{}\", but the map is in {}, {}", wanted, found.name,
+      is_count ? "expected no unit for counts"
+               : "since the snapshot does not say its units, expected them; set map.length_unit, "
+                 "map.mass_unit and map.velocity_unit, as far as the quantity needs them"));
+}
+
+// Lengths without a and h, by a name that other programs know.
+void set_lengths(const DataUnits& data, MapUnits& units) {
+  const NamedUnits length = data.length();
+  units.length_name = length.name;
+  const Unit centimeter = parse_unit("cm", {}, "unit");
+  if (!length.is_known || !same_dimension(length.unit, centimeter)) return;
+  units.length_name = "cm";
+  for (const char* const name : {"Mpc", "kpc", "pc", "AU", "km"}) {
+    const Unit known = parse_unit(name, {}, "unit");
+    const double factor = length.unit.in_cgs / known.in_cgs;
+    if (factor < 0.05) continue;
+    units.length_name = name;
+    units.length_factor = factor;
+    return;
+  }
+  units.length_factor = length.unit.in_cgs;
+}
+
+}  // namespace
+
+MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
+                      MapQuantity::Kind kind) {
+  const DataUnits data(settings, snapshot, type);
+  const NamedUnits found = unit_of(settings, data, kind);
+  MapUnits units;
+  units.name = found.name;
+  set_lengths(data, units);
+  if (settings.unit.empty() || settings.unit == found.name) return units;
+  if (!found.is_known) refuse_unknown(settings.unit, found);
+  const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
+  if (!same_dimension(wanted, found.unit)) {
+    throw UsageError(fmt::format(
+        "key map.unit: found \"{}\", expected a unit of the same dimension as the map's, {}",
+        settings.unit, found.name));
+  }
+  units.name = settings.unit;
+  units.factor = found.unit.in_cgs / wanted.in_cgs;
+  return units;
+}
+
+}  // namespace splotchcl

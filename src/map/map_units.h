@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "map/quantity.h"
+#include "map/unit.h"
+#include "splotchcl/map_settings.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// A unit as it is called, and what it is. Where it is not known its name is that of code units.
+struct NamedUnits {
+  std::string name;
+  bool is_known = false;
+  Unit unit;
+};
+
+// The units of a map's values and of its lengths.
+struct MapUnits {
+  std::string name;   // of the values
+  double factor = 1;  // from the snapshot's units to these
+  std::string length_name;
+  double length_factor = 1;
+};
+
+// From the first of the types, which must be there. Throws UsageError for a unit that is none, that
+// has another dimension, or that is asked for where the snapshot's is not known.
+MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
+                      MapQuantity::Kind kind);
+
+}  // namespace splotchcl

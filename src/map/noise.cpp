@@ -1,0 +1,36 @@
+#include "map/noise.h"
+
+#include <cmath>
+
+#include "scene/constants.h"
+
+namespace splotchcl {
+
+// The square of a Gaussian is one of sigma / sqrt(2): with s^2 = sigma^2 + 1 / (2 pi) in pixels a
+// particle of mass m adds m^2 / (2 pi s^2), which for one far below a pixel is m^2 in the pixel
+// that it lies in.
+std::vector<float> draw_effective_particles(const PlacedParticles& placed,
+                                            const WeightedValues& weighted,
+                                            const SumPicture& picture, const DrawFrame& draw) {
+  const std::size_t count = placed.count();
+  std::vector<float> size(count), weight(count), factors(3 * count, 0.0F);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sigma = picture.kernel_width * static_cast<double>(placed.size[i]);
+    const double square = sigma * sigma + 1 / (2 * pi);
+    const auto mass = static_cast<double>(weighted.weights()[i]);
+    size[i] = static_cast<float>(std::sqrt(square / 2) / picture.kernel_width);
+    weight[i] = static_cast<float>(mass * mass / (2 * pi * square));
+    factors[3 * i] = 1;
+  }
+  const double white = weighted.white() * weighted.white();
+  const PixelSums sums =
+      draw_sums(placed, size, {std::move(weight), std::move(factors), white}, picture, draw);
+  std::vector<float> effective(sums[0].size(), 0.0F);
+  for (std::size_t i = 0; i < effective.size(); ++i) {
+    const double sum = weighted.weight_sums()[i];
+    if (sums[0][i] > 0) effective[i] = static_cast<float>(sum * sum / sums[0][i]);
+  }
+  return effective;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "map/placed_particles.h"
+#include "map/sums.h"
+#include "map/weighted_values.h"
+
+namespace splotchcl {
+
+// (sum w)^2 / sum w^2 per pixel, with w what each particle adds there: how many particles of equal
+// weight would be as noisy. 0 where there is none. `weighted` has been drawn.
+std::vector<float> draw_effective_particles(const PlacedParticles& placed,
+                                            const WeightedValues& weighted,
+                                            const SumPicture& picture, const DrawFrame& draw);
+
+}  // namespace splotchcl

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "map/map_files.h"
+
+namespace splotchcl {
+
+std::vector<float> upside_down(const std::vector<float>& values, int width) {
+  const auto row = static_cast<std::size_t>(width);
+  std::vector<float> turned;
+  turned.reserve(values.size());
+  for (std::size_t end = values.size(); end > 0; end -= row) {
+    const float* const first = values.data() + (end - row);
+    turned.insert(turned.end(), first, first + row);
+  }
+  return turned;
+}
+
+// Version 1.0 of NumPy's format: the header is padded so that the values begin at a multiple of 64
+// bytes.
+std::vector<unsigned char> encode_npy(const Map& map) {
+  const bool has_two = !map.effective_particles.empty();
+  std::string header =
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}, {}), }}",
+                  has_two ? "2, " : "", map.height, map.width);
+  constexpr std::size_t start = 10, alignment = 64;
+  while ((start + header.size() + 1) % alignment != 0)
+    header += ' ';
+  header += '\n';
+
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size() & 0xff);
+  bytes += static_cast<char>(header.size() >> 8);
+  bytes += header;
+  std::vector<float> values = upside_down(map.values, map.width);
+  const std::vector<float> second = upside_down(map.effective_particles, map.width);
+  values.insert(values.end(), second.begin(), second.end());
+  std::vector<unsigned char> file(bytes.size() + values.size() * sizeof(float));
+  std::memcpy(file.data(), bytes.data(), bytes.size());
+  std::memcpy(file.data() + bytes.size(), values.data(), values.size() * sizeof(float));
+  return file;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,106 @@
+#include "map/quantity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr const char* quantity_key = "map.quantity";
+
+bool is_column(const MapSettings& settings) {
+  return settings.quantity == "surface_density" || settings.quantity == "counts";
+}
+
+Column volumes(const ComponentFields& fields, std::size_t count) {
+  const Column mass = fields.masses();
+  const Column density = fields.scalars("density", "map.weight");
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] = mass[i] / density[i];
+  return Column::owning(std::move(values));
+}
+
+// Positive for what moves away from who looks at the map.
+Column velocities_along(const Vec3& forward, const ComponentFields& fields, std::size_t count) {
+  const Column velocity = fields.vectors("velocity", quantity_key);
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double along = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      along += forward.a[axis] * static_cast<double>(velocity[3 * i + axis]);
+    values[i] = static_cast<float>(along);
+  }
+  return Column::owning(std::move(values));
+}
+
+Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
+  if (name == "mass") return fields.masses();
+  if (name == "volume") return volumes(fields, count);
+  Column weight = fields.scalars(name, "map.weight");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(weight[i] < 0)) continue;
+    throw DataError(fmt::format(
+        "key map.weight: found {} in the field \"{}\", expected weights >= 0", weight[i], name));
+  }
+  return weight;
+}
+
+Column values(const std::string& name, const MapGeometry& geometry, const ComponentFields& fields,
+              std::size_t count) {
+  if (name == "line_of_sight_velocity") return velocities_along(geometry.forward, fields, count);
+  return fields.scalars(name, quantity_key);
+}
+
+MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields) {
+  if (settings.quantity == "counts") {
+    return {MapQuantity::Kind::counts, Column::uniform(1), {}, "particles per pixel"};
+  }
+  const char* const what = settings.slice ? "density in a plane" : "surface density";
+  return {MapQuantity::Kind::column, fields.masses(), {}, what};
+}
+
+}  // namespace
+
+void check_quantity(const MapSettings& settings) {
+  if (settings.slice && settings.quantity == "counts") {
+    throw UsageError(
+        "key map.slice: found true beside map.quantity = \"counts\", expected another quantity: a "
+        "plane holds no particles");
+  }
+  if (settings.slice && settings.statistic == MapStatistic::integral) {
+    throw UsageError(
+        "key map.slice: found true beside map.statistic = \"integral\", expected \"mean\": in a "
+        "plane there is nothing to integrate along");
+  }
+  if (is_column(settings) && settings.statistic != MapStatistic::mean) {
+    throw UsageError(fmt::format(
+        "key map.statistic: found one for map.quantity = \"{}\", which is a sum, expected none; "
+        "name a field as the quantity",
+        settings.quantity));
+  }
+}
+
+MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
+                          const ComponentFields& fields, std::size_t count) {
+  if (is_column(settings)) return column_of(settings, fields);
+  const Column value = values(settings.quantity, geometry, fields, count);
+  if (settings.statistic == MapStatistic::integral) {
+    return {MapQuantity::Kind::integral, volumes(fields, count), value,
+            fmt::format("integral of {} along the line of sight", settings.quantity)};
+  }
+  const bool is_mean = settings.statistic == MapStatistic::mean;
+  // A slice of a field is its value in the plane: space counts there, not mass.
+  const std::string weight =
+      settings.weight.empty() ? (settings.slice ? "volume" : "mass") : settings.weight;
+  return {is_mean ? MapQuantity::Kind::mean : MapQuantity::Kind::dispersion,
+          weights(weight, fields, count), value,
+          fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion",
+                      settings.quantity, weight, settings.slice ? ", in a plane" : "")};
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "load/component_fields.h"
+#include "map/geometry.h"
+#include "splotchcl/map_settings.h"
+
+namespace splotchcl {
+
+// What is summed for a map: for each particle of the matter a weight, and a value.
+struct MapQuantity {
+  enum class Kind { column, counts, mean, dispersion, integral };
+  Kind kind = Kind::column;
+  Column weight;  // >= 0: mass, volume, 1, or a field
+  Column value;   // of mean, dispersion and integral
+  std::string description;
+};
+
+// Reads no particles: refuses settings that contradict each other.
+void check_quantity(const MapSettings& settings);
+
+// Throws UsageError for fields that the particles do not have, DataError for weights below 0.
+MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
+                          const ComponentFields& fields, std::size_t count);
+
+}  // namespace splotchcl

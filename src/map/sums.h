@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "map/placed_particles.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/views.h"
+
+namespace splotchcl {
+
+// Sums over particles, pixel by pixel, as the red, green and blue of one frame that nothing
+// absorbs: they share their splats.
+struct SumRequest {
+  // Of each placed particle, >= 0: what its kernel spreads over the picture.
+  std::vector<float> weight;
+  // Three factors >= 0 of each placed particle, one for each sum.
+  std::vector<float> factors;
+  // The weight per pixel that counts as the display's white, to which the tolerance is relative.
+  double white = 1;
+};
+
+// Per pixel, row 0 at the top, in the weights' unit.
+using PixelSums = std::array<std::vector<double>, 3>;
+
+struct SumPicture {
+  int width = 0, height = 0;
+  double kernel_width = 1;  // sigma = kernel_width * h
+  double tolerance = 1e-3;
+};
+
+// `size` is h of each placed particle in pixels.
+PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& size,
+                    SumRequest request, const SumPicture& picture, const DrawFrame& draw);
+
+}  // namespace splotchcl

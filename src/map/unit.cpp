@@ -1,0 +1,197 @@
+#include "map/unit.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/nearest_name.h"
+#include "common/words.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct NamedUnit {
+  const char* name;
+  Unit unit;
+};
+
+constexpr std::array<double, 4> length = {1, 0, 0, 0}, mass = {0, 1, 0, 0}, duration = {0, 0, 1, 0},
+                                temperature = {0, 0, 0, 1}, energy = {2, 1, -2, 0};
+
+// pc and au: IAU 2012 B2 and 2015 B2. M_sun: GM_sun of IAU 2015 B3 over G of CODATA 2018. R_sun:
+// IAU 2015 B3. m_p, k_B, eV: CODATA 2018. yr: the Julian year.
+const std::vector<NamedUnit>& known_units() {
+  static const std::vector<NamedUnit> units = {
+      {"cm", {1, length}},
+      {"m", {1e2, length}},
+      {"km", {1e5, length}},
+      {"au", {1.495978707e13, length}},
+      {"AU", {1.495978707e13, length}},
+      {"pc", {3.0856775814913673e18, length}},
+      {"kpc", {3.0856775814913673e21, length}},
+      {"Mpc", {3.0856775814913673e24, length}},
+      {"Gpc", {3.0856775814913673e27, length}},
+      {"R_sun", {6.957e10, length}},
+      {"Rsun", {6.957e10, length}},
+      {"g", {1, mass}},
+      {"kg", {1e3, mass}},
+      {"Msun", {1.988409870698051e33, mass}},
+      {"M_sun", {1.988409870698051e33, mass}},
+      {"solMass", {1.988409870698051e33, mass}},
+      {"m_p", {1.67262192369e-24, mass}},
+      {"s", {1, duration}},
+      {"yr", {3.15576e7, duration}},
+      {"Myr", {3.15576e13, duration}},
+      {"Gyr", {3.15576e16, duration}},
+      {"K", {1, temperature}},
+      {"erg", {1, energy}},
+      {"J", {1e7, energy}},
+      {"eV", {1.602176634e-12, energy}},
+      {"keV", {1.602176634e-9, energy}},
+  };
+  return units;
+}
+
+// Reads the text from left to right.
+class Parser {
+ public:
+  Parser(const std::string& text, const UnitFactors& factors, std::string what)
+      : text_(text), factors_(factors), what_(std::move(what)) {}
+
+  Unit parse() {
+    const Unit unit = product();
+    if (next_ != text_.size()) refuse(fmt::format("'{}'", text_.substr(next_)));
+    return unit;
+  }
+
+ private:
+  void skip_blanks() {
+    while (next_ < text_.size() && (text_[next_] == ' ' || text_[next_] == '*'))
+      ++next_;
+  }
+  char peek() {
+    skip_blanks();
+    return next_ < text_.size() ? text_[next_] : '\0';
+  }
+
+  Unit product() {
+    Unit unit = factor();
+    for (char c = peek(); c != '\0' && c != ')'; c = peek()) {
+      const bool divides = c == '/';
+      if (divides) ++next_;
+      const Unit next = factor();
+      unit = unit * (divides ? power(next, -1) : next);
+    }
+    return unit;
+  }
+
+  Unit factor() {
+    Unit unit = base();
+    if (next_ < text_.size() && text_[next_] == '^') {
+      ++next_;
+      unit = power(unit, number());
+    }
+    return unit;
+  }
+
+  Unit base() {
+    const char c = peek();
+    if (c == '(') {
+      ++next_;
+      const Unit unit = product();
+      if (peek() != ')') refuse("no closing parenthesis");
+      ++next_;
+      return unit;
+    }
+    if ((c >= '0' && c <= '9') || c == '.') return {number(), {}};
+    return named();
+  }
+
+  double number() {
+    const std::string rest = text_.substr(next_, text_.find_first_of(" */()^", next_) - next_);
+    const std::optional<double> value = parse_number(rest);
+    if (!value || !std::isfinite(*value)) refuse(fmt::format("'{}' for a number", rest));
+    next_ += rest.size();
+    return *value;
+  }
+
+  Unit named() {
+    const std::size_t end = std::min(text_.find_first_of(" */()^", next_), text_.size());
+    const std::string name = text_.substr(next_, end - next_);
+    if (name.empty()) refuse("no unit where one should be");
+    next_ = end;
+    if (name == "a") return cosmological(name, factors_.scale_factor);
+    if (name == "h") return cosmological(name, factors_.hubble);
+    std::vector<std::string> names;
+    for (const NamedUnit& known : known_units()) {
+      if (name == known.name) return known.unit;
+      names.emplace_back(known.name);
+    }
+    throw UsageError(fmt::format("{}: found '{}' in \"{}\", expected units among {}, a, h{}", what_,
+                                 name, text_, fmt::join(names, ", "),
+                                 did_you_mean(nearest_name(name, names))));
+  }
+
+  Unit cosmological(const std::string& name, double value) const {
+    if (value > 0) return {value, {}};
+    throw UsageError(fmt::format(
+        "{}: found {} in \"{}\", but the snapshot does not say its value, expected a unit without",
+        what_, name, text_));
+  }
+
+  [[noreturn]] void refuse(const std::string& found) const {
+    throw UsageError(fmt::format(
+        "{}: found {} in \"{}\", expected numbers and units with their powers, such as Msun/pc^2",
+        what_, found, text_));
+  }
+
+  const std::string& text_;
+  const UnitFactors& factors_;
+  std::string what_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Unit operator*(const Unit& a, const Unit& b) {
+  Unit product = {a.in_cgs * b.in_cgs, a.powers};
+  for (std::size_t i = 0; i < product.powers.size(); ++i)
+    product.powers[i] += b.powers[i];
+  return product;
+}
+
+Unit power(const Unit& unit, double exponent) {
+  Unit result = {std::pow(unit.in_cgs, exponent), unit.powers};
+  for (double& p : result.powers)
+    p *= exponent;
+  return result;
+}
+
+bool same_dimension(const Unit& a, const Unit& b) {
+  for (std::size_t i = 0; i < a.powers.size(); ++i) {
+    if (std::abs(a.powers[i] - b.powers[i]) > 1e-6) return false;
+  }
+  return true;
+}
+
+UnitFactors unit_factors(const SnapshotInfo& snapshot) {
+  UnitFactors factors;
+  if (snapshot.cosmology) {
+    factors.scale_factor = snapshot.cosmology->scale_factor;
+  } else if (snapshot.redshift) {
+    factors.scale_factor = 1 / (1 + *snapshot.redshift);
+  }
+  factors.hubble = snapshot.hubble_parameter.value_or(0);
+  return factors;
+}
+
+Unit parse_unit(const std::string& text, const UnitFactors& factors, const std::string& what) {
+  return Parser(text, factors, what).parse();
+}
+
+}  // namespace splotchcl

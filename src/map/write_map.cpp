@@ -1,0 +1,60 @@
+#include "common/unfinished_file.h"
+#include "common/words.h"
+#include "map/map_files.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl {
+namespace {
+
+bool is_fits(const std::string& ending) {
+  return ending == ".fits" || ending == ".fit";
+}
+bool is_hdf5(const std::string& ending) {
+  return ending == ".hdf5" || ending == ".h5";
+}
+
+void write_bytes(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
+  UnfinishedFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.finish();
+}
+
+}  // namespace
+
+void check_map_path(const std::filesystem::path& path) {
+  const std::string ending = lower_ending(path);
+  if (is_fits(ending) || is_hdf5(ending) || ending == ".npy") {
+    check_output_path(path);
+  } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
+    throw UsageError(path.string() +
+                     ": holds light, not a map; expected .fits, .hdf5, .npy or .exr for the "
+                     "numbers, .png or another picture of 8 bits for a figure");
+  } else {
+    check_image_path(path);
+  }
+}
+
+void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
+               const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata) {
+  const std::string ending = lower_ending(path);
+  if (is_fits(ending)) {
+    write_bytes(path, encode_fits(path, map, metadata));
+  } else if (is_hdf5(ending)) {
+    UnfinishedFile file(path);
+    write_hdf5(file.temporary_path(), path, map, metadata);
+    file.finish();
+  } else if (ending == ".npy") {
+    write_bytes(path, encode_npy(map));
+  } else if (ending == ".exr") {
+    ImageFileOptions options;
+    options.metadata = metadata;
+    options.metadata["splotchcl:quantity"] = map.quantity;
+    options.metadata["splotchcl:unit"] = map.unit;
+    write_image(path, numbers_as_image(map), options);
+  } else {
+    write_image(path, draw_figure(map, scene, snapshot));
+  }
+}
+
+}  // namespace splotchcl

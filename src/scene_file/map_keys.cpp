@@ -1,0 +1,113 @@
+#include "scene_file/key_builder.h"
+
+namespace splotchcl::scene_file {
+namespace {
+
+// A text that says nothing where it is empty.
+Key text_key(const std::string& name, std::string MapSettings::*member, const Text& meaning) {
+  return key<MapSettings, std::string>(
+      "map." + name, text(),
+      [member](const MapSettings& map) {
+        return (map.*member).empty() ? std::nullopt : std::optional(map.*member);
+      },
+      [member](MapSettings& map, const std::string& value) { map.*member = value; }, meaning);
+}
+
+Keys quantity_keys() {
+  return {
+      text_key("component", &MapSettings::component,
+               {"The component whose particles the map shows, by its name.", "", "the first"}),
+      text_key("quantity", &MapSettings::quantity,
+               {"`surface_density`, `counts`, `line_of_sight_velocity`, or a field."}),
+      key("map.statistic",
+          choice<MapStatistic>({{"mean", MapStatistic::mean},
+                                {"dispersion", MapStatistic::dispersion},
+                                {"integral", MapStatistic::integral}}),
+          &MapSettings::statistic,
+          {"What is done with a field along each line of sight: its weighted mean, its standard "
+           "deviation about that mean, or its integral over the length."}),
+      text_key("weight", &MapSettings::weight,
+               {"The weights of means: `mass`, `volume`, or a field of values >= 0.", "",
+                "`\"mass\"`; of a slice `\"volume\"`"}),
+      key("map.slice", boolean(), &MapSettings::slice,
+          {"In the plane through the center, instead of along the line of sight."}),
+  };
+}
+
+Keys view_keys() {
+  return {
+      key("map.view",
+          choice<MapView>({{"xy", MapView::xy},
+                           {"xz", MapView::xz},
+                           {"yz", MapView::yz},
+                           {"camera", MapView::camera}}),
+          &MapSettings::view,
+          {"The axes to the right and upwards; `camera`: as the scene's camera looks."}),
+      key("map.center", vector(), &MapSettings::center,
+          {"The middle of the map.", "length", "what `center_at` says"}),
+      key("map.center_at",
+          choice<MapCenter>({{"box", MapCenter::box},
+                             {"mass", MapCenter::mass},
+                             {"densest", MapCenter::densest}}),
+          &MapSettings::center_at,
+          {"Without a `center`: the middle of the box (without one, of the particles), the center "
+           "of mass, or the densest particle. With the view `camera`, `box` is the point that it "
+           "looks at."}),
+      key("map.width", number(more_than(0)), &MapSettings::width,
+          {"Between the left and right edges.", "length", "all of the box, or of the particles"}),
+      key("map.depth", number(more_than(0)), &MapSettings::depth,
+          {"Particles whose centers lie farther than half of it from the center along the line of "
+           "sight are left out.",
+           "length", "one side of a periodic box; otherwise no limit"}),
+      key("map.periodic", boolean(), &MapSettings::periodic,
+          {"Whether every image of a particle in the periodic box is drawn that the map shows.", "",
+           "whether the snapshot has a box"}),
+  };
+}
+
+Keys number_keys() {
+  return {
+      text_key("unit", &MapSettings::unit,
+               {"The map's unit, such as `Msun/pc^2`; `a` and `h` are the snapshot's.", "",
+                "what the snapshot's units give"}),
+      text_key("length_unit", &MapSettings::length_unit,
+               {"The snapshot's unit of length, where it does not say it: `a kpc/h`.", "",
+                "the snapshot's"}),
+      text_key("mass_unit", &MapSettings::mass_unit,
+               {"Likewise: `1e10 Msun/h`.", "", "the snapshot's"}),
+      text_key("velocity_unit", &MapSettings::velocity_unit,
+               {"Likewise: `km/s`.", "", "the snapshot's"}),
+      key("map.floor", number(between(1e-12, 1)), &MapSettings::floor,
+          {"Where the column of the weights is below this part of its mean, a mean is not a "
+           "number. The tolerance is relative to this column where there is less."}),
+      key("map.noise", boolean(), &MapSettings::noise,
+          {"A second plane: the effective number of particles."}),
+  };
+}
+
+Keys figure_keys() {
+  return {
+      key("map.scaling",
+          choice<Scaling>(
+              {{"linear", Scaling::linear}, {"log", Scaling::log}, {"asinh", Scaling::asinh}}),
+          &MapSettings::scaling, {"Of figures: from values to the palette."}),
+      key("map.min", number(), &MapSettings::minimum,
+          {"The value of the palette's first color.", "the map's", "a percentile of the map"}),
+      key("map.max", number(), &MapSettings::maximum,
+          {"The value of its last color.", "the map's", "a percentile of the map"}),
+      key("map.percentiles", percentiles(), &MapSettings::percentiles,
+          {"Which percentiles of the map stand for a missing min or max.", "per cent"}),
+      text_key("palette", &MapSettings::palette, {"The name of a palette, or a file."}),
+  };
+}
+
+}  // namespace
+
+Keys map_keys() {
+  Keys keys;
+  for (const Keys& part : {quantity_keys(), view_keys(), number_keys(), figure_keys()})
+    append(keys, part);
+  return written_if_set(std::move(keys));
+}
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,62 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cli/program.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A small universe, 3400 gas and 600 star particles.
+class MapCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    ASSERT_EQ(splotchcl_in(folder_, "generate universe -o u --particles 4000").exit_code, 0);
+  }
+  ProgramResult map(const std::string& arguments) {
+    return splotchcl_in(folder_, "map " + arguments);
+  }
+  bool exists(const char* name) const { return std::filesystem::exists(folder_ / name); }
+  void expect_wrong_call(const std::string& arguments, const std::string& part_of_message) {
+    const ProgramResult result = map(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, AllOf(StartsWith("splotchcl: "), HasSubstr(part_of_message)));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapCommand, WritesOneMapInSeveralFormats) {
+  const ProgramResult result =
+      map("u --quantity temperature --unit K --size 400x300 -o t.fits -o t.npy -o t.png -o t.h5");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(exists("t.fits") && exists("t.npy") && exists("t.png") && exists("t.h5"));
+}
+
+TEST_F(MapCommand, TakesItsSettingsFromTheSceneToo) {
+  std::ofstream(folder_ / "s.toml") << "snapshot = 'u'\n[map]\nquantity = 'temprature'\n"
+                                       "[[component]]\nname = 'gas'\ntypes = 'gas'\n";
+  expect_wrong_call("s.toml -o t.fits", "temprature");
+}
+
+TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
+  EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").exit_code, 0);
+  expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
+}
+
+TEST_F(MapCommand, RefusesWhatItCannotWriteBeforeItReads) {
+  expect_wrong_call("u -o t.tif", "holds light");
+}
+
+TEST_F(MapCommand, NeverGuessesUnits) {
+  expect_wrong_call("u --unit Msun/pc^2 --size 64x64 -o t.npy", "map.length_unit");
+}
+
+}  // namespace
+}  // namespace splotchcl::testing

@@ -1,0 +1,118 @@
+#include "map/map_files.h"
+
+#include <fitsio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "map/gas.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using test::map_scene;
+
+// 3 x 2 pixels, 1 to 6 from the top left.
+Map small_map() {
+  Map map;
+  map.width = 3;
+  map.height = 2;
+  map.values = {1, 2, 3, 4, 5, std::nanf("")};
+  map.effective_particles = {10, 20, 30, 40, 50, 0};
+  map.quantity = "surface density";
+  map.unit = "Msun/pc^2";
+  map.view = "xy";
+  map.right_name = "x";
+  map.up_name = "y";
+  map.length_unit = "kpc";
+  map.pixel = 0.5;
+  map.center_right = 7;
+  map.center_up = -2;
+  return map;
+}
+
+void write(const std::filesystem::path& path, const Map& map) {
+  write_map(path, map, map_scene(), {}, {{"splotchcl:scene", "[map]\nview = \"xy\""}});
+}
+
+TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
+  const testing::TemporaryFolder folder;
+  write(folder / "a.fits", small_map());
+  fitsfile* file = nullptr;
+  int status = 0;
+  fits_open_diskfile(&file, (folder / "a.fits").c_str(), READONLY, &status);
+  std::vector<float> values(6);
+  char unit[FLEN_VALUE] = "", axis[FLEN_VALUE] = "";
+  double place = 0, pixel = 0;
+  fits_read_img(file, TFLOAT, 1, 6, nullptr, values.data(), nullptr, &status);
+  fits_read_key(file, TSTRING, "BUNIT", unit, nullptr, &status);
+  fits_read_key(file, TSTRING, "CUNIT1", axis, nullptr, &status);
+  fits_read_key(file, TDOUBLE, "CRVAL2", &place, nullptr, &status);
+  fits_read_key(file, TDOUBLE, "CRPIX1", &pixel, nullptr, &status);
+  int hdus = 0;
+  fits_get_num_hdus(file, &hdus, &status);
+  EXPECT_EQ(status, 0);
+  fits_close_file(file, &status);
+  EXPECT_EQ(values[0], 4);
+  EXPECT_EQ(values[3], 1);
+  EXPECT_TRUE(std::isnan(values[2]));
+  EXPECT_STREQ(unit, "solMass/pc^2");
+  EXPECT_STREQ(axis, "kpc");
+  EXPECT_EQ(place, -2);
+  EXPECT_EQ(pixel, 2);
+  EXPECT_EQ(hdus, 2);
+}
+
+TEST(MapFiles, HoldNumPyArraysWithTheLowestRowFirst) {
+  const std::vector<unsigned char> bytes = encode_npy(small_map());
+  const std::string text(bytes.begin(), bytes.end());
+  EXPECT_EQ(text.substr(1, 5), "NUMPY");
+  EXPECT_THAT(text, ::testing::HasSubstr("'shape': (2, 2, 3)"));
+  const std::size_t start = 10 + static_cast<std::size_t>(bytes[8]) + 256U * bytes[9];
+  EXPECT_EQ(start % 64, 0U);
+  ASSERT_EQ(bytes.size(), start + 12 * sizeof(float));
+  float first = 0, seventh = 0;
+  std::memcpy(&first, bytes.data() + start, sizeof first);
+  std::memcpy(&seventh, bytes.data() + start + 6 * sizeof(float), sizeof seventh);
+  EXPECT_EQ(first, 4);
+  EXPECT_EQ(seventh, 40);
+}
+
+TEST(MapFiles, HoldHdf5AndPicturesToo) {
+  const testing::TemporaryFolder folder;
+  Map map = small_map();
+  write(folder / "a.hdf5", map);
+  map.values[5] = 6;
+  write(folder / "a.exr", map);
+  EXPECT_GT(std::filesystem::file_size(folder / "a.hdf5"), 48U);
+  EXPECT_EQ(read_image(folder / "a.exr").at(1, 0)[0], 2);
+  EXPECT_EQ(read_image(folder / "a.exr").at(1, 0)[1], 20);
+}
+
+TEST(MapFiles, RefuseEndingsThatHoldLight) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(check_map_path(folder / "a.tif"), UsageError);
+  EXPECT_THROW(check_map_path(folder / "a.unknown"), UsageError);
+}
+
+// A map of even values from 1 to 100 by a palette from black to white.
+TEST(MapFigure, ShowsValuesByThePaletteAsItsBarDoes) {
+  Map map = small_map();
+  map.width = 600;
+  map.height = 400;
+  map.values.assign(600 * 400, 10);
+  map.effective_particles.clear();
+  Scene scene = map_scene();
+  scene.map.palette = "gray";
+  scene.map.minimum = 1;
+  scene.map.maximum = 100;
+  const Image figure = draw_figure(map, scene, {});
+  EXPECT_NEAR(figure.at(200, 200)[0], 0.5F, 1e-3F);  // the middle of two decades
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "map/gas.h"
+#include "map/geometry.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using test::at;
+using test::Gas;
+using test::map_of;
+using test::map_scene;
+
+// Which pixel holds most.
+std::pair<int, int> brightest(const Map& map) {
+  const auto most = std::max_element(map.values.begin(), map.values.end());
+  const int i = static_cast<int>(most - map.values.begin());
+  return {i % map.width, i / map.width};
+}
+
+Gas one_particle(const Vec3& place, float h = 0.5F) {
+  Gas gas;
+  gas.add(place, h, 1, 100);
+  return gas;
+}
+
+double sum(const Map& map) {
+  return std::accumulate(map.values.begin(), map.values.end(), 0.0);
+}
+
+TEST(MapGeometry, ShowsXToTheRightAndYUpwards) {
+  const auto pixel = brightest(map_of(map_scene(), one_particle({{10.5, 5.5, 3.5}}).snapshot()));
+  EXPECT_EQ(pixel, std::make_pair(32 + 10, 24 - 6));
+}
+
+TEST(MapGeometry, ShowsZUpwardsInXzAndYz) {
+  Scene scene = map_scene();
+  scene.map.view = MapView::xz;
+  const auto snapshot = one_particle({{10.5, 5.5, 3.5}}).snapshot();
+  EXPECT_EQ(brightest(map_of(scene, snapshot)), std::make_pair(32 + 10, 24 - 4));
+  scene.map.view = MapView::yz;
+  EXPECT_EQ(brightest(map_of(scene, snapshot)), std::make_pair(32 + 5, 24 - 4));
+}
+
+TEST(MapGeometry, SeesWhatTheCameraSees) {
+  Scene scene = map_scene();
+  scene.map.view = MapView::camera;
+  scene.camera.emplace();
+  scene.camera->position = {{0, 0, 50}};
+  scene.camera->look_at = {{0, 0, 0}};
+  scene.camera->sky = {{0, 1, 0}};
+  scene.camera->projection = Projection::orthographic;
+  scene.map.width.reset();
+  scene.camera->width = 32;
+  const Map map = map_of(scene, one_particle({{10.25, 5.25, 3}}).snapshot());
+  EXPECT_NEAR(map.pixel, 0.5, 1e-12);
+  EXPECT_EQ(brightest(map), std::make_pair(32 + 20, 24 - 11));
+}
+
+TEST(MapGeometry, LeavesOutWhatLiesBeyondTheDepth) {
+  Scene scene = map_scene();
+  scene.map.depth = 6;
+  Gas gas = one_particle({{0.5, 0.5, 2.9}});
+  gas.add({{0.5, 0.5, 3.1}}, 0.5F, 1, 100);
+  EXPECT_NEAR(sum(map_of(scene, gas.snapshot())), 1, 1e-5);
+}
+
+TEST(MapGeometry, DrawsAKernelAcrossTheFaceOfAPeriodicBoxOnBothSides) {
+  Scene scene = map_scene();
+  scene.image.height = 64;
+  scene.map.center.reset();
+  auto snapshot = one_particle({{0, 32, 0}}, 4).snapshot();
+  snapshot.set_box_size(64);
+  const Map map = map_of(scene, snapshot);
+  EXPECT_NEAR(sum(map), 1, 1e-6);
+  EXPECT_NEAR(at(map, 0, 32), at(map, 63, 32), 1e-7);
+  EXPECT_GT(at(map, 0, 32), 0.01F);
+}
+
+TEST(MapGeometry, RepeatsTheBoxWhereTheMapIsWider) {
+  Scene scene = map_scene();
+  scene.image.height = 64;
+  auto snapshot = one_particle({{8, 8, 8}}).snapshot();
+  snapshot.set_box_size(16);
+  scene.map.depth = 32;
+  EXPECT_NEAR(sum(map_of(scene, snapshot)), 4 * 4 * 2, 1e-4);
+}
+
+TEST(MapGeometry, HasTheWholeBoxOnceFromAnyAxis) {
+  Gas gas = test::random_gas(200, 32, 0.5F, 8);
+  auto snapshot = gas.snapshot();
+  snapshot.set_box_size(64);
+  const double mass = std::accumulate(gas.mass.begin(), gas.mass.end(), 0.0);
+  Scene scene = map_scene();
+  scene.image.height = 64;
+  scene.map.center = Vec3{{7, -11, 29}};
+  for (const MapView view : {MapView::xy, MapView::xz, MapView::yz}) {
+    scene.map.view = view;
+    EXPECT_NEAR(sum(map_of(scene, snapshot)) / mass, 1, 1e-6);
+  }
+}
+
+TEST(MapGeometry, FindsTheCenterOfMassAcrossAFace) {
+  Gas gas = one_particle({{63, 32, 32}});
+  gas.add({{1, 32, 32}}, 0.5F, 1, 100);
+  auto snapshot = gas.snapshot();
+  snapshot.set_box_size(64);
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  scene.map.center_at = MapCenter::mass;
+  const double x = map_of(scene, snapshot).center.a[0];
+  EXPECT_NEAR(std::min(x, 64 - x), 0, 1e-4);
+}
+
+TEST(MapGeometry, FindsTheDensestPlace) {
+  Gas gas = test::random_gas(50, 20, 1, 4);
+  gas.add({{3, -4, 5}}, 0.25F, 1, 100);
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  scene.map.center_at = MapCenter::densest;
+  const Map map = map_of(scene, gas.snapshot());
+  EXPECT_NEAR(map.center.a[0], 3, 1e-6);
+  EXPECT_NEAR(map.center.a[1], -4, 1e-6);
+}
+
+TEST(MapGeometry, RefusesAPeriodicMapOfAnUnknownBox) {
+  Scene scene = map_scene();
+  scene.map.periodic = true;
+  EXPECT_THROW(map_of(scene, one_particle({{0, 0, 0}}).snapshot()), UsageError);
+}
+
+}  // namespace
+}  // namespace splotchcl

@@ -1,0 +1,75 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "map/gas.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using test::Gas;
+using test::map_of;
+using test::map_scene;
+using testing::HasSubstr;
+
+Gas one_particle() {
+  Gas gas;
+  gas.add({{0, 0, 0}}, 10, 3, 100);
+  return gas;
+}
+
+std::string refusal(const Scene& scene) {
+  try {
+    map_of(scene, one_particle().snapshot());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MapUnits, AreThoseThatTheSettingsSay) {
+  Scene scene = map_scene();
+  const double in_code =
+      static_cast<double>(test::at(map_of(scene, one_particle().snapshot()), 32, 24));
+  scene.map.length_unit = "kpc";
+  scene.map.mass_unit = "1e10 Msun";
+  scene.map.unit = "Msun/pc^2";
+  const Map map = map_of(scene, one_particle().snapshot());
+  EXPECT_EQ(map.unit, "Msun/pc^2");
+  EXPECT_EQ(map.length_unit, "kpc");
+  EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24)) / in_code, 1e10 / 1e6, 1e-2);
+}
+
+TEST(MapUnits, OfAFieldAreConverted) {
+  Gas gas = one_particle();
+  auto snapshot = gas.snapshot();
+  Scene scene = map_scene();
+  scene.map.quantity = "smoothing_length";
+  scene.map.length_unit = "kpc";
+  scene.map.unit = "pc";
+  EXPECT_NEAR(static_cast<double>(test::at(map_of(scene, snapshot), 32, 24)), 10000, 0.1);
+}
+
+TEST(MapUnits, AreNeverGuessed) {
+  Scene scene = map_scene();
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
+}
+
+TEST(MapUnits, RefuseAnotherDimension) {
+  Scene scene = map_scene();
+  scene.map.length_unit = "kpc";
+  scene.map.mass_unit = "1e10 Msun";
+  scene.map.unit = "K";
+  EXPECT_THAT(refusal(scene), HasSubstr("same dimension"));
+}
+
+TEST(MapUnits, RefuseAUnitForCounts) {
+  Scene scene = map_scene();
+  scene.map.quantity = "counts";
+  scene.map.unit = "K";
+  EXPECT_THAT(refusal(scene), HasSubstr("no unit for counts"));
+}
+
+}  // namespace
+}  // namespace splotchcl
