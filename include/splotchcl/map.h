@@ -34,7 +34,6 @@ struct Map {
   // How exact: each sum over particles is within tolerance * max(sum, floor).
   double tolerance = 0;
   double floor = 0;  // of the column of the weights, in the snapshot's units
-  double total = 0;  // of the quantity over the area, or of the weights of a mean, in those units
   std::uint64_t particles = 0, images = 0, bad_particles = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "cli/commands.h"
@@ -38,19 +37,6 @@ std::string list_of_types(const std::string& text) {
   return "[" + list + "]";
 }
 
-void add_size(const std::string& size, std::vector<std::string>& settings) {
-  int width = 0, height = 0;
-  const char* const end = size.data() + size.size();
-  const auto first = std::from_chars(size.data(), end, width);
-  const bool has_x = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
-  const auto second = has_x ? std::from_chars(first.ptr + 1, end, height) : first;
-  if (!has_x || second.ec != std::errc() || second.ptr != end) {
-    throw UsageError("--size: found '" + size +
-                     "', expected two numbers of pixels such as 1024x768");
-  }
-  settings.push_back(fmt::format("image.size=[{}, {}]", width, height));
-}
-
 // The options as settings of the scene, after those that the user gives.
 std::vector<std::string> settings_of_map(const MapOptions& options) {
   std::vector<std::string> settings = settings_of(options);
@@ -71,7 +57,6 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   if (options.depth) settings.push_back(fmt::format("map.depth={}", *options.depth));
   if (options.slice) settings.emplace_back("map.slice=true");
   if (options.noise) settings.emplace_back("map.noise=true");
-  if (!options.size.empty()) add_size(options.size, settings);
   if (!options.types.empty()) {
     settings.push_back(
         fmt::format("component.{}.types={}", map_component(options), list_of_types(options.types)));

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -82,6 +84,25 @@ const char* name_of(MapView view) {
   return "camera";
 }
 
+// Files hold single precision: what does not fit is refused, not cut.
+std::vector<float> in_unit(const std::vector<double>& values, const MapUnits& units) {
+  std::vector<float> converted(values.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i] * units.factor;
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    converted[i] = static_cast<float>(value);
+  }
+  using Limits = std::numeric_limits<float>;
+  if (largest == 0 || (largest <= double{Limits::max()} && largest >= double{Limits::min()})) {
+    return converted;
+  }
+  throw UsageError(fmt::format(
+      "key map.unit: found \"{}\", in which the map's largest value is {:.3g}, expected a unit in "
+      "which it lies between {:.3g} and {:.3g}",
+      units.name, largest, Limits::min(), Limits::max()));
+}
+
 void describe_place(const MapGeometry& geometry, const MapSettings& settings, const MapUnits& units,
                     Map& map) {
   using boost::qvm::dot;
@@ -103,11 +124,12 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   check_quantity(settings);
   const Scene one = scene_of_map(scene);
   const Component& component = one.components.front();
-  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes);
+  const double box = side_of_box(one, component, snapshot.info());
+  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, box);
   ComponentFields& fields = open.fields().front();
   fields.select();
   const MapMatter matter = read_matter(component, fields);
-  const MapGeometry geometry = decide_geometry(one, snapshot.info(), matter);
+  const MapGeometry geometry = decide_geometry(one, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   const MapUnits units = decide_units(settings, fields.snapshot_info(),
                                       first_type(component, fields.snapshot_info()), quantity.kind);
@@ -130,12 +152,10 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   map.images = placed.count();
   map.bad_particles = placed.bad + weighted.bad();
   const std::vector<double> values = weighted.draw(picture, draw);
-  map.total = weighted.total();
-  map.values.resize(values.size());
-  std::transform(values.begin(), values.end(), map.values.begin(),
-                 [&units](double value) { return static_cast<float>(value * units.factor); });
+  map.values = in_unit(values, units);
   if (settings.noise) {
-    map.effective_particles = draw_effective_particles(placed, weighted, picture, draw);
+    map.effective_particles =
+        draw_effective_particles(placed, weighted, picture, settings.floor, draw);
   }
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +

@@ -3,20 +3,12 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "map/fits_unit.h"
 #include "map/map_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-// The words of the FITS standard for what we call otherwise.
-std::string fits_unit(std::string unit) {
-  for (const char* const sun : {"M_sun", "Msun"}) {
-    for (std::size_t at = unit.find(sun); at != std::string::npos; at = unit.find(sun))
-      unit.replace(at, std::string(sun).size(), "solMass");
-  }
-  return unit;
-}
 
 // A file in memory, so that what is written to the disk is ours to check.
 class FitsFile {
@@ -93,7 +85,7 @@ void add_axis(FitsFile& file, const std::string& number, const std::string& name
               int pixels, const Map& map) {
   // Their kind is not one of the standard's: the transformation is linear.
   file.add_text(("CTYPE" + number).c_str(), name, "linear");
-  file.add_text(("CUNIT" + number).c_str(), map.length_unit, "");
+  file.add_text(("CUNIT" + number).c_str(), fits_unit(map.length_unit), "");
   file.add_number(("CRPIX" + number).c_str(), 0.5 * pixels + 0.5, "the middle of the map");
   file.add_number(("CRVAL" + number).c_str(), center, "");
   file.add_number(("CDELT" + number).c_str(), map.pixel, "");

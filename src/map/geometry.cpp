@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "load/periodic_wrap.h"
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "splotchcl/error.h"
@@ -18,15 +19,6 @@ namespace {
 using namespace boost::qvm;
 
 constexpr double most_boxes = 64;  // that a map may show side by side
-
-double side_of_box(const Scene& scene, const SnapshotInfo& snapshot) {
-  const double box = scene.periodic.box.value_or(snapshot.box_size.value_or(0));
-  const bool has_box = box > 0 && std::isfinite(box);
-  if (!scene.map.periodic.value_or(has_box)) return 0;
-  if (has_box) return box;
-  throw UsageError("key map.periodic: found true, but " + snapshot.files.front().string() +
-                   " does not say the size of a box, expected one; set periodic.box");
-}
 
 const Camera& camera_of(const Scene& scene) {
   if (scene.camera) return *scene.camera;
@@ -92,30 +84,46 @@ double mass_of(const MapMatter& matter, std::size_t i) {
   return std::isfinite(mass) && mass > 0 ? mass : 0;
 }
 
-// In a periodic box by the angles that coordinates are there, so that what lies across a face has
-// its center at the face.
-Vec3 center_of_mass(const MapMatter& matter, double box) {
-  Vec3 sum = {{0, 0, 0}}, cosines = {{0, 0, 0}}, sines = {{0, 0, 0}};
-  double total = 0;
+// Where the mean of the angles lies that coordinates are in a periodic box.
+Vec3 center_of_angles(const MapMatter& matter, double box) {
+  Vec3 cosines = {{0, 0, 0}}, sines = {{0, 0, 0}};
   for (std::size_t i = 0; i < matter.count; ++i) {
     if (!matter.is_good(i)) continue;
     const double mass = mass_of(matter, i);
     const Vec3 position = matter.position_of(i);
-    total += mass;
-    sum += mass * position;
-    for (std::size_t axis = 0; axis < 3 && box > 0; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       cosines.a[axis] += mass * std::cos(2 * pi * position.a[axis] / box);
       sines.a[axis] += mass * std::sin(2 * pi * position.a[axis] / box);
     }
   }
+  Vec3 center;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    center.a[axis] = box * std::atan2(sines.a[axis], cosines.a[axis]) / (2 * pi);
+  return center;
+}
+
+// In a periodic box each particle counts where it is nearest to the mean of the angles, so that
+// what lies across a face has its center at the face.
+Vec3 center_of_mass(const MapMatter& matter, double box) {
+  Vec3 first = {{0, 0, 0}}, sum = {{0, 0, 0}};
+  if (box > 0) first = center_of_angles(matter, box);
+  double total = 0;
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (!matter.is_good(i)) continue;
+    const double mass = mass_of(matter, i);
+    Vec3 offset = matter.position_of(i) - first;
+    for (double& along : offset.a) {
+      if (box > 0) along -= box * std::nearbyint(along / box);
+    }
+    total += mass;
+    sum += mass * offset;
+  }
   if (!(total > 0)) {
     throw DataError("key map.center_at: found no mass above 0, expected some; set map.center");
   }
-  if (box == 0) return sum / total;
-  Vec3 center;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double angle = std::atan2(sines.a[axis], cosines.a[axis]);
-    center.a[axis] = box * (angle < 0 ? angle / (2 * pi) + 1 : angle / (2 * pi));
+  Vec3 center = first + sum / total;
+  for (double& along : center.a) {
+    if (box > 0) along -= box * std::floor(along / box);
   }
   return center;
 }
@@ -152,8 +160,8 @@ double choose_width(const Scene& scene, const MapMatter& matter, const MapGeomet
     const CameraFrame frame = make_camera_frame(camera_of(scene), geometry.width, geometry.height);
     return geometry.width / frame.pixels_per_length;
   }
-  if (geometry.box > 0) return geometry.box;
   const double aspect = static_cast<double>(geometry.width) / geometry.height;
+  if (geometry.box > 0) return geometry.box * std::max(1.0, aspect);
   const double width = std::max(extent_along(matter, geometry.right).span(),
                                 extent_along(matter, geometry.up).span() * aspect);
   if (width > 0) return width;
@@ -173,12 +181,26 @@ bool MapMatter::is_good(std::size_t i) const {
   return is_finite_position(position.data() + 3 * i) && is_smoothing_length(smoothing_length[i]);
 }
 
-MapGeometry decide_geometry(const Scene& scene, const SnapshotInfo& snapshot,
-                            const MapMatter& matter) {
+double side_of_box(const Scene& scene, const Component& component, const SnapshotInfo& snapshot) {
+  const double box = scene.periodic.box.value_or(snapshot.box_size.value_or(0));
+  const bool has_box = box > 0 && std::isfinite(box);
+  const bool is_placed = !is_in_the_box(component);
+  if (!scene.map.periodic.value_or(has_box && !is_placed)) return 0;
+  if (is_placed) {
+    throw UsageError(
+        "key map.periodic: found true, but the component is placed outside of the box, expected "
+        "one without a snapshot or a placement of its own");
+  }
+  if (has_box) return box;
+  throw UsageError("key map.periodic: found true, but " + snapshot.files.front().string() +
+                   " does not say the size of a box, expected one; set periodic.box");
+}
+
+MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter, double box) {
   MapGeometry geometry;
   geometry.width = scene.image.width;
   geometry.height = scene.image.height;
-  geometry.box = side_of_box(scene, snapshot);
+  geometry.box = box;
   set_axes(scene, geometry);
   geometry.center = choose_center(scene, matter, geometry);
   const double width = choose_width(scene, matter, geometry);

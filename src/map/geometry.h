@@ -32,8 +32,12 @@ struct MapGeometry {
   double box = 0;               // 0: not periodic
 };
 
-// Throws UsageError for what cannot be: a camera that is missing, a width that does not follow.
-MapGeometry decide_geometry(const Scene& scene, const SnapshotInfo& snapshot,
-                            const MapMatter& matter);
+// The side of the periodic box that the map's component lies in; 0: none. Throws UsageError where
+// there has to be one and is none.
+double side_of_box(const Scene& scene, const Component& component, const SnapshotInfo& snapshot);
+
+// `box` as side_of_box() has it. Throws UsageError for what cannot be: a camera that is missing, a
+// width that does not follow.
+MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter, double box);
 
 }  // namespace splotchcl

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -11,6 +12,29 @@
 
 namespace splotchcl {
 namespace {
+
+// Factor by factor, "Mpc a" to the power -2 as "Mpc^-2 a^-2": other programs read no power of a
+// product.
+std::string name_of_power(const std::string& unit, int exponent) {
+  if (exponent == 1) return unit;
+  const bool is_plain = unit.find_first_of("()*^") == std::string::npos &&
+                        unit.find_first_of("0123456789") == std::string::npos;
+  if (!is_plain) return fmt::format("({})^{}", unit, exponent);
+  std::string power;
+  int sign = 1;
+  for (std::size_t first = 0; first < unit.size();) {
+    const std::size_t end = std::min(unit.find_first_of(" /", first), unit.size());
+    if (end > first) {
+      power += power.empty() ? "" : " ";
+      const int own = sign * exponent;
+      power += unit.substr(first, end - first) + (own == 1 ? "" : fmt::format("^{}", own));
+      sign = 1;
+    }
+    if (end < unit.size() && unit[end] == '/') sign = -1;
+    first = end + 1;
+  }
+  return power;
+}
 
 // What the snapshot, and the settings where it is silent, say of units.
 class DataUnits {
@@ -43,13 +67,12 @@ class DataUnits {
 
   // a * b^exponent
   static NamedUnits product(const NamedUnits& a, const NamedUnits& b, int exponent) {
-    const auto wrapped = [](const std::string& unit) {
-      return unit.find_first_of(" /*^") == std::string::npos ? unit : "(" + unit + ")";
-    };
-    const std::string power_of_b =
-        wrapped(b.name) + (std::abs(exponent) == 1 ? "" : fmt::format("^{}", std::abs(exponent)));
-    return {wrapped(a.name) + (exponent < 0 ? "/" : " ") + power_of_b, a.is_known && b.is_known,
-            a.unit * power(b.unit, exponent)};
+    const bool is_one_name = b.name.find_first_of(" /*^()") == std::string::npos;
+    const std::string name = is_one_name && exponent < 0
+                                 ? fmt::format("{}/{}{}", a.name, b.name,
+                                               exponent == -1 ? "" : fmt::format("^{}", -exponent))
+                                 : a.name + " " + name_of_power(b.name, exponent);
+    return {name, a.is_known && b.is_known, a.unit * power(b.unit, exponent)};
   }
 
   const UnitFactors& factors() const { return factors_; }

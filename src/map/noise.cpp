@@ -11,7 +11,8 @@ namespace splotchcl {
 // that it lies in.
 std::vector<float> draw_effective_particles(const PlacedParticles& placed,
                                             const WeightedValues& weighted,
-                                            const SumPicture& picture, const DrawFrame& draw) {
+                                            const SumPicture& picture, double floor,
+                                            const DrawFrame& draw) {
   const std::size_t count = placed.count();
   std::vector<float> size(count), weight(count), factors(3 * count, 0.0F);
   for (std::size_t i = 0; i < count; ++i) {
@@ -22,7 +23,12 @@ std::vector<float> draw_effective_particles(const PlacedParticles& placed,
     weight[i] = static_cast<float>(mass * mass / (2 * pi * square));
     factors[3 * i] = 1;
   }
-  const double white = weighted.white() * weighted.white();
+  // By the square of the floor below the mean, since squares of many small weights are small.
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    squares += static_cast<double>(placed.share[i]) * static_cast<double>(weight[i]);
+  const double pixels = static_cast<double>(picture.width) * picture.height;
+  const double white = squares > 0 ? floor * floor * squares / pixels : 1;
   const PixelSums sums =
       draw_sums(placed, size, {std::move(weight), std::move(factors), white}, picture, draw);
   std::vector<float> effective(sums[0].size(), 0.0F);

@@ -15,6 +15,12 @@ using namespace boost::qvm;
 // Beyond this many sigma is 2e-16 of a particle.
 constexpr double reach_sigmas = 6;
 
+// Of a kernel around x, how much lies between -half and half.
+double share_between(double x, double half, double sigma) {
+  if (half - std::abs(x) > reach_sigmas * sigma) return 1;
+  return 0.5 * (std::erf((half - x) / sigma) + std::erf((half + x) / sigma));
+}
+
 class Placer {
  public:
   Placer(const MapMatter& matter, const MapGeometry& geometry, double sigma, bool is_slice)
@@ -57,9 +63,10 @@ class Placer {
       const double reach = std::abs(geometry_.right.a[k]) * half[0] +
                            std::abs(geometry_.up.a[k]) * half[1] +
                            std::abs(geometry_.forward.a[k]) * half[2];
-      // One more on each side, so that rounding loses none: place_one decides.
-      first[k] = static_cast<int>(std::floor((-reach - offset.a[k]) / geometry_.box));
-      last[k] = static_cast<int>(std::ceil((reach - offset.a[k]) / geometry_.box));
+      // A little more on each side, so that rounding loses none: place_one decides.
+      constexpr double slack = 1e-6;
+      first[k] = static_cast<int>(std::ceil((-reach - offset.a[k]) / geometry_.box - slack));
+      last[k] = static_cast<int>(std::floor((reach - offset.a[k]) / geometry_.box + slack));
     }
     for (int x = first[0]; x <= last[0]; ++x) {
       for (int y = first[1]; y <= last[1]; ++y) {
@@ -82,10 +89,11 @@ class Placer {
       placed_.position.push_back(static_cast<float>(value));
     placed_.size.push_back(static_cast<float>(size));
     placed_.source.push_back(i);
-    placed_.is_inside.push_back(x >= -0.5 * geometry_.width && x < 0.5 * geometry_.width &&
-                                y >= -0.5 * geometry_.height && y < 0.5 * geometry_.height);
+    const double width = sigma_ * size;
+    placed_.share.push_back(static_cast<float>(share_between(x, 0.5 * geometry_.width, width) *
+                                               share_between(y, 0.5 * geometry_.height, width)));
     if (!is_slice_) return;
-    const double width = sigma_ * size, distance = depth / geometry_.pixel / width;
+    const double distance = depth / geometry_.pixel / width;
     placed_.in_plane.push_back(std::exp(-distance * distance) / (std::sqrt(pi) * width));
   }
 

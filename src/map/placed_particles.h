@@ -9,12 +9,12 @@ namespace splotchcl {
 
 // The particles that a map shows, with their periodic images, in pixels from its middle.
 struct PlacedParticles {
-  std::vector<float> position;           // three each: to the right, downwards, 0
-  std::vector<float> size;               // h
-  std::vector<double> in_plane;          // of slices: what the kernel has in the plane, per pixel
-  std::vector<std::uint32_t> source;     // which of the matter's particles it is
-  std::vector<unsigned char> is_inside;  // whether its center lies in the picture
-  std::uint64_t bad = 0;                 // particles without a place or a size
+  std::vector<float> position;        // three each: to the right, downwards, 0
+  std::vector<float> size;            // h
+  std::vector<double> in_plane;       // of slices: what the kernel has in the plane, per pixel
+  std::vector<std::uint32_t> source;  // which of the matter's particles it is
+  std::vector<float> share;           // how much of its kernel lies in the picture
+  std::uint64_t bad = 0;              // particles without a place or a size
 
   std::size_t count() const { return source.size(); }
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace splotchcl {
 namespace {
@@ -35,9 +34,8 @@ WeightedValues::WeightedValues(const PlacedParticles& placed, const MapQuantity&
   if (needs_values()) read_values(quantity);
   read_weights(quantity);
   double inside = 0;
-  for (std::size_t i = 0; i < placed.count(); ++i) {
-    if (placed.is_inside[i] != 0) inside += static_cast<double>(weight_[i]);
-  }
+  for (std::size_t i = 0; i < placed.count(); ++i)
+    inside += static_cast<double>(placed.share[i]) * static_cast<double>(weight_[i]);
   const double mean = inside / (static_cast<double>(geometry.width) * geometry.height);
   white_ = mean > 0 ? floor * mean : 1;
   weight_unit_ *= particles_per_drawn;
@@ -126,12 +124,6 @@ std::vector<double> WeightedValues::draw(const SumPicture& picture, const DrawFr
   mean = sum > 0 ? mean / sum : 0;
   PixelSums sums = draw_factors(factors(mean), picture, draw);
   weight_sums_ = sums[denominator];
-  const double lengths = is_slice_ ? pixel_ * pixel_ * pixel_ : pixel_ * pixel_;
-  total_ = weight_unit_ * area_factor() * lengths *
-           std::accumulate(weight_sums_.begin(), weight_sums_.end(), 0.0);
-  if (kind_ == MapQuantity::Kind::counts) {
-    total_ = weight_unit_ * std::accumulate(weight_sums_.begin(), weight_sums_.end(), 0.0);
-  }
 
   std::vector<double> values;
   switch (kind_) {

@@ -25,13 +25,10 @@ class WeightedValues {
 
   // Of the weights' column, in the snapshot's units.
   double floor() const;
-  // After draw(): the sum of the weights' column over the map's area, in the snapshot's units.
-  double total() const { return total_; }
   std::uint64_t bad() const { return bad_; }
 
   // As they are drawn.
   const std::vector<float>& weights() const { return weight_; }
-  double white() const { return white_; }                                  // the floor, per pixel
   const std::vector<double>& weight_sums() const { return weight_sums_; }  // after draw()
 
  private:
@@ -52,7 +49,6 @@ class WeightedValues {
   std::vector<float> value_;   // over value_unit_
   double weight_unit_ = 1, value_unit_ = 1;
   double white_ = 1;
-  double total_ = 0;
   std::uint64_t bad_ = 0;
   std::vector<double> weight_sums_;
 };

@@ -56,7 +56,7 @@ std::string format_scene(const Scene& scene) {
   scene_file::check_scene(scene, {name, {}});
   std::string text = format_table("", scene, 0);
   for (const std::string table : {"read", "image", "camera", "stereo", "kernel", "sort", "time",
-                                  "path", "movie", "periodic", "finish"}) {
+                                  "path", "movie", "periodic", "finish", "map"}) {
     if (table == "camera" && !scene.camera) continue;
     if (table == "stereo" && !scene.stereo) continue;
     const std::string lines = format_table(table, scene, 0);

@@ -60,7 +60,7 @@ TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
   EXPECT_EQ(values[0], 4);
   EXPECT_EQ(values[3], 1);
   EXPECT_TRUE(std::isnan(values[2]));
-  EXPECT_STREQ(unit, "solMass/pc^2");
+  EXPECT_STREQ(unit, "solMass/pc**2");
   EXPECT_STREQ(axis, "kpc");
   EXPECT_EQ(place, -2);
   EXPECT_EQ(pixel, 2);

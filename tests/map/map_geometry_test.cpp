@@ -115,6 +115,56 @@ TEST(MapGeometry, FindsTheCenterOfMassAcrossAFace) {
   EXPECT_NEAR(std::min(x, 64 - x), 0, 1e-4);
 }
 
+TEST(MapGeometry, FindsTheCenterOfMassInAPeriodicBoxAsInAnOpenOne) {
+  const Gas gas = test::random_gas(50, 12, 1, 4);
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  scene.map.center_at = MapCenter::mass;
+  const Map open = map_of(scene, gas.snapshot());
+  auto snapshot = gas.snapshot();
+  snapshot.set_box_size(64);
+  const Map periodic = map_of(scene, snapshot);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double apart = periodic.center.a[axis] - open.center.a[axis];
+    EXPECT_NEAR(apart - 64 * std::nearbyint(apart / 64), 0, 1e-9);
+  }
+}
+
+TEST(MapGeometry, TakesNoBoxForWhatIsPlacedElsewhere) {
+  Scene scene = map_scene();
+  scene.components.front().placement.origin = Vec3{{8, 8, 8}};
+  auto snapshot = one_particle({{0, 0, 0}}).snapshot();
+  snapshot.set_box_size(16);
+  EXPECT_NEAR(sum(map_of(scene, snapshot)), 1, 1e-6);
+  scene.map.periodic = true;
+  EXPECT_THROW(map_of(scene, snapshot), UsageError);
+}
+
+TEST(MapGeometry, SelectsASphereAcrossTheFacesOfABox) {
+  Scene scene = map_scene();
+  scene.image.height = 64;
+  scene.map.center.reset();
+  ParticleSet& select = scene.components.front().select;
+  select.sphere_center = Vec3{{1, 32, 32}};
+  select.sphere_radius = 4;
+  Gas gas = one_particle({{63.5, 32, 32}});
+  gas.add({{10, 32, 32}}, 0.5F, 1, 100);
+  auto snapshot = gas.snapshot();
+  snapshot.set_box_size(64);
+  const Map map = map_of(scene, snapshot);
+  EXPECT_EQ(map.particles, 1U);
+  EXPECT_EQ(brightest(map).first, 63);
+}
+
+TEST(MapGeometry, ShowsTheWholeBoxInAPictureOfAnyShape) {
+  Scene scene = map_scene();
+  scene.map.width.reset();
+  scene.map.center.reset();
+  auto snapshot = one_particle({{1, 1, 1}}).snapshot();
+  snapshot.set_box_size(48);
+  EXPECT_NEAR(map_of(scene, snapshot).pixel, 1, 1e-12);
+}
+
 TEST(MapGeometry, FindsTheDensestPlace) {
   Gas gas = test::random_gas(50, 20, 1, 4);
   gas.add({{3, -4, 5}}, 0.25F, 1, 100);

@@ -216,6 +216,15 @@ TEST(Map, HasNoMeanWhereThereIsTooLittleMatter) {
   EXPECT_TRUE(std::isnan(at(map, 50, 23)));
 }
 
+TEST(Map, HasMeansBetweenTheParticlesToo) {
+  Gas gas;
+  gas.add({{-299.5, 0, 0}}, 400, 1, 1000);
+  gas.add({{300.5, 0, 0}}, 400, 1, 3000);
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  EXPECT_NEAR(static_cast<double>(at(map_of(scene, gas.snapshot()), 32, 24)), 2000, 1);
+}
+
 TEST(Map, LeavesOutAndCountsParticlesWithoutAValue) {
   Gas gas = random_gas(10, 20, 1, 4);
   gas.temperature[3] = std::nanf("");

@@ -64,6 +64,22 @@ TEST(MapUnits, RefuseAnotherDimension) {
   EXPECT_THAT(refusal(scene), HasSubstr("same dimension"));
 }
 
+// The largest float is 3.4e38.
+TEST(MapUnits, RefuseValuesThatNoFloatHolds) {
+  Scene scene = map_scene();
+  scene.map.quantity = "mass";
+  scene.map.mass_unit = "1e10 Msun";
+  scene.map.unit = "g";
+  EXPECT_THAT(refusal(scene), HasSubstr("largest value is 5.97e+43"));
+}
+
+TEST(MapUnits, OfProductsAreWrittenFactorByFactor) {
+  Scene scene = map_scene();
+  scene.map.mass_unit = "1e10 Msun";
+  scene.map.length_unit = "Mpc/pc kpc";
+  EXPECT_EQ(map_of(scene, one_particle().snapshot()).unit, "1e10 Msun Mpc^-2 pc^2 kpc^-2");
+}
+
 TEST(MapUnits, RefuseAUnitForCounts) {
   Scene scene = map_scene();
   scene.map.quantity = "counts";

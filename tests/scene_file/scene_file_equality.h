@@ -43,6 +43,31 @@ inline void expect_same(const Placement& a, const Placement& b) {
   EXPECT_EQ(a.scale, b.scale);
 }
 
+inline void expect_same(const MapSettings& a, const MapSettings& b) {
+  EXPECT_EQ(a.component, b.component);
+  EXPECT_EQ(a.quantity, b.quantity);
+  EXPECT_EQ(a.statistic, b.statistic);
+  EXPECT_EQ(a.weight, b.weight);
+  EXPECT_EQ(a.slice, b.slice);
+  EXPECT_EQ(a.view, b.view);
+  expect_same(a.center, b.center);
+  EXPECT_EQ(a.center_at, b.center_at);
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.periodic, b.periodic);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.length_unit, b.length_unit);
+  EXPECT_EQ(a.mass_unit, b.mass_unit);
+  EXPECT_EQ(a.velocity_unit, b.velocity_unit);
+  EXPECT_EQ(a.floor, b.floor);
+  EXPECT_EQ(a.noise, b.noise);
+  EXPECT_EQ(a.scaling, b.scaling);
+  EXPECT_EQ(a.minimum, b.minimum);
+  EXPECT_EQ(a.maximum, b.maximum);
+  EXPECT_EQ(a.percentiles, b.percentiles);
+  EXPECT_EQ(a.palette, b.palette);
+}
+
 inline void expect_same(const Component& a, const Component& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.snapshot, b.snapshot);
@@ -80,6 +105,7 @@ inline void expect_same(const Camera& a, const Camera& b) {
   EXPECT_TRUE(same(a.look_at, b.look_at));
   EXPECT_TRUE(same(a.sky, b.sky));
   EXPECT_EQ(a.field_of_view_degrees, b.field_of_view_degrees);
+  EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.projection, b.projection);
   EXPECT_EQ(a.cube_layout, b.cube_layout);
   EXPECT_EQ(a.near_limit, b.near_limit);
@@ -216,6 +242,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.periodic.wrap, b.periodic.wrap);
   EXPECT_EQ(a.periodic.box, b.periodic.box);
   expect_same(a.finish, b.finish);
+  expect_same(a.map, b.map);
   ASSERT_EQ(a.components.size(), b.components.size());
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     expect_same(a.components[i], b.components[i]);

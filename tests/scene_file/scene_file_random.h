@@ -51,6 +51,7 @@ class RandomScenes {
     if (coin()) scene.movie.codec = static_cast<Codec>(integer(0, 2));
     scene.periodic = {coin(), maybe(positive())};
     if (coin()) scene.finish = finish();
+    if (coin()) scene.map = map();
     if (scene.camera && is_wide_angle(scene.camera->projection)) {
       scene.finish.scale_bar.show = false;
     }
@@ -127,6 +128,10 @@ class RandomScenes {
       camera.field_of_view_degrees = 360;
     } else {
       camera.field_of_view_degrees = 0.001 + (may_be_wide ? 359 : 179) * unit();
+      if (!may_be_wide && coin()) {
+        camera.field_of_view_degrees.reset();
+        camera.width = positive(1e-3, 1e3);
+      }
     }
     camera.cube_layout = coin() ? CubeLayout::sheet : CubeLayout::files;
   }
@@ -251,6 +256,33 @@ class RandomScenes {
     map.minimum = maybe(low);
     map.maximum = maybe(low + positive(1, 1e280));
     if (coin()) map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
+    return map;
+  }
+
+  MapSettings map() {
+    MapSettings map;
+    if (coin()) map.component = word();
+    if (coin()) map.quantity = word();
+    map.statistic = static_cast<MapStatistic>(integer(0, 2));
+    if (coin()) map.weight = word();
+    map.slice = coin();
+    map.view = static_cast<MapView>(integer(0, 3));
+    if (coin()) map.center = place();
+    map.center_at = static_cast<MapCenter>(integer(0, 2));
+    map.width = maybe(positive());
+    map.depth = maybe(positive());
+    if (coin()) map.periodic = coin();
+    for (std::string* const unit :
+         {&map.unit, &map.length_unit, &map.mass_unit, &map.velocity_unit}) {
+      if (coin()) *unit = word();
+    }
+    map.floor = positive(1e-11, 1);
+    map.noise = coin();
+    map.scaling = static_cast<Scaling>(integer(0, 2));
+    map.minimum = maybe(any());
+    map.maximum = maybe(any());
+    map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
+    map.palette = word();
     return map;
   }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace splotchcl {
+
+// A unit as the FITS standard (4.0, section 4.3) writes it: "1e10 M_sun/kpc^2" as
+// "10**10 solMass/kpc**2". There "a" is a year and "h" an hour: the scale factor and the Hubble
+// parameter become "scale_factor" and "little_h", which readers take for unknown units, not for
+// wrong ones.
+std::string fits_unit(const std::string& unit);
+
+}  // namespace splotchcl
