@@ -40,6 +40,9 @@ struct Camera {
   // Of the picture at the look-at distance, in lengths, > 0, instead of a field of view. Not for
   // wide angles.
   std::optional<double> width = std::nullopt;
+  // As scene files say it: where the camera, as it is turned, is moved to look at. Reading a scene
+  // moves position and look_at by it and unsets it; nothing else looks at it.
+  std::optional<Vec3> center = std::nullopt;
 };
 
 // The field of view in degrees: as the camera says, by its width, or the projection's own.

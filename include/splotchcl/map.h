@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@
 
 // Maps: pictures whose values are a quantity in a unit (docs/maps.md).
 namespace splotchcl {
+
+// Where a map's middle is seen on the sky, in degrees, and how large a pixel is there.
+struct SkyPlace {
+  double right_ascension = 0, declination = 0;
+  double pixel = 0;
+};
 
 // Values of width x height pixels, row 0 at the top.
 struct Map {
@@ -27,9 +34,11 @@ struct Map {
   std::string view;                        // "xy", "xz", "yz", "camera"
   std::string right_name, up_name;         // of the axes: "x", "y"; of a camera's "right", "up"
   std::string length_unit;                 // "kpc"; "code_length" where unknown
+  double length_factor = 1;                // from the snapshot's lengths to these
   double pixel = 0;                        // side of a pixel
   Vec3 center = {{0, 0, 0}};               // x, y, z of the middle
   double center_right = 0, center_up = 0;  // its coordinates along the map's axes
+  std::optional<SkyPlace> sky;             // where a distance was given
 
   // How exact: each sum over particles is within tolerance * max(sum, floor).
   double tolerance = 0;
@@ -45,8 +54,9 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 // be written to.
 void check_map_path(const std::filesystem::path& path);
 
-// By the ending: .fits, .hdf5, .npy and .exr hold the numbers, others a figure with a color bar, by
-// the scene's [map] and [finish]. The metadata is kept by the first two. Throws DataError.
+// By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a
+// color bar, by the scene's [map] and [finish]. The metadata is kept by the first two. Throws
+// DataError.
 void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
                const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata);
 

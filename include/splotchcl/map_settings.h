@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "splotchcl/light_model.h"
 #include "splotchcl/vector.h"
 
 namespace splotchcl {
@@ -20,6 +20,13 @@ enum class MapView { xy, xz, yz, camera };
 
 // Where the middle of a map lies.
 enum class MapCenter { box, mass, densest };
+
+// How a figure's values v become places on its palette.
+//   linear  v
+//   log     log10(v); values <= 0 take the first color
+//   asinh   asinh(v / softening), linear around 0
+//   power   sign(v) |v|^exponent
+enum class MapScaling { linear, log, asinh, power };
 
 // What a map shows (docs/maps.md). Lengths are in the snapshot's unit.
 struct MapSettings {
@@ -43,10 +50,20 @@ struct MapSettings {
   double floor = 1e-3;  // of the mean of the weights' column, > 0
   bool noise = false;   // a second plane: the effective number of particles
 
-  Scaling scaling = Scaling::log;  // of pictures
+  // Where the center is seen on the sky: from a distance such as "16.5 Mpc" (empty: not on the sky)
+  // at [right ascension, declination] in degrees; up is north.
+  std::string distance;
+  std::array<double, 2> sky = {0, 0};
+
+  // Of figures.
+  MapScaling scaling = MapScaling::log;
+  std::optional<double> softening;  // > 0; unset: a thousandth of the farther limit, or less
+  double exponent = 0.5;            // > 0
   std::optional<double> minimum, maximum;
   std::array<double, 2> percentiles = {1, 99.9};
   std::string palette = "viridis";
+  std::vector<double> contours;  // values of the map
+  int contour_count = 0;         // instead of them: so many, evenly in the palette
 };
 
 }  // namespace splotchcl

@@ -40,7 +40,8 @@ int run_render(const RenderOptions& options, Console& console);
 
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
-  std::string quantity, statistic, weight, types, view, center, unit;  // empty: not given
+  std::string quantity, statistic, weight, types, view, center, unit, distance, sky,
+      contours;  // empty: not given
   std::vector<std::string> select;
   std::optional<double> width, depth;
   bool slice = false, noise = false;

@@ -37,6 +37,12 @@ std::string list_of_types(const std::string& text) {
   return "[" + list + "]";
 }
 
+// "5" is a number of contours, "1e4,1e5" are their values.
+std::string contour_setting(const std::string& text) {
+  const bool is_count = text.find_first_not_of("0123456789") == std::string::npos;
+  return is_count ? "map.contour_count=" + text : "map.contours=[" + text + "]";
+}
+
 // The options as settings of the scene, after those that the user gives.
 std::vector<std::string> settings_of_map(const MapOptions& options) {
   std::vector<std::string> settings = settings_of(options);
@@ -53,6 +59,9 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   } else {
     settings.push_back("map.center=[" + options.center + "]");
   }
+  add("distance", options.distance);
+  if (!options.sky.empty()) settings.push_back("map.sky=[" + options.sky + "]");
+  if (!options.contours.empty()) settings.push_back(contour_setting(options.contours));
   if (options.width) settings.push_back(fmt::format("map.width={}", *options.width));
   if (options.depth) settings.push_back(fmt::format("map.depth={}", *options.depth));
   if (options.slice) settings.emplace_back("map.slice=true");

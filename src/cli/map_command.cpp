@@ -42,6 +42,17 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
       ->type_name("PLACE");
   sub.add_option("--width", options.width, wrapped("Of the map, in the snapshot's lengths"))
       ->type_name("LENGTH");
+  sub.add_option(
+         "--distance", options.distance,
+         wrapped("From where the center is seen, such as '16.5 Mpc': for coordinates on the "
+                 "sky"))
+      ->type_name("LENGTH");
+  sub.add_option("--sky", options.sky,
+                 wrapped("Right ascension and declination of the center in degrees"))
+      ->type_name("RA,DEC");
+  sub.add_option("--contours", options.contours,
+                 wrapped("Lines on figures: how many, or at which values of the map"))
+      ->type_name("N|V,V,...");
   sub.add_option("--depth", options.depth, wrapped("Along the line of sight"))->type_name("LENGTH");
   sub.add_option("--size", options.size, wrapped("Of the map, in pixels"))->type_name("WxH");
 }
@@ -78,7 +89,7 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->required();
   sub->add_option("-o,--output", options->outputs,
                   wrapped("The map; its ending chooses the format: .fits .hdf5 .npy .exr hold the "
-                          "numbers, .png .jpg ... a figure; can be repeated"))
+                          "numbers, .png .pdf ... a figure; can be repeated"))
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);

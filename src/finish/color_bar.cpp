@@ -18,23 +18,19 @@ namespace {
 // pixels from its low end; across, pixels from its side without numbers.
 class ColorBar {
  public:
-  ColorBar(const DrawnComponent& component, const std::string& title, double length, bool upright,
-           const TextStyle& style)
-      : palette_(component.palette.emission),
-        length_(std::round(length)),
-        upright_(upright),
-        style_(style) {
+  ColorBar(const ColorBarContent& content, double length, bool upright, const TextStyle& style)
+      : palette_(content.palette), length_(std::round(length)), upright_(upright), style_(style) {
     const double size = style.size();
     thickness_ = std::round(0.85 * size);
     tick_ = std::round(0.3 * size);
     const int most = static_cast<int>(length_ / ((upright ? 1.7 : 3.5) * size));
-    for (const Tick& tick : ticks_of(component.color, most, style.has_superscripts())) {
+    for (const Tick& tick : content.ticks(most, style.has_superscripts())) {
       marks_.push_back({tick.position,
                         tick.label.empty() ? ShadedText{} : style.draw(tick.label, number_size())});
       widest_ = std::max(widest_, marks_.back().label.letters.box_width);
       highest_ = std::max(highest_, marks_.back().label.letters.box_height);
     }
-    title_ = style.draw(title, number_size());
+    title_ = style.draw(content.title, number_size());
     if (upright) title_ = turned(title_);
   }
 
@@ -130,8 +126,14 @@ std::size_t component_named(const std::string& name, const Scene& scene) {
                   name, fmt::join(names, "\", \""), did_you_mean(nearest_name(name, names))));
 }
 
+// What a bar of sums of light stands for is said before the unit.
+std::string of_particles(const std::string& label) {
+  const std::size_t end = std::min(label.find(" ["), label.size());
+  return label.substr(0, end) + " of particles" + label.substr(end);
+}
+
 std::string title_of(const Scene& scene, const std::vector<std::size_t>& bars, std::size_t bar,
-                     const SnapshotInfo& snapshot, bool superscripts) {
+                     bool keeps_its_palette, const SnapshotInfo& snapshot, bool superscripts) {
   const std::vector<std::string>& labels = scene.finish.color_bar.labels;
   if (!labels.empty()) return labels[bar];
   const Component& component = scene.components[bars[bar]];
@@ -139,12 +141,42 @@ std::string title_of(const Scene& scene, const std::vector<std::size_t>& bars, s
   for (const int other : component.types) {
     if (snapshot.find_type(type) == nullptr) type = other;
   }
-  const std::string label = field_label(component.color.field, type, snapshot, superscripts);
+  std::string label = field_label(component.color.field, type, snapshot, superscripts);
+  if (!keeps_its_palette) label = of_particles(label);
   const bool needs_name = bars.size() > 1 && !component.name.empty();
   return needs_name ? component.name + ": " + label : label;
 }
 
+bool is_white(const std::vector<Rgb>& knots) {
+  return !knots.empty() && std::all_of(knots.begin(), knots.end(), [](const Rgb& knot) {
+    return knot == Rgb{1, 1, 1};
+  });
+}
+
 }  // namespace
+
+// Opaque matter shows brightness * palette / (factor * absorption palette).
+bool keeps_palette(const DrawnComponent& component, const FinishSettings& finish) {
+  const bool is_unchanged = finish.exposure == 0 && finish.saturation == 1 && finish.contrast == 1;
+  return is_unchanged && component.particles.color_vector.is_absent() &&
+         component.absorption.kind == Absorption::Kind::factor &&
+         component.absorption.factor == component.brightness &&
+         is_white(component.palette.absorption);
+}
+
+std::vector<std::string> tell_color_bars(const Scene& scene, const Frame& frame) {
+  if (!scene.finish.color_bar.show) return {};
+  for (const std::size_t bar : components_with_bars(scene)) {
+    const DrawnComponent& component = frame.components[bar];
+    if (keeps_palette(component, scene.finish)) continue;
+    return {fmt::format(
+        "finish.color_bar: light adds up in this picture, so its colors need not be those of the "
+        "bar, which shows what single particles of component {} have; splotchcl map draws pictures "
+        "whose colors are the bar's",
+        component.name)};
+  }
+  return {};
+}
 
 std::vector<std::size_t> components_with_bars(const Scene& scene) {
   const ColorBarSettings& settings = scene.finish.color_bar;
@@ -174,28 +206,40 @@ std::vector<std::size_t> components_with_bars(const Scene& scene) {
   return bars;
 }
 
-std::vector<Overlay> make_color_bars(const Scene& scene, const Frame& frame,
-                                     const SnapshotInfo& snapshot, const TextStyle& style,
-                                     Layout& layout) {
-  const ColorBarSettings& settings = scene.finish.color_bar;
+std::vector<ColorBarContent> color_bars_of(const Scene& scene, const Frame& frame,
+                                           const SnapshotInfo& snapshot, bool superscripts) {
   const std::vector<std::size_t> shown = components_with_bars(scene);
+  std::vector<ColorBarContent> contents;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const DrawnComponent& component = frame.components[shown[i]];
+    contents.push_back(
+        {component.palette.emission,
+         title_of(scene, shown, i, keeps_palette(component, scene.finish), snapshot, superscripts),
+         [color = component.color](int most, bool raised) {
+           return ticks_of(color, most, raised);
+         }});
+  }
+  return contents;
+}
+
+std::vector<Overlay> make_color_bars(const std::vector<ColorBarContent>& contents,
+                                     const ColorBarSettings& settings, const Frame& frame,
+                                     const TextStyle& style, Layout& layout) {
   const bool upright = settings.at != Anchor::top && settings.at != Anchor::bottom;
   const double side = upright ? frame.height : frame.width;
   const double gap = std::round((upright ? 1.5 : 3) * style.size());
-  const auto count = static_cast<double>(shown.size());
+  const auto count = static_cast<double>(contents.size());
   const double length = (settings.length * side - gap * (count - 1)) / count;
   if (length < 4 * style.size()) {
     throw UsageError(fmt::format(
         "key finish.color_bar.length: found {}, which leaves {:.0f} pixels for each of {} bars, "
         "expected more; make it larger or finish.text_size smaller",
-        settings.length, std::max(0.0, length), shown.size()));
+        settings.length, std::max(0.0, length), contents.size()));
   }
   std::vector<ColorBar> bars;
   double width = 0, height = 0;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    bars.emplace_back(frame.components[shown[i]],
-                      title_of(scene, shown, i, snapshot, style.has_superscripts()), length,
-                      upright, style);
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    bars.emplace_back(contents[i], length, upright, style);
     const double between = i > 0 ? gap : 0;
     width = upright ? std::max(width, bars[i].width()) : width + bars[i].width() + between;
     height = upright ? height + bars[i].height() + between : std::max(height, bars[i].height());

@@ -72,6 +72,18 @@ PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const Snaps
     : settings_(scene.finish), gamma_(scene.image.gamma), crop_(frame.crop) {
   Layout layout(frame.width, frame.height);
   if (settings_.inset.show) inset_ = make_inset(scene, frame, eye, layout);
+  prepare(scene, frame, snapshot, std::nullopt, layout);
+}
+
+PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                             const ColorBarContent& color_bar)
+    : settings_(scene.finish), gamma_(scene.image.gamma), crop_(frame.crop) {
+  Layout layout(frame.width, frame.height);
+  prepare(scene, frame, snapshot, color_bar, layout);
+}
+
+void PictureFinish::prepare(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                            const std::optional<ColorBarContent>& color_bar, Layout& layout) {
   if (!has_text(settings_)) return;
   const TextStyle style(settings_, gamma_, layout.unit());
   for (const NamedText& named : texts_of(settings_)) {
@@ -82,7 +94,10 @@ PictureFinish::PictureFinish(const Scene& scene, const Frame& frame, const Snaps
     overlays_.push_back(make_scale_bar(settings_.scale_bar, frame, snapshot, style, layout));
   }
   if (settings_.color_bar.show) {
-    for (const Overlay& bar : make_color_bars(scene, frame, snapshot, style, layout))
+    const std::vector<ColorBarContent> bars =
+        color_bar ? std::vector<ColorBarContent>{*color_bar}
+                  : color_bars_of(scene, frame, snapshot, style.has_superscripts());
+    for (const Overlay& bar : make_color_bars(bars, settings_.color_bar, frame, style, layout))
       overlays_.push_back(bar);
   }
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "finish/color_bar.h"
 #include "finish/inset.h"
 #include "finish/text_style.h"
 #include "splotchcl/snapshot.h"
@@ -24,10 +25,17 @@ class PictureFinish {
   PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                 std::optional<Eye> eye = std::nullopt);
 
+  // With this color bar in place of those of the scene's components.
+  PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                const ColorBarContent& color_bar);
+
   // `image` is the frame's, or the eye's, picture; `draw` draws the inset.
   void apply(Image& image, const DrawFrame& draw) const;
 
  private:
+  void prepare(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+               const std::optional<ColorBarContent>& color_bar, Layout& layout);
+
   FinishSettings settings_;
   double gamma_;
   Rectangle crop_;

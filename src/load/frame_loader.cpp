@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "finish/color_bar.h"
 #include "finish/finish_picture.h"
 #include "image/background_image.h"
 #include "load/check_particles.h"
@@ -168,6 +169,8 @@ Frame FrameLoader::load(const DecidedScene& decided) {
     frame.components.push_back(std::move(drawn));
     ++numbers;
   }
+  for (const std::string& note : tell_color_bars(scene_, frame))
+    notes_.push_back(note);
   return frame;
 }
 

@@ -13,8 +13,10 @@
 #include "map/noise.h"
 #include "map/placed_particles.h"
 #include "map/quantity.h"
+#include "map/sky.h"
 #include "map/sums.h"
 #include "map/weighted_values.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/map.h"
 
@@ -51,13 +53,25 @@ Scene scene_of_map(const Scene& scene) {
   return one;
 }
 
-MapMatter read_matter(const Component& component, const ComponentFields& fields) {
+bool has_densities(const Component& component, const SnapshotInfo& info) {
+  return std::all_of(component.types.begin(), component.types.end(), [&info](int type) {
+    const ParticleTypeInfo* const particles = info.find_type(type);
+    if (particles == nullptr) return true;
+    const FieldInfo* const density = find_field(*particles, "density");
+    return density != nullptr && !density->file_name.empty();
+  });
+}
+
+MapMatter read_matter(const Component& component, MapCenter center, const ComponentFields& fields) {
   MapMatter matter;
   matter.count = fields.count();
   matter.origin = fields.origin();
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
   if (fields.masses_are_known()) matter.mass = fields.masses();
+  if (center == MapCenter::densest && has_densities(component, fields.snapshot_info())) {
+    matter.density = fields.scalars("density", "map.center_at");
+  }
   matter.size_factor = component.size_fixed ? component.size_factor
                                             : component.size_factor * component.placement.scale;
   return matter;
@@ -110,10 +124,12 @@ void describe_place(const MapGeometry& geometry, const MapSettings& settings, co
   map.right_name = settings.view == MapView::camera ? "right" : map.view.substr(0, 1);
   map.up_name = settings.view == MapView::camera ? "up" : map.view.substr(1);
   map.length_unit = units.length_name;
+  map.length_factor = units.length_factor;
   map.pixel = geometry.pixel * units.length_factor;
   map.center = geometry.center * units.length_factor;
   map.center_right = dot(map.center, geometry.right);
   map.center_up = dot(map.center, geometry.up);
+  map.sky = decide_sky(settings, units, map.pixel);
 }
 
 }  // namespace
@@ -128,7 +144,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, box);
   ComponentFields& fields = open.fields().front();
   fields.select();
-  const MapMatter matter = read_matter(component, fields);
+  const MapMatter matter = read_matter(component, settings.center_at, fields);
   const MapGeometry geometry = decide_geometry(one, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   const MapUnits units = decide_units(settings, fields.snapshot_info(),

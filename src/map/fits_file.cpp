@@ -81,19 +81,33 @@ class FitsFile {
   int status_ = 0;
 };
 
-void add_axis(FitsFile& file, const std::string& number, const std::string& name, double center,
-              int pixels, const Map& map) {
-  // Their kind is not one of the standard's: the transformation is linear.
-  file.add_text(("CTYPE" + number).c_str(), name, "linear");
-  file.add_text(("CUNIT" + number).c_str(), fits_unit(map.length_unit), "");
-  file.add_number(("CRPIX" + number).c_str(), 0.5 * pixels + 0.5, "the middle of the map");
-  file.add_number(("CRVAL" + number).c_str(), center, "");
-  file.add_number(("CDELT" + number).c_str(), map.pixel, "");
+struct Axis {
+  std::string name, unit;
+  double center, step;
+  int pixels;
+};
+
+// `number` is that of the axis, with the letter of the system of coordinates.
+void add_axis(FitsFile& file, const std::string& number, const Axis& axis) {
+  file.add_text(("CTYPE" + number).c_str(), axis.name, "");
+  file.add_text(("CUNIT" + number).c_str(), axis.unit, "");
+  file.add_number(("CRPIX" + number).c_str(), 0.5 * axis.pixels + 0.5, "the middle of the map");
+  file.add_number(("CRVAL" + number).c_str(), axis.center, "");
+  file.add_number(("CDELT" + number).c_str(), axis.step, "");
 }
 
+// Lengths alone, or coordinates on the sky, with lengths as another system, "P". Names of axes that
+// the standard does not have are linear.
 void add_place(FitsFile& file, const Map& map) {
-  add_axis(file, "1", map.right_name, map.center_right, map.width, map);
-  add_axis(file, "2", map.up_name, map.center_up, map.height, map);
+  const std::string unit = fits_unit(map.length_unit), letter = map.sky ? "P" : "";
+  if (map.sky) {
+    add_axis(file, "1", {"RA---TAN", "deg", map.sky->right_ascension, -map.sky->pixel, map.width});
+    add_axis(file, "2", {"DEC--TAN", "deg", map.sky->declination, map.sky->pixel, map.height});
+    file.add_text("RADESYS", "ICRS", "");
+    file.add_text("WCSNAMEP", "lengths", "");
+  }
+  add_axis(file, "1" + letter, {map.right_name, unit, map.center_right, map.pixel, map.width});
+  add_axis(file, "2" + letter, {map.up_name, unit, map.center_up, map.pixel, map.height});
 }
 
 }  // namespace

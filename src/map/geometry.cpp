@@ -133,8 +133,11 @@ Vec3 densest_place(const MapMatter& matter) {
   Vec3 place = {{0, 0, 0}};
   for (std::size_t i = 0; i < matter.count; ++i) {
     if (!matter.is_good(i)) continue;
-    const double density = mass_of(matter, i) / std::pow(matter.size_of(i), 3);
-    if (density <= most) continue;
+    // Lengths often have a least one, at which all dense particles would be alike.
+    const double density = matter.density.is_absent()
+                               ? mass_of(matter, i) / std::pow(matter.size_of(i), 3)
+                               : static_cast<double>(matter.density[i]);
+    if (!(density > most && std::isfinite(density))) continue;
     most = density;
     place = matter.position_of(i);
   }

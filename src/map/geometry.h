@@ -7,11 +7,12 @@
 
 namespace splotchcl {
 
-// The positions, sizes and masses that a map's place may follow from. Masses may be absent.
+// The positions, sizes, masses and densities that a map's place may follow from. The last two may
+// be absent.
 struct MapMatter {
   std::size_t count = 0;
   Vec3 origin = {{0, 0, 0}};
-  Column position, smoothing_length, mass;
+  Column position, smoothing_length, mass, density;
   double size_factor = 1;
 
   Vec3 position_of(std::size_t i) const;

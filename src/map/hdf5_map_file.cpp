@@ -86,6 +86,10 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
                            map.center_up - half_height, map.center_up + half_height});
   writer.write_numbers<3>(values.id(), "center",
                           {map.center.a[0], map.center.a[1], map.center.a[2]});
+  if (map.sky) {
+    writer.write_numbers<2>(values.id(), "sky", {map.sky->right_ascension, map.sky->declination});
+    writer.write_numbers<1>(values.id(), "degrees_per_pixel", {map.sky->pixel});
+  }
   writer.write_numbers<1>(values.id(), "tolerance", {map.tolerance});
   writer.write_numbers<1>(values.id(), "floor", {map.floor});
   if (!map.effective_particles.empty()) {

@@ -25,7 +25,4 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
 // Red: the map. Green: the effective number of particles, or 0.
 Image numbers_as_image(const Map& map);
 
-// By the palette, with a color bar, a scale bar and a title.
-Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot);
-
 }  // namespace splotchcl

@@ -138,12 +138,14 @@ void set_lengths(const DataUnits& data, MapUnits& units) {
   const Unit centimeter = parse_unit("cm", {}, "unit");
   if (!length.is_known || !same_dimension(length.unit, centimeter)) return;
   units.length_name = "cm";
+  units.length_in_cgs = 1;
   for (const char* const name : {"Mpc", "kpc", "pc", "AU", "km"}) {
     const Unit known = parse_unit(name, {}, "unit");
     const double factor = length.unit.in_cgs / known.in_cgs;
     if (factor < 0.05) continue;
     units.length_name = name;
     units.length_factor = factor;
+    units.length_in_cgs = known.in_cgs;
     return;
   }
   units.length_factor = length.unit.in_cgs;

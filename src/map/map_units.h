@@ -21,7 +21,8 @@ struct MapUnits {
   std::string name;   // of the values
   double factor = 1;  // from the snapshot's units to these
   std::string length_name;
-  double length_factor = 1;
+  double length_factor = 1;  // from the snapshot's lengths to these
+  double length_in_cgs = 0;  // of one of these; 0: not known
 };
 
 // From the first of the types, which must be there. Throws UsageError for a unit that is none, that

@@ -1,5 +1,6 @@
 #include "common/unfinished_file.h"
 #include "common/words.h"
+#include "map/figure.h"
 #include "map/map_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
@@ -22,14 +23,24 @@ void write_bytes(const std::filesystem::path& path, const std::vector<unsigned c
 
 }  // namespace
 
+Image numbers_as_image(const Map& map) {
+  Image image(map.width, map.height);
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    image.pixels[4 * i] = map.values[i];
+    if (!map.effective_particles.empty()) image.pixels[4 * i + 1] = map.effective_particles[i];
+    image.pixels[4 * i + 3] = 1;
+  }
+  return image;
+}
+
 void check_map_path(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  if (is_fits(ending) || is_hdf5(ending) || ending == ".npy") {
+  if (is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".pdf") {
     check_output_path(path);
   } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
     throw UsageError(path.string() +
                      ": holds light, not a map; expected .fits, .hdf5, .npy or .exr for the "
-                     "numbers, .png or another picture of 8 bits for a figure");
+                     "numbers, .pdf, .png or another picture of 8 bits for a figure");
   } else {
     check_image_path(path);
   }
@@ -46,6 +57,8 @@ void write_map(const std::filesystem::path& path, const Map& map, const Scene& s
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));
+  } else if (ending == ".pdf") {
+    write_bytes(path, encode_pdf(path, map, scene, snapshot));
   } else if (ending == ".exr") {
     ImageFileOptions options;
     options.metadata = metadata;

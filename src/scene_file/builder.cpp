@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
 #include "common/nearest_name.h"
+#include "scene/constants.h"
 #include "scene_file/key_depth.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
@@ -76,6 +78,22 @@ std::vector<std::pair<const toml::key*, const toml::node*>> in_file_order(
   return entries;
 }
 
+void center_on(const Vec3& center, Camera& camera) {
+  const Vec3 shift = center - camera.look_at;
+  camera.position += shift;
+  camera.look_at = center;
+}
+
+// From a distance at which the width is seen under 45 degrees, or far above all matter where the
+// distance does not count.
+void look_from_above(const Vec3& center, double width, Camera& camera) {
+  const bool is_parallel = camera.projection == Projection::orthographic;
+  const double distance = width * (is_parallel ? 1000 : 0.5 / std::tan(pi / 8));
+  camera.look_at = center;
+  camera.position = center + Vec3{{0, 0, distance}};
+  camera.sky = {{0, 1, 0}};
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(Scene scene, const std::string& name_for_messages)
@@ -101,6 +119,7 @@ void SceneBuilder::read_text(const std::string& text) {
   }
   assign_table({}, {root, origins_.name});
   refuse_exclusions();
+  center_camera();
 }
 
 void SceneBuilder::apply_settings(const std::vector<std::string>& settings) {
@@ -109,6 +128,7 @@ void SceneBuilder::apply_settings(const std::vector<std::string>& settings) {
   for (const std::string& setting : settings)
     apply_setting(setting);
   refuse_exclusions();
+  center_camera();
 }
 
 Scene SceneBuilder::finish() const {
@@ -224,6 +244,25 @@ void SceneBuilder::refuse_exclusions() const {
              fmt::format("it beside {}", given.address.label), "only one of the two");
     }
   }
+}
+
+void SceneBuilder::center_camera() {
+  if (!scene_.camera || !scene_.camera->center) return;
+  Camera& camera = *scene_.camera;
+  const bool has_place = !camera_is_new_ || origins_.contains("camera.position") ||
+                         origins_.contains("camera.look_at");
+  if (!has_place && !camera.width) {
+    refuse(origins_.at("camera.center"), "camera.center",
+           "it in a camera without a place and without a width", "camera.width as well");
+  }
+  if (has_place) {
+    center_on(*camera.center, camera);
+  } else {
+    look_from_above(*camera.center, *camera.width, camera);
+    for (const char* label : {"camera.position", "camera.look_at"})
+      origins_.where[label] = origins_.at("camera.center");
+  }
+  camera.center.reset();
 }
 
 std::string SceneBuilder::where_in_file(const toml::source_region& region) const {

@@ -43,6 +43,7 @@ class SceneBuilder {
   void need_camera(const KeyAddress& address, const std::string& where);
   void need_stereo(const KeyAddress& address);
   void refuse_exclusions() const;
+  void center_camera();
   std::string where_in_file(const toml::source_region& region) const;
 
   Scene scene_;

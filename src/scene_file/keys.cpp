@@ -107,6 +107,16 @@ Keys camera_keys() {
       key("camera.look_at", vector(), &Camera::look_at,
           {"The point in the middle of the picture.", "length",
            "required where there is a `[camera]`"}),
+      excluding(
+          key<Camera, Vec3>(
+              "camera.center", vector(), [](const Camera&) { return std::optional<Vec3>(); },
+              [](Camera& camera, const Vec3& value) { camera.center = value; },
+              {"Moves the camera, without turning it, so that this point is in the middle of the "
+               "picture. In a `[camera]` without `position` and `look_at`: from above, with x to "
+               "the "
+               "right and y upwards, and `width` is needed.",
+               "length", "what `look_at` says"}),
+          {"camera.position", "camera.look_at"}),
       key("camera.sky", vector(), &Camera::sky,
           {"The direction shown upwards. Any direction that is not parallel to the view."}),
       excluding(

@@ -3,6 +3,38 @@
 namespace splotchcl::scene_file {
 namespace {
 
+ValueType<std::array<double, 2>> sky_place() {
+  using Pair = std::array<double, 2>;
+  const auto read = [](const toml::node& node) -> std::optional<Pair> {
+    const auto pair = two_numbers(between(-90, 360), "").read(node);
+    if (!pair || (*pair)[0] < 0 || (*pair)[1] > 90) return std::nullopt;
+    return pair;
+  };
+  return {"[right ascension from 0 to 360, declination from -90 to 90]", read,
+          two_numbers({}, "").write};
+}
+
+ValueType<std::vector<double>> numbers() {
+  const auto read = [](const toml::node& node) -> std::optional<std::vector<double>> {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr) return std::nullopt;
+    std::vector<double> values;
+    for (const toml::node& element : *array) {
+      const auto value = number().read(element);
+      if (!value) return std::nullopt;
+      values.push_back(*value);
+    }
+    return values;
+  };
+  const auto write = [](const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values)
+      text += (text.empty() ? "" : ", ") + write_number(value);
+    return "[" + text + "]";
+  };
+  return {"an array of finite numbers", read, write};
+}
+
 // A text that says nothing where it is empty.
 Key text_key(const std::string& name, std::string MapSettings::*member, const Text& meaning) {
   return key<MapSettings, std::string>(
@@ -85,12 +117,31 @@ Keys number_keys() {
   };
 }
 
+Keys sky_keys() {
+  return {
+      text_key(
+          "distance", &MapSettings::distance,
+          {"From where the center is seen: a length with its unit, such as `16.5 Mpc`. FITS and "
+           "HDF5 files then have coordinates on the sky.",
+           "", "not on the sky"}),
+      key("map.sky", sky_place(), &MapSettings::sky,
+          {"Right ascension and declination of the center. Up is north.", "degrees"}),
+  };
+}
+
 Keys figure_keys() {
   return {
       key("map.scaling",
-          choice<Scaling>(
-              {{"linear", Scaling::linear}, {"log", Scaling::log}, {"asinh", Scaling::asinh}}),
+          choice<MapScaling>({{"linear", MapScaling::linear},
+                              {"log", MapScaling::log},
+                              {"asinh", MapScaling::asinh},
+                              {"power", MapScaling::power}}),
           &MapSettings::scaling, {"Of figures: from values to the palette."}),
+      key("map.softening", number(more_than(0)), &MapSettings::softening,
+          {"Below it asinh is linear.", "the map's",
+           "a thousandth of the limit farther from 0, down to a power of ten"}),
+      key("map.exponent", number(between(0.01, 10)), &MapSettings::exponent,
+          {"Of the scaling `power`: 0.5 takes the root."}),
       key("map.min", number(), &MapSettings::minimum,
           {"The value of the palette's first color.", "the map's", "a percentile of the map"}),
       key("map.max", number(), &MapSettings::maximum,
@@ -98,6 +149,11 @@ Keys figure_keys() {
       key("map.percentiles", percentiles(), &MapSettings::percentiles,
           {"Which percentiles of the map stand for a missing min or max.", "per cent"}),
       text_key("palette", &MapSettings::palette, {"The name of a palette, or a file."}),
+      excluding(key("map.contours", numbers(), &MapSettings::contours,
+                    {"Lines at these values of the map.", "the map's", "none"}),
+                {"map.contour_count"}),
+      key("map.contour_count", integer(0, 100), &MapSettings::contour_count,
+          {"So many lines, at values that are even in the palette."}),
   };
 }
 
@@ -105,7 +161,7 @@ Keys figure_keys() {
 
 Keys map_keys() {
   Keys keys;
-  for (const Keys& part : {quantity_keys(), view_keys(), number_keys(), figure_keys()})
+  for (const Keys& part : {quantity_keys(), view_keys(), number_keys(), sky_keys(), figure_keys()})
     append(keys, part);
   return written_if_set(std::move(keys));
 }

@@ -34,9 +34,11 @@ class MapCommand : public ::testing::Test {
 
 TEST_F(MapCommand, WritesOneMapInSeveralFormats) {
   const ProgramResult result =
-      map("u --quantity temperature --unit K --size 400x300 -o t.fits -o t.npy -o t.png -o t.h5");
+      map("u --quantity temperature --unit K --size 400x300 -o t.fits -o t.npy -o t.png "
+          "-o t.h5 -o t.pdf -o t.exr --contours 3 --center mass --noise");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(exists("t.fits") && exists("t.npy") && exists("t.png") && exists("t.h5"));
+  EXPECT_TRUE(exists("t.pdf") && exists("t.exr"));
 }
 
 TEST_F(MapCommand, TakesItsSettingsFromTheSceneToo) {
@@ -48,6 +50,13 @@ TEST_F(MapCommand, TakesItsSettingsFromTheSceneToo) {
 TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
   EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").exit_code, 0);
   expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
+}
+
+TEST_F(MapCommand, KnowsTheSkyWhereItKnowsLengths) {
+  const std::string sky = "u --size 64x64 --distance '10 Mpc' --sky 187.7,12.4 -o s.fits";
+  expect_wrong_call(sky, "map.length_unit");
+  EXPECT_EQ(map(sky + " --set map.length_unit=kpc").exit_code, 0);
+  expect_wrong_call("u --sky 187.7,112.4 -o s.fits", "declination");
 }
 
 TEST_F(MapCommand, RefusesWhatItCannotWriteBeforeItReads) {

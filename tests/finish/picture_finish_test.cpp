@@ -11,6 +11,7 @@
 namespace splotchcl::test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const ScalarMap zero_to_one = {Scaling::linear, 0, 1};
@@ -167,6 +168,36 @@ TEST(ColorBar, HasItsTicksAtTheirColors) {
   // At a tick's edge, the palette has the colour of the value.
   EXPECT_NEAR(image.at(bar.x + 2, rows[0])[0], 1 - 0.75, 1.0 / bar.height);
   EXPECT_NEAR(image.at(bar.x + 2, rows[1])[0], 1 - 0.25, 1.0 / bar.height);
+}
+
+// Opaque matter shows emission over absorption: the palette itself only where it absorbs all colors
+// alike and as much as it is bright.
+TEST(ColorBar, IsThePicturesOnlyWhereOpaqueMatterHasItsPalettesColors) {
+  DrawnComponent component;
+  component.palette = red_to_blue();
+  component.palette.absorption = {Rgb{1, 1, 1}};
+  component.brightness = 3;
+  component.absorption = {Absorption::Kind::factor, 3};
+  EXPECT_TRUE(keeps_palette(component, {}));
+  FinishSettings brighter;
+  brighter.exposure = 1;
+  EXPECT_FALSE(keeps_palette(component, brighter));
+  component.absorption.factor = 2;
+  EXPECT_FALSE(keeps_palette(component, {}));
+  component.absorption = {Absorption::Kind::as_emission, 0};
+  EXPECT_FALSE(keeps_palette(component, {}));
+}
+
+TEST(ColorBar, SaysWhatItShowsWhereLightAddsUp) {
+  FinishScene scene;
+  scene.add_component("gas", red_to_blue(), zero_to_one);
+  scene.scene.finish.color_bar.show = true;
+  EXPECT_THAT(tell_color_bars(scene.scene, scene.frame),
+              ElementsAre(HasSubstr("single particles of component gas")));
+  const auto bars = color_bars_of(scene.scene, scene.frame, {}, true);
+  EXPECT_THAT(bars.front().title, HasSubstr(" of particles"));
+  scene.scene.finish.color_bar.show = false;
+  EXPECT_TRUE(tell_color_bars(scene.scene, scene.frame).empty());
 }
 
 TEST(ColorBar, LiesAtTheTopAndBottom) {

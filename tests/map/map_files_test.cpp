@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "map/gas.h"
@@ -99,19 +100,47 @@ TEST(MapFiles, RefuseEndingsThatHoldLight) {
   EXPECT_THROW(check_map_path(folder / "a.unknown"), UsageError);
 }
 
-// A map of even values from 1 to 100 by a palette from black to white.
-TEST(MapFigure, ShowsValuesByThePaletteAsItsBarDoes) {
+// The program of FITS' own support office looks at every card and sum.
+TEST(MapFiles, PassFitsverify) {
+  if (std::system("fitsverify -q > /dev/null 2>&1") != 0 &&
+      std::system("command -v fitsverify > /dev/null") != 0) {
+    GTEST_SKIP() << "fitsverify is not installed; scripts/setup does that";
+  }
+  const testing::TemporaryFolder folder;
   Map map = small_map();
-  map.width = 600;
-  map.height = 400;
-  map.values.assign(600 * 400, 10);
-  map.effective_particles.clear();
-  Scene scene = map_scene();
-  scene.map.palette = "gray";
-  scene.map.minimum = 1;
-  scene.map.maximum = 100;
-  const Image figure = draw_figure(map, scene, {});
-  EXPECT_NEAR(figure.at(200, 200)[0], 0.5F, 1e-3F);  // the middle of two decades
+  write(folder / "lengths.fits", map);
+  map.unit = "1e10 M_sun Mpc^-2 a^-2";
+  map.quantity = std::string(100, 'q');
+  map.sky = SkyPlace{187.5, 12.25, 1e-3};
+  write(folder / "sky.fits", map);
+  for (const char* const name : {"lengths.fits", "sky.fits"}) {
+    const std::string command = "fitsverify -q " + (folder / name).string() + " > /dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0) << name;
+  }
+}
+
+TEST(MapFiles, HaveCoordinatesOnTheSkyAndLengthsBeside) {
+  const testing::TemporaryFolder folder;
+  Map map = small_map();
+  map.sky = SkyPlace{187.5, 12.25, 1e-3};
+  write(folder / "a.fits", map);
+  fitsfile* file = nullptr;
+  int status = 0;
+  fits_open_diskfile(&file, (folder / "a.fits").c_str(), READONLY, &status);
+  char axis[FLEN_VALUE] = "", unit[FLEN_VALUE] = "";
+  double east = 0, declination = 0, length = 0;
+  fits_read_key(file, TSTRING, "CTYPE1", axis, nullptr, &status);
+  fits_read_key(file, TSTRING, "CUNIT2P", unit, nullptr, &status);
+  fits_read_key(file, TDOUBLE, "CDELT1", &east, nullptr, &status);
+  fits_read_key(file, TDOUBLE, "CRVAL2", &declination, nullptr, &status);
+  fits_read_key(file, TDOUBLE, "CDELT1P", &length, nullptr, &status);
+  EXPECT_EQ(status, 0);
+  fits_close_file(file, &status);
+  EXPECT_STREQ(axis, "RA---TAN");
+  EXPECT_STREQ(unit, "kpc");
+  EXPECT_EQ(east, -1e-3);  // right ascension grows to the left
+  EXPECT_EQ(declination, 12.25);
+  EXPECT_EQ(length, 0.5);
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ TEST(MapGeometry, ShowsTheWholeBoxInAPictureOfAnyShape) {
 
 TEST(MapGeometry, FindsTheDensestPlace) {
   Gas gas = test::random_gas(50, 20, 1, 4);
-  gas.add({{3, -4, 5}}, 0.25F, 1, 100);
+  gas.add({{3, -4, 5}}, 4, 1, 100, {{0, 0, 0}}, 50);
   Scene scene = map_scene();
   scene.map.center.reset();
   scene.map.center_at = MapCenter::densest;

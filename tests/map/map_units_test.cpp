@@ -80,6 +80,27 @@ TEST(MapUnits, OfProductsAreWrittenFactorByFactor) {
   EXPECT_EQ(map_of(scene, one_particle().snapshot()).unit, "1e10 Msun Mpc^-2 pc^2 kpc^-2");
 }
 
+// A kiloparsec at a megaparsec is seen under 3.4 arc minutes.
+TEST(MapUnits, OfTheSkyFollowFromTheDistance) {
+  Scene scene = map_scene();
+  scene.map.length_unit = "kpc";
+  scene.map.distance = "1 Mpc";
+  scene.map.sky = {10, -20};
+  const Map map = map_of(scene, one_particle().snapshot());
+  ASSERT_TRUE(map.sky);
+  EXPECT_NEAR(map.sky->pixel, 1e-3 * 180 / std::acos(-1.0), 1e-12);
+  EXPECT_EQ(map.sky->declination, -20);
+}
+
+TEST(MapUnits, RefuseTheSkyWhereLengthsAreNotKnown) {
+  Scene scene = map_scene();
+  scene.map.distance = "1 Mpc";
+  EXPECT_THAT(refusal(scene), HasSubstr("set map.length_unit"));
+  scene.map.length_unit = "kpc";
+  scene.map.distance = "3 K";
+  EXPECT_THAT(refusal(scene), HasSubstr("expected a length"));
+}
+
 TEST(MapUnits, RefuseAUnitForCounts) {
   Scene scene = map_scene();
   scene.map.quantity = "counts";

@@ -61,11 +61,17 @@ inline void expect_same(const MapSettings& a, const MapSettings& b) {
   EXPECT_EQ(a.velocity_unit, b.velocity_unit);
   EXPECT_EQ(a.floor, b.floor);
   EXPECT_EQ(a.noise, b.noise);
+  EXPECT_EQ(a.distance, b.distance);
+  EXPECT_EQ(a.sky, b.sky);
   EXPECT_EQ(a.scaling, b.scaling);
+  EXPECT_EQ(a.softening, b.softening);
+  EXPECT_EQ(a.exponent, b.exponent);
   EXPECT_EQ(a.minimum, b.minimum);
   EXPECT_EQ(a.maximum, b.maximum);
   EXPECT_EQ(a.percentiles, b.percentiles);
   EXPECT_EQ(a.palette, b.palette);
+  EXPECT_EQ(a.contours, b.contours);
+  EXPECT_EQ(a.contour_count, b.contour_count);
 }
 
 inline void expect_same(const Component& a, const Component& b) {

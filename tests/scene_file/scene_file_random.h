@@ -278,11 +278,21 @@ class RandomScenes {
     }
     map.floor = positive(1e-11, 1);
     map.noise = coin();
-    map.scaling = static_cast<Scaling>(integer(0, 2));
+    if (coin()) map.distance = word();
+    if (coin()) map.sky = {360 * unit(), 180 * unit() - 90};
+    map.scaling = static_cast<MapScaling>(integer(0, 3));
+    map.softening = maybe(positive());
+    map.exponent = 0.01 + 9 * unit();
     map.minimum = maybe(any());
     map.maximum = maybe(any());
     map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
     map.palette = word();
+    if (coin()) {
+      map.contour_count = integer(1, 100);
+    } else {
+      for (int i = integer(0, 3); i > 0; --i)
+        map.contours.push_back(any());
+    }
     return map;
   }
 

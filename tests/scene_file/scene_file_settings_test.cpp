@@ -53,6 +53,23 @@ TEST(Settings, OverrideTheFile) {
   EXPECT_EQ(with({"snapshot=other"}).snapshot, "other");
 }
 
+TEST(Settings, MoveTheCameraToACenterWithoutTurningIt) {
+  const Camera camera = *with({"camera.center=[1,2,3]", "camera.width=5"}).camera;
+  EXPECT_TRUE(same(camera.look_at, {{1, 2, 3}}));
+  EXPECT_TRUE(same(camera.position, {{1, 2, -7}}));
+  EXPECT_EQ(camera.width, 5);
+  EXPECT_FALSE(camera.center);
+}
+
+TEST(Settings, LookFromAboveWhereACameraHasNoPlaceButACenter) {
+  const Camera camera =
+      *parse_scene("snapshot = 'a'\n[camera]\ncenter = [1, 2, 3]\nwidth = 10\n", "s.toml").camera;
+  EXPECT_TRUE(same(camera.look_at, {{1, 2, 3}}));
+  EXPECT_EQ(camera.position.a[0], 1);
+  EXPECT_GT(camera.position.a[2], 3);
+  EXPECT_TRUE(same(camera.sky, {{0, 1, 0}}));
+}
+
 TEST(Settings, ChangeNothingElse) {
   Scene expected = with({});
   expected.image.width = 640;

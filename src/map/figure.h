@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "map/contours.h"
+#include "map/map_colors.h"
+#include "splotchcl/image.h"
+#include "splotchcl/map.h"
+
+namespace splotchcl {
+
+// What figures of a map have in common.
+struct Figure {
+  const Map& map;
+  MapColors colors;
+  Palette palette;
+  std::string label;           // of the color bar, with raised digits
+  std::vector<double> levels;  // of contours
+
+  // The palette's color of each pixel, as displayed; gray where there is no value.
+  Image picture() const;
+};
+
+// Throws UsageError for a palette that there is none of, or limits that cannot be.
+Figure plan_figure(const Map& map, const MapSettings& settings);
+
+// The picture with contours, color bar, scale bar and texts upon it.
+Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot);
+
+// A page with axes around the picture; lines and texts are lines and texts. `path` is for messages.
+std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Map& map,
+                                      const Scene& scene, const SnapshotInfo& snapshot);
+
+// Lines of this width in pixels upon the picture.
+void draw_contours(const std::vector<ContourPiece>& pieces, double width, Image& image);
+
+}  // namespace splotchcl

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "map/map_units.h"
+#include "splotchcl/map.h"
+#include "splotchcl/map_settings.h"
+
+namespace splotchcl {
+
+// Where the map is seen on the sky; nothing without map.distance. `pixel` is its side in the units'
+// lengths. Throws UsageError where the distance is no length, or the map's lengths are not known.
+std::optional<SkyPlace> decide_sky(const MapSettings& settings, const MapUnits& units,
+                                   double pixel);
+
+}  // namespace splotchcl

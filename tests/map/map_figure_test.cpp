@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "map/figure.h"
+#include "map/gas.h"
+#include "splotchcl/error.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using test::map_scene;
+
+Map even_map(int width, int height, float value) {
+  Map map;
+  map.width = width;
+  map.height = height;
+  map.values.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value);
+  map.quantity = "surface density";
+  map.unit = "Msun/pc^2";
+  map.right_name = "x";
+  map.up_name = "y";
+  map.length_unit = "kpc";
+  map.pixel = 0.5;
+  return map;
+}
+
+// From 0 in the left column to width - 1 in the right one.
+Map ramp(int width, int height) {
+  Map map = even_map(width, height, 0);
+  for (std::size_t i = 0; i < map.values.size(); ++i)
+    map.values[i] = static_cast<float>(i % static_cast<std::size_t>(width));
+  return map;
+}
+
+MapSettings settings(MapScaling scaling, double minimum, double maximum) {
+  MapSettings settings;
+  settings.scaling = scaling;
+  settings.minimum = minimum;
+  settings.maximum = maximum;
+  return settings;
+}
+
+// A palette from black to white.
+TEST(MapFigure, ShowsValuesByThePaletteAsItsBarDoes) {
+  Scene scene = map_scene();
+  scene.map = settings(MapScaling::log, 1, 100);
+  scene.map.palette = "gray";
+  const Image figure = draw_figure(even_map(600, 400, 10), scene, {});
+  EXPECT_NEAR(figure.at(200, 200)[0], 0.5F, 1e-3F);  // the middle of two decades
+}
+
+TEST(MapFigure, ShowsGrayWhereThereIsNoValue) {
+  Scene scene = map_scene();
+  Map map = even_map(600, 400, 10);
+  map.values[200 * 600 + 200] = std::nanf("");
+  EXPECT_EQ(draw_figure(map, scene, {}).at(200, 200)[1], 0.2F);
+}
+
+TEST(MapFigure, HasAWhiteLineAtAContour) {
+  Scene scene = map_scene();
+  scene.map = settings(MapScaling::linear, 0, 599);
+  scene.map.palette = "gray";
+  scene.map.contours = {150.5};
+  const Image figure = draw_figure(ramp(600, 400), scene, {});
+  // Values are those of pixel centers: 150.5 lies at the border of pixels 150 and 151.
+  EXPECT_NEAR(figure.at(150, 200)[0], 0.5F + 0.5F * 0.1F, 0.1F);
+  EXPECT_NEAR(figure.at(140, 200)[0], 140.0F / 599, 1e-3F);
+  EXPECT_GT(figure.at(151, 200)[0], 0.4F);
+}
+
+TEST(MapFigure, IsAPdfFileOnRequest) {
+  Scene scene = map_scene();
+  scene.map.contour_count = 3;
+  scene.finish.title.text = "Σ at z = 0";
+  const auto bytes = encode_pdf("a.pdf", ramp(60, 40), scene, {});
+  const std::string text(bytes.begin(), bytes.end());
+  EXPECT_EQ(text.substr(0, 5), "%PDF-");
+  EXPECT_THAT(text, ::testing::HasSubstr("%%EOF"));
+  EXPECT_EQ(bytes, encode_pdf("a.pdf", ramp(60, 40), scene, {})) << "the same map, the same bytes";
+}
+
+TEST(MapColors, ScaleAsTheSettingsSay) {
+  const std::vector<float> none;
+  EXPECT_NEAR(MapColors(none, settings(MapScaling::linear, 10, 30)).place(15), 0.25, 1e-12);
+  EXPECT_NEAR(MapColors(none, settings(MapScaling::log, 1, 1e4)).place(10), 0.25, 1e-12);
+  EXPECT_NEAR(MapColors(none, settings(MapScaling::power, 0, 16)).place(1), 0.25, 1e-12);
+  MapSettings asinh = settings(MapScaling::asinh, -std::sinh(2), std::sinh(2));
+  asinh.softening = 1;
+  EXPECT_NEAR(MapColors(none, asinh).place(std::sinh(-1)), 0.25, 1e-12);
+}
+
+TEST(MapColors, TakePercentilesOfFiniteValuesForLimits) {
+  std::vector<float> values;
+  for (int i = 0; i <= 100; ++i)
+    values.push_back(static_cast<float>(i));
+  values.push_back(std::nanf(""));
+  MapSettings half;
+  half.scaling = MapScaling::linear;
+  half.percentiles = {25, 75};
+  const MapColors colors(values, half);
+  EXPECT_NEAR(colors.place(25), 0, 1e-9);
+  EXPECT_NEAR(colors.place(75), 1, 1e-9);
+}
+
+TEST(MapColors, MarkTheBarWhereTheValuesAre) {
+  MapSettings asinh = settings(MapScaling::asinh, -1e-3, 1e-3);
+  asinh.softening = 1e-6;
+  for (const MapSettings& one :
+       {settings(MapScaling::power, 0, 100), asinh, settings(MapScaling::log, 1e-3, 1e3)}) {
+    const MapColors colors({}, one);
+    const std::vector<Tick> ticks = colors.ticks(6, true);
+    EXPECT_GE(ticks.size(), 4U);
+    for (const Tick& tick : ticks) {
+      EXPECT_NEAR(tick.position, colors.place(tick.value), 1e-12);
+      EXPECT_GE(tick.position, -1e-9);
+      EXPECT_LE(tick.position, 1 + 1e-9);
+    }
+  }
+}
+
+TEST(MapColors, RefuseALogarithmOfZero) {
+  EXPECT_THROW(MapColors({}, settings(MapScaling::log, 0, 1)), UsageError);
+}
+
+TEST(MapColors, RefuseLimitsOutOfOrder) {
+  EXPECT_THROW(MapColors({}, settings(MapScaling::linear, 2, 1)), UsageError);
+}
+
+TEST(Contours, LieWhereTheMapHasTheirValue) {
+  const auto pieces = contour_pieces(ramp(20, 10), 7.25);
+  EXPECT_EQ(pieces.size(), 9U);
+  for (const ContourPiece& piece : pieces) {
+    EXPECT_NEAR(piece[0][0], 7.75, 1e-12);  // the center of pixel 7 lies at 7.5
+    EXPECT_NEAR(piece[1][0], 7.75, 1e-12);
+  }
+}
+
+TEST(Contours, CloseAroundAPeak) {
+  Map map = even_map(5, 5, 0);
+  map.values[12] = 1;
+  EXPECT_EQ(contour_pieces(map, 0.5).size(), 4U);
+}
+
+TEST(Contours, LeaveOutWhatHasNoValue) {
+  Map map = ramp(3, 2);
+  map.values[0] = std::nanf("");
+  EXPECT_TRUE(contour_pieces(map, 0.5).empty());
+  EXPECT_EQ(contour_pieces(map, 1.5).size(), 1U);
+}
+
+}  // namespace
+}  // namespace splotchcl
