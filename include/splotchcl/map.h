@@ -54,6 +54,11 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 // be written to.
 void check_map_path(const std::filesystem::path& path);
 
+// Before a map is drawn: refuses a palette, a font or a placeholder that a figure would lack.
+// Throws UsageError.
+void check_map_output(const std::filesystem::path& path, const Scene& scene,
+                      const SnapshotInfo& snapshot);
+
 // By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a
 // color bar, by the scene's [map] and [finish]. The metadata is kept by the first two. Throws
 // DataError.

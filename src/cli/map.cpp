@@ -98,8 +98,10 @@ int run_map(const MapOptions& options, Console& console) {
   SceneWithSnapshot source = open_scene(options.scene, settings_of_map(options));
   add_selection(options.select, source.scene);
   std::vector<OutputFile> outputs;
-  for (const std::filesystem::path& output : options.outputs)
+  for (const std::filesystem::path& output : options.outputs) {
+    check_map_output(output, source.scene, source.snapshot->info());
     outputs.push_back({output, "--output"});
+  }
   check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
   for (const std::string& note : source.notes)
     console.note(note);

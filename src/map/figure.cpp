@@ -73,6 +73,13 @@ Image Figure::picture() const {
   return image;
 }
 
+void check_figure(const Scene& scene, const SnapshotInfo& snapshot) {
+  (void)load_palette(scene.map.palette);
+  Scene texts = scene_of_figure(Map(), scene);
+  texts.finish.color_bar.show = false;  // it needs no component's field
+  check_finish(texts, snapshot);
+}
+
 Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot) {
   const Figure figure = plan_figure(map, scene.map);
   const Scene finished = scene_of_figure(map, scene);

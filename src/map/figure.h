@@ -26,6 +26,10 @@ struct Figure {
 // Throws UsageError for a palette that there is none of, or limits that cannot be.
 Figure plan_figure(const Map& map, const MapSettings& settings);
 
+// Refuses before anything is drawn what would be refused afterwards: a palette, a font,
+// placeholders that there are none of. Throws UsageError.
+void check_figure(const Scene& scene, const SnapshotInfo& snapshot);
+
 // The picture with contours, color bar, scale bar and texts upon it.
 Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot);
 

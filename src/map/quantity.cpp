@@ -64,29 +64,8 @@ MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields
   return {MapQuantity::Kind::column, fields.masses(), {}, what};
 }
 
-}  // namespace
-
-void check_quantity(const MapSettings& settings) {
-  if (settings.slice && settings.quantity == "counts") {
-    throw UsageError(
-        "key map.slice: found true beside map.quantity = \"counts\", expected another quantity: a "
-        "plane holds no particles");
-  }
-  if (settings.slice && settings.statistic == MapStatistic::integral) {
-    throw UsageError(
-        "key map.slice: found true beside map.statistic = \"integral\", expected \"mean\": in a "
-        "plane there is nothing to integrate along");
-  }
-  if (is_column(settings) && settings.statistic != MapStatistic::mean) {
-    throw UsageError(fmt::format(
-        "key map.statistic: found one for map.quantity = \"{}\", which is a sum, expected none; "
-        "name a field as the quantity",
-        settings.quantity));
-  }
-}
-
-MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
-                          const ComponentFields& fields, std::size_t count) {
+MapQuantity read_unfaded(const MapSettings& settings, const MapGeometry& geometry,
+                         const ComponentFields& fields, std::size_t count) {
   if (is_column(settings)) return column_of(settings, fields);
   const Column value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
@@ -101,6 +80,48 @@ MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geomet
           weights(weight, fields, count), value,
           fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion",
                       settings.quantity, weight, settings.slice ? ", in a plane" : "")};
+}
+
+}  // namespace
+
+void check_quantity(const MapSettings& settings) {
+  if (settings.slice && settings.quantity == "counts") {
+    throw UsageError(
+        "key map.slice: found true beside map.quantity = \"counts\", expected another quantity: a "
+        "plane holds no particles");
+  }
+  if (settings.slice && settings.statistic == MapStatistic::integral) {
+    throw UsageError(
+        "key map.slice: found true beside map.statistic = \"integral\", expected \"mean\": in a "
+        "plane there is nothing to integrate along");
+  }
+  const bool is_weighted = !is_column(settings) && settings.statistic != MapStatistic::integral;
+  if (!settings.weight.empty() && !is_weighted) {
+    throw UsageError(
+        fmt::format("key map.weight: found \"{}\" for a sum, which has no weights, expected it "
+                    "beside the mean or "
+                    "the dispersion of a field",
+                    settings.weight));
+  }
+  if (is_column(settings) && settings.statistic != MapStatistic::mean) {
+    throw UsageError(fmt::format(
+        "key map.statistic: found one for map.quantity = \"{}\", which is a sum, expected none; "
+        "name a field as the quantity",
+        settings.quantity));
+  }
+}
+
+MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
+                          const ComponentFields& fields, std::size_t count) {
+  MapQuantity quantity = read_unfaded(settings, geometry, fields, count);
+  const Column fade = fields.fade();
+  if (fade.is_absent()) return quantity;
+  // Between two snapshots of a run, some particles are there in part.
+  std::vector<float> weight(count);
+  for (std::size_t i = 0; i < count; ++i)
+    weight[i] = quantity.weight[i] * fade[i];
+  quantity.weight = Column::owning(std::move(weight));
+  return quantity;
 }
 
 }  // namespace splotchcl

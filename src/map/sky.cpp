@@ -12,7 +12,11 @@ namespace splotchcl {
 // of the FITS standard, whose pixels are equal there.
 std::optional<SkyPlace> decide_sky(const MapSettings& settings, const MapUnits& units,
                                    double pixel) {
-  if (settings.distance.empty()) return std::nullopt;
+  if (settings.distance.empty()) {
+    if (settings.sky == MapSettings().sky) return std::nullopt;
+    throw UsageError(
+        "key map.sky: found it without map.distance, expected both: from where the map is seen");
+  }
   const Unit distance = parse_unit(settings.distance, {}, "key map.distance");
   const Unit centimeter = parse_unit("cm", {}, "unit");
   if (!same_dimension(distance, centimeter) || !(distance.in_cgs > 0)) {

@@ -56,7 +56,7 @@ TEST_F(MapCommand, KnowsTheSkyWhereItKnowsLengths) {
   const std::string sky = "u --size 64x64 --distance '10 Mpc' --sky 187.7,12.4 -o s.fits";
   expect_wrong_call(sky, "map.length_unit");
   EXPECT_EQ(map(sky + " --set map.length_unit=kpc").exit_code, 0);
-  expect_wrong_call("u --sky 187.7,112.4 -o s.fits", "declination");
+  expect_wrong_call("u --sky 187.7,112.4 --distance '10 Mpc' -o s.fits", "declination");
 }
 
 TEST_F(MapCommand, RefusesWhatItCannotWriteBeforeItReads) {

@@ -80,6 +80,17 @@ TEST(MapFigure, IsAPdfFileOnRequest) {
   EXPECT_EQ(bytes, encode_pdf("a.pdf", ramp(60, 40), scene, {})) << "the same map, the same bytes";
 }
 
+TEST(MapFigure, IsRefusedBeforeTheMapIsDrawnWhereItCannotBe) {
+  Scene scene = map_scene();
+  EXPECT_NO_THROW(check_map_output("a.png", scene, {}));
+  scene.map.palette = "viridiss";
+  EXPECT_THROW(check_map_output("a.png", scene, {}), UsageError);
+  EXPECT_NO_THROW(check_map_output("a.fits", scene, {}));
+  scene.map.palette = "viridis";
+  scene.finish.title.text = "{redshift}";
+  EXPECT_THROW(check_map_output("a.pdf", scene, {}), UsageError);
+}
+
 TEST(MapColors, ScaleAsTheSettingsSay) {
   const std::vector<float> none;
   EXPECT_NEAR(MapColors(none, settings(MapScaling::linear, 10, 30)).place(15), 0.25, 1e-12);

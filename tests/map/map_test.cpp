@@ -265,6 +265,12 @@ TEST(Map, RefusesSettingsThatContradictEachOther) {
   scene.map.quantity = "counts";
   scene.map.slice = true;
   EXPECT_THROW(map_of(scene, snapshot), UsageError);
+  scene = map_scene();
+  scene.map.weight = "volume";
+  EXPECT_THROW(map_of(scene, snapshot), UsageError);
+  scene = map_scene();
+  scene.map.sky = {10, 20};
+  EXPECT_THROW(map_of(scene, snapshot), UsageError);
 }
 
 TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
