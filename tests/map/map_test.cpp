@@ -347,5 +347,31 @@ TEST(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
   }
 }
 
+// docs/maps.md: tolerance (F + max(F, S / D)), to first order.
+TEST(MapOnTheDevice, KeepsTheBoundOfItsMeans) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
+  Renderer renderer;
+  Gas gas = random_gas(2000, 20, 0.5F, 8);
+  const auto snapshot = gas.snapshot();
+  Scene scene = map_scene();
+  scene.tolerance = 1e-3;
+  const Map column = map_of(scene, snapshot);
+  scene.map.quantity = "temperature";
+  std::vector<std::string> notes;
+  const Map drawn = draw_map(
+      scene, snapshot, [&renderer](const Frame& frame) { return renderer.render(frame); }, notes);
+  const Map exact = map_of(scene, snapshot);
+  std::nth_element(gas.temperature.begin(), gas.temperature.begin() + 1000, gas.temperature.end());
+  const auto typical = static_cast<double>(gas.temperature[1000]);
+  for (std::size_t i = 0; i < exact.values.size(); ++i) {
+    const auto mean = static_cast<double>(exact.values[i]);
+    const double floors = static_cast<double>(column.values[i]) / column.floor;
+    // Near one floor the two may disagree on whether there is enough matter.
+    if (std::isnan(mean) || floors < 1.01) continue;
+    EXPECT_NEAR(static_cast<double>(drawn.values[i]), mean,
+                1.01e-3 * (mean + std::max(mean, typical / floors)));
+  }
+}
+
 }  // namespace
 }  // namespace splotchcl
