@@ -169,15 +169,13 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
   __global uint* count = counts + (size_t)block * p.tile_count;
   const uint end = slots_end(p, blocks, block);
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
-    const uint packed = tiles[slot - p.first];
-    if (packed == 0) continue;
 #ifdef BLOCKS_OF_PROJECTION
     const Splat splat = splats[slot];
 #else
     const Splat splat = in_order[slot - p.first];
 #endif
     const Grid grid = grids[grid_of(splat)];
-    const int4 range = unpack_tiles(packed, splat, grid);
+    const int4 range = unpack_tiles(tiles[slot - p.first], splat, grid);
 #ifdef EXTENDED_NUMBERS
     TileSplat entry;
 #ifdef LIGHT_ORDERED

@@ -38,7 +38,7 @@ INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
   const AxisLanes along = axis_of(p.middle_y, p.height, level, guard);
   // Places are rounded to floats here, twice (Grid::room).
   const VALUE room = (max(across.last, along.last) + 1.0f) * 0x1p-22f;
-  const VALUE radius = max(s.radius, (VALUE)(0.5f)) + room;
+  const VALUE radius = s.radius + room;
   const INTEGER first_x = first_pixel(s.x, radius, across);
   const INTEGER last_x = last_pixel(s.x, radius, across);
   const INTEGER first_y = first_pixel(s.y, radius, along);
@@ -50,8 +50,7 @@ INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
   const INTEGER packed = column | row << FIRST_TILE_BITS | columns << 2 * FIRST_TILE_BITS |
                          rows << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
   const INTEGER fits = (max(column, row) < 1 << FIRST_TILE_BITS) &
-                       (max(columns, rows) < (1 << TILE_COUNT_BITS) - 1) & (s.radius >= 0.0f);
-  const INTEGER touches = (first_x <= last_x) & (first_y <= last_y);
-  const INTEGER found = select((INTEGER)(0), packed, touches);
-  return select((INTEGER)((int)FOUND_AGAIN), found, fits);
+                       (max(columns, rows) < (1 << TILE_COUNT_BITS) - 1) & (s.radius >= 0.0f) &
+                       (first_x <= last_x) & (first_y <= last_y);
+  return select((INTEGER)((int)FOUND_AGAIN), packed, fits);
 }

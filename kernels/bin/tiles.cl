@@ -9,27 +9,29 @@ INLINED int4 tiles_in_memory(int4 range, const Grid grid) {
   return part.z > part.w ? (int4)(0, -1, 0, -1) : part;
 }
 
-// A splat that is only listed (splat.h) is so once, in the tile next to it.
-INLINED float2 nearest_in_memory(float2 center, const Grid grid) {
+INLINED float2 center_on_grid(const Splat splat, const Grid grid) {
+  return (float2)((float)splat.x, (float)splat.y) * unit_of(splat, grid) +
+         (float2)((float)grid.middle_x, (float)grid.middle_y);
+}
+
+// The tile next to a splat that is only listed (splat.h), or that touches none: the check after
+// drawing is to know of it.
+INLINED int4 tile_beside(const Splat splat, const Grid grid) {
   const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
   const float2 size =
       (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
-  return min(max(center, first + 0.5f), first + size - 0.5f);
+  const float2 nearest = min(max(center_on_grid(splat, grid), first), first + size - 1.0f);
+  const int column = (int)nearest.x / TILE_WIDTH, row = (int)nearest.y / TILE_HEIGHT;
+  return (int4)(column, column, row, row);
 }
 
-// The same of a splat so wide that its units are pixels or more, or that is only listed (splat.h).
-// First pixels are turned round, so that first and last ones are found alike: the last whole number
-// below, as floor() is a call on PoCL. Clamped before the conversion: a splat close to the camera
-// may lie anywhere.
+// First and last pixels (tile_range) of a splat so wide that its units are pixels or more, or that
+// its radius is beyond integers. First pixels are turned round, so that first and last ones are
+// found alike: the last whole number below, as floor() is a call on PoCL. Clamped before the
+// conversion: a splat close to the camera may lie anywhere.
 inline int4 pixels_of_wide(const Splat splat, const Grid grid) {
-  const float unit = unit_of(splat, grid);
-  float2 center = (float2)((float)splat.x, (float)splat.y) * unit +
-                  (float2)((float)grid.middle_x, (float)grid.middle_y);
-  float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
-  if (splat.radius < 0.0f) {
-    center = nearest_in_memory(center, grid);
-    radius = (float2)(0.5f);
-  }
+  const float2 center = center_on_grid(splat, grid);
+  const float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
   const float2 size = (float2)((float)grid.width, (float)grid.height);
   const float4 ends = (float4)(0.5f - center, center - 0.5f) + radius.xyxy;
   const float4 clamped =
@@ -47,41 +49,34 @@ INLINED int2 pixels_within(int place, int radius, int middle, int bits) {
                 ((place + radius - to_center) >> bits) + middle);
 }
 
-// A radius in units, rounded up. Places are less than 2^30 units from the middle. A splat between
-// the centers of pixels is listed, too: the check after drawing is to know what it leaves out.
-INLINED int radius_in_units(float radius, float units_per_pixel) {
-  const float units = (radius > 0.5f ? radius : 0.5f) * units_per_pixel;
-  return units < 1073741000.0f ? (int)units + 1 : 1073741000;
-}
-
-// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w; an
-// empty x range where there is none. With room for the rounding of the center; compositing knows it
-// better.
+// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w. With room
+// for the rounding of the center; compositing knows it better.
 INLINED int4 tile_range(const Splat splat, const Grid grid) {
+  if (splat.radius < 0.0f) return tile_beside(splat, grid);
   const int bits = place_bits_of(splat, grid);
+  const float most_units = 1073741000.0f;  // as places are
+  const float units_per_pixel = as_float((127 + bits) << 23);
+  const float units = (splat.radius + grid.room) * units_per_pixel;
+  const float units_x = (RADIUS_X(splat) + grid.room) * units_per_pixel;
   int first_x, last_x, first_y, last_y;
-  if (bits <= 0 || splat.radius < 0.0f) {
+  if (bits <= 0 || units >= most_units || units_x >= most_units) {
     const int4 pixels = pixels_of_wide(splat, grid);
     first_x = pixels.x, last_x = pixels.y, first_y = pixels.z, last_y = pixels.w;
   } else {
-    const float units_per_pixel = as_float((127 + bits) << 23);
-    const int radius = radius_in_units(splat.radius + grid.room, units_per_pixel);
-#ifdef ELLIPSES
-    const int radius_x = radius_in_units(RADIUS_X(splat) + grid.room, units_per_pixel);
-#else
-    const int radius_x = radius;
-#endif
-    const int2 columns = pixels_within(splat.x, radius_x, grid.middle_x, bits);
-    const int2 rows = pixels_within(splat.y, radius, grid.middle_y, bits);
+    // Rounded up.
+    const int2 columns = pixels_within(splat.x, (int)units_x + 1, grid.middle_x, bits);
+    const int2 rows = pixels_within(splat.y, (int)units + 1, grid.middle_y, bits);
     first_x = columns.x > 0 ? columns.x : 0;
     last_x = columns.y < grid.width ? columns.y : grid.width - 1;
     first_y = rows.x > 0 ? rows.x : 0;
     last_y = rows.y < grid.height ? rows.y : grid.height - 1;
   }
-  if (first_x > last_x || first_y > last_y) return (int4)(0, -1, 0, -1);
+  if (first_x > last_x || first_y > last_y) return tile_beside(splat, grid);
   const int4 range = (int4)((uint)first_x / TILE_WIDTH, (uint)last_x / TILE_WIDTH,
                             (uint)first_y / TILE_HEIGHT, (uint)last_y / TILE_HEIGHT);
-  return grid.is_part ? tiles_in_memory(range, grid) : range;
+  if (!grid.is_part) return range;
+  const int4 part = tiles_in_memory(range, grid);
+  return part.x > part.y ? tile_beside(splat, grid) : part;
 }
 
 // A range of tiles in a word: the first column and row, and how many of both. Ranges that do not
@@ -92,7 +87,6 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
 
 inline uint pack_tiles(int4 range) {
   const int columns = range.y - range.x + 1, rows = range.w - range.z + 1;
-  if (columns <= 0) return 0;
   const int fits = max(range.x, range.z) < 1 << FIRST_TILE_BITS &&
                    max(columns, rows) < (1 << TILE_COUNT_BITS) - 1;
   if (!fits) return FOUND_AGAIN;
@@ -116,8 +110,9 @@ INLINED uint tiles_of(const Splat splat, const Grid grid) {
 // Of a splat whose tiles in the whole picture are known, unless they are FOUND_AGAIN.
 INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid grid) {
   if (in_picture == FOUND_AGAIN) return tiles_of(splat, grid);
-  if (in_picture == 0 || !grid.is_part) return in_picture;
-  return pack_tiles(tiles_in_memory(unpack_tiles(in_picture, splat, grid), grid));
+  if (!grid.is_part) return in_picture;
+  const int4 part = tiles_in_memory(unpack_tiles(in_picture, splat, grid), grid);
+  return pack_tiles(part.x > part.y ? tile_beside(splat, grid) : part);
 }
 
 // Counts the splat in the tiles that it touches.

@@ -146,7 +146,10 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
 INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
                            const SampledLanes sampled, const BrightnessLanes brightness,
                            VALUE extent, const ProjectParameters p) {
-  s->grid = choose_grid(sampled.sigma, brightness.own_peak, p);
+  // Coarse grids know center values only, and splats of a crowd may be taken as means that are wide
+  // enough for one.
+  s->grid =
+      select(choose_grid(sampled.sigma, brightness.own_peak, p), (INTEGER)(0), sampled.by_mean);
   const INTEGER level = p.blurred ? (s->grid + 1) >> 1 : s->grid;
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
