@@ -347,6 +347,27 @@ TEST(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
   }
 }
 
+TEST(MapOnTheDevice, MapsAConstantFieldToTheConstantAtAnyTolerance) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
+  Renderer renderer;
+  Gas gas = random_gas(2000, 30, 1e-2F, 30);
+  std::fill(gas.temperature.begin(), gas.temperature.end(), 1234.5F);
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  for (const double tolerance : {1e-2, 1e-3, 0.0}) {
+    scene.tolerance = tolerance;
+    std::vector<std::string> notes;
+    const Map map = draw_map(
+        scene, gas.snapshot(), [&renderer](const Frame& frame) { return renderer.render(frame); },
+        notes);
+    for (const float value : map.values) {
+      if (!std::isnan(value)) {
+        ASSERT_NEAR(static_cast<double>(value) / 1234.5, 1, 1e-6) << tolerance;
+      }
+    }
+  }
+}
+
 // docs/maps.md: tolerance (F + max(F, S / D)), to first order.
 TEST(MapOnTheDevice, KeepsTheBoundOfItsMeans) {
   if (!has_device()) GTEST_SKIP() << "no OpenCL device";

@@ -118,8 +118,8 @@ std::optional<Scaling> scaling_to_undo(const scene_file::KeyAddress& address, co
 
 bool may_change_in_film(const std::string& path) {
   const std::string table = path.substr(0, path.find('.'));
-  return table != "path" && table != "movie" && path != "image.size" && path != "image.width" &&
-         path != "image.height" && path != "component.name";
+  return table != "path" && table != "movie" && table != "map" && path != "image.size" &&
+         path != "image.width" && path != "image.height" && path != "component.name";
 }
 
 PathColumn find_path_column(const std::string& name, const Scene& scene, const std::string& where) {
