@@ -18,6 +18,7 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #define store_eight(v, p) vstore8(v, 0, p)
 #endif
 
+#ifdef LIGHT_ORDERED
 inline void load_tile(float* tile, __global const float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
@@ -30,16 +31,43 @@ inline void load_tile(float* tile, __global const float* planes, const Grid grid
   }
 }
 
+#endif
+
+inline void clear_tile(float* tile) {
+  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
+    vstore8((float8)(0.0f), 0, tile + i);
+}
+
+// Sums are added to what is there: they begin with nothing, so that however many splats there are,
+// those of one list only are added to a sum that is much larger than they are.
 inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* row = planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        vstore8(vload8(0, tile + c * TILE_PIXELS + y * ROW + x), 0, row + x);
+        const float8 drawn = vload8(0, tile + c * TILE_PIXELS + y * ROW + x);
+#ifdef LIGHT_ORDERED
+        vstore8(drawn, 0, row + x);
+#else
+        vstore8(vload8(0, row + x) + drawn, 0, row + x);
+#endif
       }
     }
   }
 }
+
+#ifdef BLOCKED_SUMS
+// Equal splats err by equal roundings, up to half of one each. Summed by so many at a time, n of
+// them err by as many roundings and one for each n / SPLATS_OF_SUM, not n.
+#define SPLATS_OF_SUM 64u
+
+inline void move_to_sum(float* tile, float* sum) {
+  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8) {
+    vstore8(vload8(0, sum + i) + vload8(0, tile + i), 0, sum + i);
+    vstore8((float8)(0.0f), 0, tile + i);
+  }
+}
+#endif
 
 inline void store_partial(const float* tile, __global float* partial) {
   for (int c = 0; c < PLANES; ++c) {
@@ -314,21 +342,37 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   float tile[PLANES * TILE_PIXELS];
+#ifdef LIGHT_ORDERED
   if (segment.partial == NO_PARTIAL) {
     load_tile(tile, planes, grid, corner);
   } else {
-    for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
-      vstore8((float8)(0.0f), 0, tile + i);
+    clear_tile(tile);
   }
+#else
+  clear_tile(tile);
+#endif
+#ifdef BLOCKED_SUMS
+  float sum[PLANES * TILE_PIXELS];
+  clear_tile(sum);
+#endif
   for (uint k = segment.begin; k < segment.end; ++k) {
 #ifdef LIGHT_ORDERED
     if ((k - segment.begin) % 256u == 0u && is_opaque(tile, p.opaque)) break;
 #endif
     add_splat(tile, entries + k, grid.mean_sigma, p);
+#ifdef BLOCKED_SUMS
+    if ((k - segment.begin) % SPLATS_OF_SUM == SPLATS_OF_SUM - 1u) move_to_sum(tile, sum);
+#endif
   }
+#ifdef BLOCKED_SUMS
+  move_to_sum(tile, sum);
+  const float* drawn = sum;
+#else
+  const float* drawn = tile;
+#endif
   if (segment.partial == NO_PARTIAL) {
-    store_tile(tile, planes, grid, corner);
+    store_tile(drawn, planes, grid, corner);
   } else {
-    store_partial(tile, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
+    store_partial(drawn, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
   }
 }

@@ -43,11 +43,15 @@ inline void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis
 #endif
 
 #if defined(PROJECTION_FISHEYE)
+// Less off the axis than this part of the distance, a direction is taken for one to the right
+// (src/scene/projection.cpp).
+#define SINE_ON_AXIS 0x1p-40f
+
 inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended across = extended_hypotenuse(v[0], v[1]);
   const Extended angle = extended_atan2(across, v[2]);
   const Extended radius = extended_product(focal, angle);
-  const int off_axis = high_part(across) > 0.0f;
+  const int off_axis = high_part(across) > SINE_ON_AXIS * high_part(place->distance);
   place->x = off_axis ? extended_product(extended_quotient(v[0], across), radius) : radius;
   place->y =
       off_axis ? extended_product(extended_quotient(v[1], across), radius) : extended_of(0.0f);

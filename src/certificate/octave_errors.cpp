@@ -41,7 +41,11 @@ double without_widening(double sigma, const FramePlan& plan) {
 // Errors of erf over both axes; and of the widened center value.
 double error_of_peak(int octave, int level, const Frame& frame, const FramePlan& plan) {
   if (level > 0) {
-    return (plan.certify ? repeated_refinements : 1) * plan.grid_peak_error / plan.needs.grid_light;
+    const double of_filters =
+        (plan.certify ? repeated_refinements : 1) * plan.grid_peak_error / plan.needs.grid_light;
+    // A coarse grid softens the step at the edge of a cut disc.
+    const double step = frame.kernel.cut ? std::exp(-*frame.kernel.cut * *frame.kernel.cut) : 0;
+    return of_filters + step;
   }
   const double mean_sigma = static_cast<double>(plan.splats.mean_sigma);
   const double narrowest = without_widening(narrowest_sigma(octave), plan);
@@ -96,6 +100,12 @@ EndingWindow window_of(int octave, int level, const CellSums& cells, const Frame
   return window;
 }
 
+// Cells are about as wide as their splats' sigma.
+int peak_spread_of(int level, const Frame& frame) {
+  if (level == 0 || !frame.kernel.cut) return peak_spread;
+  return std::max(peak_spread, static_cast<int>(std::ceil(*frame.kernel.cut)) + 1);
+}
+
 // Where a splat is drawn, and as far as a coarse grid's filters carry it: five pixels of each grid,
 // each half as wide as those of the one before.
 int peak_reach_of(int octave, int level, const CellSums& cells, const FramePlan& plan) {
@@ -122,7 +132,8 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
       window_(window_of(octave_, level_, cells.endings, plan)),
-      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan) : peak_spread),
+      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan)
+                            : peak_spread_of(level_, frame)),
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {}
 

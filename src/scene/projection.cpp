@@ -14,6 +14,9 @@ namespace {
 // A fisheye picture of 360 degrees draws the point right behind the camera as its whole rim.
 // Clouds within 6 degrees of it grow no wider.
 constexpr double smallest_sine_behind = 0.1;
+// What lies less than this off the axis is drawn as if it lay on it and to the right: where it would
+// be drawn on the rim is a matter of roundings (kernels/project/wide_angle_extended.cl).
+constexpr double sine_on_axis = 0x1p-40;
 
 std::optional<Projected> project_straight(const Vec3& v, const CameraFrame& camera,
                                           bool perspective) {
@@ -33,9 +36,9 @@ Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& cam
   const double sine = std::hypot(u.a[0], u.a[1]);
   const double angle = std::atan2(sine, u.a[2]);
   const double radius = camera.focal_pixels * angle;
-  // Any direction serves for what lies exactly before or behind the camera.
-  const double cosine_around = sine > 0 ? u.a[0] / sine : 1;
-  const double sine_around = sine > 0 ? u.a[1] / sine : 0;
+  const bool is_off_axis = sine > sine_on_axis;
+  const double cosine_around = is_off_axis ? u.a[0] / sine : 1;
+  const double sine_around = is_off_axis ? u.a[1] / sine : 0;
   const double widening_sine = u.a[2] > 0 ? sine : std::max(sine, smallest_sine_behind);
   const double widening = widening_sine > 0 ? angle / widening_sine : 1;
   Projected place;

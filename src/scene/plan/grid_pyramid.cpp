@@ -40,8 +40,9 @@ double brightest_coarse_peak(const KernelSettings& kernel, double error) {
   if (!kernel.cut) return std::numeric_limits<float>::max();
   const double step = std::exp(-*kernel.cut * *kernel.cut);
   const double root = 2 * error / step;
-  // One edge alone must not show either.
-  return std::min(root * root, error / step);
+  // Nor must the edges of a few copies of one particle, which lie upon one another.
+  constexpr double copies = 50;
+  return std::min(root * root, error / (copies * step));
 }
 
 // Splats of sigma >= smallest_sigma are drawn narrower, where the blur that makes up for it has not
