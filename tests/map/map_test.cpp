@@ -206,6 +206,26 @@ TEST(Map, MapsALinearFieldOnALatticeToItsPlane) {
                 1000 + 3 * (left_of(x) + 0.5) + 5 * (bottom_of(y) + 0.5), 0.01);
 }
 
+TEST(Map, MapsALinearFieldOnALatticeToItsValuesInTheSlicesPlane) {
+  Gas gas;
+  for (int x = -24; x <= 24; x += 2) {
+    for (int y = -24; y <= 24; y += 2) {
+      for (int z = -24; z <= 24; z += 2)
+        gas.add({{double(x), double(y), double(z)}}, 8, 1,
+                static_cast<float>(1000 + 3 * x + 5 * y + 7 * z));
+    }
+  }
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  scene.map.slice = true;
+  scene.map.center = Vec3{{0, 0, 4.5}};
+  const Map map = map_of(scene, gas.snapshot());
+  for (const auto& [x, y] : {std::make_pair(32, 24), std::make_pair(27, 20)}) {
+    EXPECT_NEAR(static_cast<double>(at(map, x, y)),
+                1000 + 3 * (left_of(x) + 0.5) + 5 * (bottom_of(y) + 0.5) + 7 * 4.5, 0.01);
+  }
+}
+
 TEST(Map, HasNoMeanWhereThereIsTooLittleMatter) {
   Gas gas;
   gas.add({{-20.5, 0.5, 0}}, 1, 1, 1000);
@@ -345,6 +365,23 @@ TEST(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
     EXPECT_NEAR(static_cast<double>(drawn.values[i]), expected,
                 1.01e-4 * std::max(expected, exact.floor));
   }
+}
+
+// Squares of many small weights are far below the square of their sum.
+TEST(MapOnTheDevice, TellsOfManyParticlesInAPixelToo) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
+  Renderer renderer;
+  Gas gas;
+  for (int i = 0; i < 1000; ++i)
+    gas.add({{0.5, 0.5, 0}}, 15, 2, 100);
+  Scene scene = map_scene();
+  scene.tolerance = 1e-3;
+  scene.map.noise = true;
+  std::vector<std::string> notes;
+  const Map map = draw_map(
+      scene, gas.snapshot(), [&renderer](const Frame& frame) { return renderer.render(frame); },
+      notes);
+  EXPECT_NEAR(static_cast<double>(map.effective_particles[23 * 64 + 32]), 1000, 10);
 }
 
 TEST(MapOnTheDevice, MapsAConstantFieldToTheConstantAtAnyTolerance) {
