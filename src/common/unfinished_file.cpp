@@ -80,7 +80,8 @@ struct Unfinished {
 };
 std::array<Unfinished, 64> unfinished;
 
-void remember_unfinished(const std::string& path) {
+// Must not allocate: it is called when the file is there and the object that removes it is not yet.
+void remember_unfinished(const std::string& path) noexcept {
   for (Unfinished& one : unfinished) {
     Unfinished::State expected = Unfinished::free;
     if (path.size() >= one.path.size() ||
@@ -93,7 +94,7 @@ void remember_unfinished(const std::string& path) {
   }
 }
 
-void forget_unfinished(const std::string& path) {
+void forget_unfinished(const std::string& path) noexcept {
   for (Unfinished& one : unfinished) {
     if (one.state == Unfinished::named && path == one.path.data()) {
       one.state = Unfinished::free;
@@ -185,14 +186,14 @@ UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
   if (is_stream_ && ::access(target_.c_str(), W_OK) != 0) fail(errno);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
-  remember_unfinished(temporary_);
+  remember_unfinished(temporary_.native());
 }
 
 UnfinishedFile::~UnfinishedFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (temporary_.empty()) return;
   ::unlink(temporary_.c_str());
-  forget_unfinished(temporary_);
+  forget_unfinished(temporary_.native());
 }
 
 void UnfinishedFile::write(const void* data, std::size_t bytes) {
@@ -208,7 +209,7 @@ void UnfinishedFile::finish() {
   if (::close(descriptor) != 0) fail(errno);
   if (is_stream_) return copy_into_stream();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  forget_unfinished(temporary_);
+  forget_unfinished(temporary_.native());
   temporary_.clear();
 }
 
