@@ -162,33 +162,6 @@ void add_path(CLI::App& app, Run& run, Console& console) {
       "  splotchcl path flight.toml -o path.png");
 }
 
-void add_info(CLI::App& app, Run& run, Console& console) {
-  const auto options = std::make_shared<InfoOptions>();
-  CLI::App* const sub =
-      add_command<InfoOptions>(app, run, "info", "Tell what a snapshot holds", options,
-                               [&console](const InfoOptions& o) { return run_info(o, console); });
-  sub->add_option("FILE", options->snapshot,
-                  wrapped("A snapshot; of several files, any one of them"))
-      ->required();
-  sub->add_flag("--header", options->header,
-                wrapped("Only what is known without reading particles: no ranges, means and "
-                        "scene. At once, for files of any size"));
-  sub->add_option("--columns", options->columns,
-                  wrapped("Names for the columns of a text table or a plain NumPy array, in their "
-                          "order; - for one that is not needed"))
-      ->type_name("NAME,...")
-      ->delimiter(',');
-  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
-  sub->footer(
-      "Lists the fields of each particle type with their range, mean and number of bad values\n"
-      "(not a number, or infinite), in the file's own units, and the scene file that render\n"
-      "would use.\n"
-      "Examples:\n"
-      "  splotchcl info snapshot_006\n"
-      "  splotchcl info huge_snapshot.0.hdf5 --header\n"
-      "  splotchcl info table.txt --columns x,y,z,mass,-");
-}
-
 void add_compare(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* const sub = add_command<CompareOptions>(

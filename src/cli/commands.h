@@ -70,20 +70,19 @@ struct PathOptions {
 };
 int run_path(const PathOptions& options, Console& console);
 
-struct InfoOptions {
+// What info and fields have in common.
+struct SnapshotQuestion {
   std::filesystem::path snapshot;
   std::vector<std::string> columns;  // of a table
-  bool header = false;               // only what is known without reading particles
   bool json = false;
+};
+
+struct InfoOptions : SnapshotQuestion {
+  bool header = false;  // only what is known without reading particles
 };
 int run_info(const InfoOptions& options, Console& console);
 
-struct FieldsOptions {
-  std::filesystem::path snapshot;
-  std::vector<std::string> columns;  // of a table
-  bool json = false;
-};
-int run_fields(const FieldsOptions& options, Console& console);
+int run_fields(const SnapshotQuestion& options, Console& console);
 
 struct PalettesOptions {
   std::vector<std::string> names;  // or files; none: all

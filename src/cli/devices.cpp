@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "splotchcl/error.h"
 #include "splotchcl/renderer.h"
 
 namespace splotchcl::cli {
 namespace {
 
-nlohmann::ordered_json to_json(const DeviceInfo& device) {
+Json to_json(const DeviceInfo& device) {
   return {{"name", device.name},
           {"platform", device.platform},
           {"driver", device.driver},
@@ -33,10 +33,7 @@ std::string to_text(const DeviceInfo& device) {
 int run_devices(const DevicesOptions& options) {
   const std::vector<DeviceInfo> devices = list_devices();
   if (options.json) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const DeviceInfo& device : devices)
-      list.push_back(to_json(device));
-    std::cout << list.dump(2) << "\n";
+    print_json_list(devices, to_json);
   }
   if (devices.empty()) throw DeviceError(no_device_advice());
   if (options.json) return 0;

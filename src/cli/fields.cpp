@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "snapshot/field_statistics.h"
@@ -17,8 +17,6 @@
 
 namespace splotchcl::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A field as a scene names it.
 struct NamedField {
@@ -129,21 +127,13 @@ Json to_json(const NamedField& field) {
   return json;
 }
 
-void print_json(const std::vector<NamedField>& fields) {
-  Json list = Json::array();
-  for (const NamedField& field : fields)
-    list.push_back(to_json(field));
-  // Names in the file need not be UTF-8, which JSON is.
-  std::cout << list.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-}
-
 }  // namespace
 
-int run_fields(const FieldsOptions& options, Console& console) {
+int run_fields(const SnapshotQuestion& options, Console& console) {
   const auto snapshot = open_snapshot(options.snapshot, {options.columns});
   const std::vector<NamedField> fields = list_fields(*snapshot, console);
   if (options.json) {
-    print_json(fields);
+    print_json_list(fields, to_json);
   } else {
     print_text(fields);
   }

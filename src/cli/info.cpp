@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/particle_types.h"
@@ -16,8 +16,6 @@
 
 namespace splotchcl::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // One axis of a vector field, or the values of another.
 struct FieldRow {
@@ -196,10 +194,7 @@ void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
 int run_info(const InfoOptions& options, Console& console) {
   const auto snapshot = open_snapshot(options.snapshot, {options.columns});
   if (options.json) {
-    // Names in the file need not be UTF-8, which JSON is.
-    std::cout << to_json(*snapshot, options.header, console)
-                     .dump(2, ' ', false, Json::error_handler_t::replace)
-              << "\n";
+    print_json(to_json(*snapshot, options.header, console));
   } else {
     print_text(*snapshot, options.header, console);
   }

@@ -3,21 +3,47 @@
 #include "cli/commands.h"
 
 namespace splotchcl::cli {
+namespace {
 
-void add_fields(CLI::App& app, Run& run, Console& console) {
-  const auto options = std::make_shared<FieldsOptions>();
-  CLI::App* const sub = add_command<FieldsOptions>(
-      app, run, "fields", "List a snapshot's fields by the names that scenes use", options,
-      [&console](const FieldsOptions& o) { return run_fields(o, console); });
-  sub->add_option("FILE", options->snapshot,
-                  wrapped("A snapshot; of several files, any one of them"))
+// What info and fields take alike.
+void add_snapshot_question(CLI::App& sub, SnapshotQuestion& options) {
+  sub.add_option("FILE", options.snapshot, wrapped("A snapshot; of several files, any one of them"))
       ->required();
-  sub->add_option("--columns", options->columns,
-                  wrapped("Names for the columns of a text table or a plain NumPy array, in their "
-                          "order; - for one that is not needed"))
+  sub.add_option("--columns", options.columns,
+                 wrapped("Names for the columns of a text table or a plain NumPy array, in their "
+                         "order; - for one that is not needed"))
       ->type_name("NAME,...")
       ->delimiter(',');
-  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub.add_flag("--json", options.json, wrapped("For programs rather than people"));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* const sub =
+      add_command<InfoOptions>(app, run, "info", "Tell what a snapshot holds", options,
+                               [&console](const InfoOptions& o) { return run_info(o, console); });
+  add_snapshot_question(*sub, *options);
+  sub->add_flag("--header", options->header,
+                wrapped("Only what is known without reading particles: no ranges, means and "
+                        "scene. At once, for files of any size"));
+  sub->footer(
+      "Lists the fields of each particle type with their range, mean and number of bad values\n"
+      "(not a number, or infinite), in the file's own units, and the scene file that render\n"
+      "would use.\n"
+      "Examples:\n"
+      "  splotchcl info snapshot_006\n"
+      "  splotchcl info huge_snapshot.0.hdf5 --header\n"
+      "  splotchcl info table.txt --columns x,y,z,mass,-");
+}
+
+void add_fields(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<SnapshotQuestion>();
+  CLI::App* const sub = add_command<SnapshotQuestion>(
+      app, run, "fields", "List a snapshot's fields by the names that scenes use", options,
+      [&console](const SnapshotQuestion& o) { return run_fields(o, console); });
+  add_snapshot_question(*sub, *options);
   sub->footer(
       "A line per type and field: particles, range, bad values (not a number, or infinite), unit.\n"
       "Derived fields are not in the file but follow from it, and are used like the others.\n"

@@ -5,7 +5,9 @@
 
 namespace splotchcl::cli {
 
-// Describe `splotchcl fields` and `splotchcl palettes`: the names that scenes may use.
+// Describe `splotchcl info`, `fields` and `palettes`: what a snapshot holds, and the names that
+// scenes may use.
+void add_info(CLI::App& app, Run& run, Console& console);
 void add_fields(CLI::App& app, Run& run, Console& console);
 void add_palettes(CLI::App& app, Run& run, Console& console);
 

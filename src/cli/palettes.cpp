@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "cli/palette_preview.h"
 #include "common/output_files.h"
 #include "splotchcl/error.h"
@@ -13,8 +13,6 @@
 
 namespace splotchcl::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ListedPalette {
   PaletteInfo info;
@@ -69,13 +67,6 @@ Json to_json(const ListedPalette& listed) {
   return json;
 }
 
-void print_json(const std::vector<ListedPalette>& palettes) {
-  Json list = Json::array();
-  for (const ListedPalette& listed : palettes)
-    list.push_back(to_json(listed));
-  std::cout << list.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-}
-
 std::set<std::filesystem::path> files_read(const PalettesOptions& options) {
   std::set<std::filesystem::path> files(options.names.begin(), options.names.end());
   for (const PaletteInfo& info : list_palettes()) {
@@ -103,7 +94,7 @@ int run_palettes(const PalettesOptions& options, Console& console) {
   const std::vector<ListedPalette> palettes = choose(options.names, console);
   if (options.preview) write_preview(*options.preview, palettes);
   if (options.json) {
-    print_json(palettes);
+    print_json_list(palettes, to_json);
   } else {
     print_text(palettes);
   }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+// Answers of commands for programs rather than people (--json).
+namespace splotchcl::cli {
+
+using Json = nlohmann::ordered_json;
+
+// Names in files need not be UTF-8, which JSON is: bytes that are none are replaced.
+inline void print_json(const Json& json) {
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
+
+// A list of what `to_json` makes of each item.
+template <typename Item, typename ToJson>
+void print_json_list(const std::vector<Item>& items, ToJson to_json) {
+  Json list = Json::array();
+  for (const Item& item : items)
+    list.push_back(to_json(item));
+  print_json(list);
+}
+
+}  // namespace splotchcl::cli
