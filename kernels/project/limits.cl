@@ -17,12 +17,26 @@ inline VALUE normalized(VALUE value, const FieldScaling map) {
 
 // w (scene.h, WeightModel); sigma_scaled is sigma in world units times length_scale.
 inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
-  const VALUE sigma_scaled = p.kernel_width * h * p.length_scale;
+  const VALUE sigma_scaled = max(p.kernel_width * h * p.length_scale, (VALUE)(FLT_MIN));
   if (p.weight_model == WEIGHT_MASS) {
     return raw * p.weight_scale / sigma_scaled * p.weight_scale / sigma_scaled;
   }
   if (p.weight_model == WEIGHT_DENSITY) return raw * p.weight_scale * sigma_scaled;
   return raw * p.weight_scale / (h * p.length_scale);
+}
+
+// What `widening` times the width does to w at that width, for the light to stay the same: columns
+// of masses follow the width by themselves.
+inline VALUE weight_of_widened(VALUE weight, VALUE inverse_widening, const ProjectParameters p) {
+  if (p.weight_model == WEIGHT_MASS) return weight;
+  const VALUE lowered = weight * inverse_widening;
+  if (p.weight_model == WEIGHT_CONSTANT) return lowered;
+  return lowered * inverse_widening * inverse_widening;
+}
+
+// A weight whose splat gives no pixel more than MOST_LIGHT; `peak` is what it gives per weight.
+inline VALUE limited_weight(VALUE weight, VALUE peak) {
+  return fmin(weight, min(MOST_LIGHT / max(peak, (VALUE)(FLT_MIN)), (VALUE)(FLT_MAX)));
 }
 
 // How many sigma a splat is drawn: at least so far that the light outside the square does

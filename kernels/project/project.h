@@ -10,6 +10,14 @@
 #define WEIGHT_DENSITY 1
 #define WEIGHT_CONSTANT 2
 
+// Single precision ends where columns do not: a mass in a width of 1e-20 is more than it holds, and
+// infinite light less infinite light, or times no width, is not a number (docs/accuracy.md).
+// Narrower splats are drawn so wide, in pixels, with the same light: places are not known better.
+#define NARROWEST_SIGMA 0x1p-20f
+#define NARROWEST_EXTENDED_SIGMA 0x1p-28f
+// The most that one splat gives a pixel, or takes from it, in units of the display's white.
+#define MOST_LIGHT 0x1p60f
+
 // A field's way to [0, 1] (frame.h, ScalarMap).
 struct FieldScaling {
   int scaling;

@@ -22,8 +22,9 @@ inline Extended extended_column(float raw, Extended h, const ProjectParameters p
                                 const ExtendedParameters e) {
   const Extended scale = extended_pair(e.weight_scale);
   const Extended length_scale = extended_of(p.length_scale);
-  const Extended sigma_scaled =
+  Extended sigma_scaled =
       extended_product(extended_product(extended_pair(e.kernel_width), h), length_scale);
+  if (!(high_part(sigma_scaled) > FLT_MIN)) sigma_scaled = extended_of(FLT_MIN);
   if (p.weight_model == WEIGHT_MASS) {
     const Extended once =
         extended_quotient(extended_product(extended_of(raw), scale), sigma_scaled);
@@ -32,7 +33,44 @@ inline Extended extended_column(float raw, Extended h, const ProjectParameters p
   if (p.weight_model == WEIGHT_DENSITY) {
     return extended_product(extended_product(extended_of(raw), scale), sigma_scaled);
   }
-  return extended_quotient(scale, extended_product(h, length_scale));
+  return extended_quotient(extended_product(extended_of(raw), scale),
+                           extended_product(h, length_scale));
+}
+
+// As weight_of_widened() and limited_weight() do it for lanes.
+inline Extended extended_weight_of_widened(Extended weight, Extended inverse_widening,
+                                           const ProjectParameters p) {
+  if (p.weight_model == WEIGHT_MASS) return weight;
+  const Extended lowered = extended_product(weight, inverse_widening);
+  if (p.weight_model == WEIGHT_CONSTANT) return lowered;
+  return extended_product(extended_product(lowered, inverse_widening), inverse_widening);
+}
+inline Extended extended_limited_weight(Extended weight, float peak) {
+  const float most = min(MOST_LIGHT / max(peak, FLT_MIN), FLT_MAX);
+  return high_part(weight) < most ? weight : extended_of(most);
+}
+
+// Width in pixels and w, before its intensity; `scale` is pixels per length.
+inline void extended_width(float raw, Extended h, Extended scale, const ProjectParameters p,
+                           const ExtendedParameters e, Extended* sigma, Extended* weight) {
+  const Extended width = extended_pair(e.kernel_width);
+  const Extended h_pixels = extended_product(h, scale);
+  *sigma = extended_product(width, h_pixels);
+  if (p.min_radius > 0.0f) {
+    const Extended least = extended_pair(e.min_radius);
+    const Extended h_drawn = extended_root(
+        extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
+    *weight = extended_product(extended_column(raw, h, p, e), extended_quotient(h_pixels, h_drawn));
+    *sigma = extended_product(width, h_drawn);
+  } else if (high_part(*sigma) < NARROWEST_EXTENDED_SIGMA) {
+    const Extended narrowest = extended_of(NARROWEST_EXTENDED_SIGMA);
+    const Extended widened = extended_quotient(narrowest, extended_product(width, scale));
+    *weight = extended_weight_of_widened(extended_column(raw, widened, p, e),
+                                         extended_quotient(*sigma, narrowest), p);
+    *sigma = narrowest;
+  } else {
+    *weight = extended_column(raw, h, p, e);
+  }
 }
 
 inline void extended_knots(__global const float* knots, uint first, uint count, Extended position,
@@ -164,23 +202,12 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
   const Extended raw_h =
       extended_of(columns.smoothing_lengths[(size_t)i * p.smoothing_length_stride]);
   const Extended h = extended_product(raw_h, extended_pair(e.size_factor));
-  const Extended width = extended_pair(e.kernel_width);
-  const Extended h_pixels = extended_product(h, place.scale);
-  Extended h_drawn = h_pixels;
-  Extended weight = extended_column(columns.weights[(size_t)i * p.weight_stride], h, p, e);
-  if (p.min_radius > 0.0f) {
-    const Extended least = extended_pair(e.min_radius);
-    h_drawn = extended_root(
-        extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
-    weight = extended_product(weight, extended_quotient(h_pixels, h_drawn));
-  }
-  const Extended sigma = extended_product(width, h_drawn);
-  weight = extended_product(
-      weight,
-      extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
-                          e.intensity_minimum, e.intensity_inverse_range));
+  Extended sigma, weight;
+  extended_width(columns.weights[(size_t)i * p.weight_stride], h, place.scale, p, e, &sigma,
+                 &weight);
 
   Extended own[3];
+  float brightest = p.peak_color;
   for (int c = 0; c < 3; ++c) {
 #ifdef VECTOR_COLORS
     own[c] = extended_of(columns.own_colors[p.own_color_stride == 0 ? 0 : (size_t)i * 3 + c]);
@@ -188,6 +215,15 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
     own[c] = extended_of(1.0f);
 #endif
   }
+#ifdef VECTOR_COLORS
+  const float brightest_own = max(high_part(own[0]), max(high_part(own[1]), high_part(own[2])));
+  brightest = max(brightest * brightest_own, p.peak_own);
+#endif
+  const float share = min(1.0f, 3.2f * high_part(sigma) * high_part(sigma));
+  weight = extended_product(
+      extended_limited_weight(weight, brightest * share),
+      extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
+                          e.intensity_minimum, e.intensity_inverse_range));
   Extended emission[3], absorption[3];
   const Extended position =
       extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling,

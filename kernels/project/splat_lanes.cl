@@ -22,7 +22,7 @@ typedef struct SplatLanes {
 // Widths in the picture's pixels, before any pixel mean is taken.
 typedef struct WidthLanes {
   VALUE h;                  // in lengths
-  VALUE sigma_true, sigma;  // without and with kernel.min_radius
+  VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
 #ifdef ELLIPSES
   VALUE sigma_x;
 #endif
@@ -33,13 +33,28 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.kernel_width * widths.h * view.scale;
   const float sigma_floor = p.kernel_width * p.min_radius;
-  widths.sigma = p.min_radius > 0.0f
-                     ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
-                     : widths.sigma_true;
+  const VALUE sigma = p.min_radius > 0.0f
+                          ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
+                          : widths.sigma_true;
+  widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
 #ifdef ELLIPSES
   widths.sigma_x = sigma_along_x(widths.sigma, view.cos_latitude, p);
 #endif
   return widths;
+}
+
+// w of a splat of width widths.sigma, before its intensity.
+INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widths,
+                          const ProjectParameters p) {
+  if (p.min_radius > 0.0f) {
+    return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma);
+  }
+  const INTEGER narrow = widths.sigma_true < NARROWEST_SIGMA;
+  if (!ANY(narrow)) return column_weight(raw, widths.h, p);
+  const VALUE widened = NARROWEST_SIGMA / (p.kernel_width * view.scale);
+  const VALUE weight = column_weight(raw, choose(widths.h, widened, narrow), p);
+  const VALUE inverse_widening = widths.sigma_true * (1.0f / NARROWEST_SIGMA);
+  return choose(weight, weight_of_widened(weight, inverse_widening, p), narrow);
 }
 
 // Rejection before fields are scaled. It never leaves out what a grid would show: a crop has the
@@ -73,24 +88,33 @@ inline VALUE value_of_octave(__global const float* values, int count, INTEGER oc
   return found;
 }
 
-// `needs` are those of p: as a part of a structure passed by value they would be copied.
-INLINED BrightnessLanes find_brightness(const ParticleLanes particles, const WidthLanes widths,
-                                        VALUE weight, __global const WidthNeeds* needs,
-                                        const ProjectParameters p) {
-  BrightnessLanes b;
+// The largest of E and A at weight 1.
+INLINED VALUE brightest_color(const ParticleLanes particles, const ProjectParameters p) {
   VALUE brightest = p.peak_color;
 #ifdef VECTOR_COLORS
   const Vectors own = particles.own_color;
   brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
 #endif
-  const VALUE sigma = widths.sigma;
+  return brightest;
+}
+
+// The flux, not the peak, limits what a splat below a pixel can do to a pixel.
+INLINED VALUE share_of_peak(const WidthLanes widths) {
 #ifdef ELLIPSES
-  const VALUE own_area = sigma * widths.sigma_x;
+  const VALUE area = widths.sigma * widths.sigma_x;
 #else
-  const VALUE own_area = sigma * sigma;
+  const VALUE area = widths.sigma * widths.sigma;
 #endif
-  // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
-  b.own_peak = weight * brightest * min((VALUE)(1.0f), 3.2f * own_area);
+  return min((VALUE)(1.0f), 3.2f * area);
+}
+
+// `own_peak` is the splat's, without those that it lies upon.
+INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
+                                        __global const WidthNeeds* needs,
+                                        const ProjectParameters p) {
+  const VALUE sigma = widths.sigma;
+  BrightnessLanes b;
+  b.own_peak = own_peak;
   b.crowd_peak = b.own_peak;
   b.farther = (VALUE)(0.0f);
   b.bright = b.own_peak > p.bright_peak;
@@ -290,10 +314,11 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.visible = particles.exists & good & limits.may_be_within & may_be_seen(view, widths, p);
   if (!ANY(s.visible)) return s;
 
-  VALUE weight =
-      column_weight(particles.weight, widths.h, p) * normalized(particles.intensity, p.intensity);
-  if (p.min_radius > 0.0f) weight *= widths.sigma_true / widths.sigma;
-  const BrightnessLanes brightness = find_brightness(particles, widths, weight, needs, p);
+  const VALUE brightest = brightest_color(particles, p), share = share_of_peak(widths);
+  const VALUE weight =
+      limited_weight(find_weight(particles.weight, view, widths, p), brightest * share) *
+      normalized(particles.intensity, p.intensity);
+  const BrightnessLanes brightness = find_brightness(weight * brightest * share, widths, needs, p);
   const INTEGER sharp = s.visible & are_sharp(view, widths.sigma, brightness.crowd_peak, p);
   if (ANY(sharp)) {
     s.too_sharp = sharp & are_too_sharp(view, widths.sigma, brightness.crowd_peak, p);
