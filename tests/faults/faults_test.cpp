@@ -12,6 +12,8 @@
 namespace splotchcl::testing {
 namespace {
 
+using ::testing::HasSubstr;
+
 class Faults : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -117,6 +119,21 @@ TEST_F(Faults, OfTheLimitOnMemoryOfADeviceLeaveNothing) {
     EXPECT_TRUE(result.exit_code != 1 || is_one_line(result.err)) << result.err;
   }
   EXPECT_GE(failures, 1);
+}
+
+// What no compiler takes, as PoCL is told it.
+TEST_F(Faults, OfTheCompilerOfKernelsAreOneLineThatSaysWhatToDo) {
+  SKIP_WITHOUT_DEVICE();
+  const ProgramResult result =
+      run_in(folder_,
+             "SPLOTCHCL_CACHE= POCL_EXTRA_BUILD_FLAGS=-fnonsense \"$splotchcl\" render h "
+             "-o out/a.png --set image.size=[16,12]");
+  if (result.exit_code == 0) GTEST_SKIP() << "this is not PoCL";
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("cannot compile"));
+  EXPECT_THAT(result.err, HasSubstr("choose another device"));
+  EXPECT_TRUE(names().empty());
 }
 
 }  // namespace
