@@ -18,7 +18,7 @@ constexpr std::array<const char*, 8> scenes = {
     "tolerance = 1e-5\n[[component]]\nabsorption = 'none'\n",
     "tolerance = 1e-5\n[[component]]\nabsorption = 0.5\ncolor = { field = 'mass' }\n",
     "tolerance = 0\n[[component]]\n",
-    "tolerance = 0.001\n[camera]\nprojection = 'fisheye'\nposition = [0, 0, 5]\nlook_at = "
+    "tolerance = 0.01\n[camera]\nprojection = 'fisheye'\nposition = [0, 0, 5]\nlook_at = "
     "[0, 0, 0]\n"
     "[[component]]\n",
     "tolerance = 0.001\n[camera]\nprojection = 'orthographic'\nposition = [0, 0, 5]\n"
