@@ -36,6 +36,8 @@ inline VALUE weight_of_widened(VALUE weight, VALUE inverse_widening, const Proje
 
 // A weight whose splat gives no pixel more than MOST_LIGHT; `peak` is what it gives per weight.
 inline VALUE limited_weight(VALUE weight, VALUE peak) {
+  const INTEGER fits = weight * peak <= MOST_LIGHT;  // not if it is no number
+  if (!ANY(fits == 0)) return weight;
   return fmin(weight, min(MOST_LIGHT / max(peak, (VALUE)(FLT_MIN)), (VALUE)(FLT_MAX)));
 }
 
