@@ -42,19 +42,27 @@ INLINED uint cell_at(const OctaveCells cells, int x, int y) {
          (uint)(x >> cells.shift);
 }
 
-inline int nearest_pixel(float center, float last) {
-  return (int)smaller(larger(center, 0.0f), last);
+inline int nearest_pixel(float center, float first, float last) {
+  return (int)smaller(larger(center, first), last);
 }
 
-// What the splat leaves out, as a peak of a splat that ends where others of its octave do: what it
-// has fallen to where it ends. One that is only listed stands for all that it would have added,
-// which is no more than what it has fallen to at the picture's edge.
-INLINED float ending_peak(__global const TileSplat* splat, const CertifyParameters* p,
-                          float extent2, float peak, float width2) {
-  const float most = smaller(peak, p->edge_peak);
-  if (splat->radius >= 0.0f) return most;
+// What splats leave out where they end is added up as peaks of splats that end where others of
+// their octave do (extent2). One that is only listed stands for all that it would have added, which
+// is no more than what it has fallen to at the picture's edge.
+INLINED float listed_ending(__global const TileSplat* splat, const CertifyParameters* p,
+                            float extent2, float peak, float width2) {
   const float beyond = larger(-splat->radius - 1.0f, 0.0f);
-  return smaller(most, peak * exp(extent2 - beyond * beyond / width2));
+  return smaller(smaller(peak, p->edge_peak), peak * exp(extent2 - beyond * beyond / width2));
+}
+
+// The octave whose splats end as far out as a bright one, which is drawn farther than others.
+inline int octave_of_ending(float radius, int octave, int level, const CertifyParameters* p) {
+  const float radius2 = radius * radius;
+  while (octave + level < WIDTH_OCTAVES - 1 &&
+         p->extent2[octave + level] * (float)(1 << 2 * octave) < radius2) {
+    ++octave;
+  }
+  return octave;
 }
 
 // What its splats share of a grid. Blurred grids come in pairs (splat.h).
@@ -63,10 +71,30 @@ typedef struct GridOfCells {
   float mean_sigma;
   float blur;       // what the square of the width drawn lacks to that of the picture
   float most_peak;  // no more than this counts of a peak
+  // First and last pixels of a tile, and of the picture in it.
+  Reach tile, picture;
 } GridOfCells;
 
-INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid) {
+// The part of the picture, without its guard band, in a tile; the pixel next to it where there is
+// none.
+INLINED Reach picture_in_tile(const Grid grid, int column, int row) {
+  const int x = grid.first_x + column * TILE_WIDTH, y = grid.first_y + row * TILE_HEIGHT;
+  const float last_x = TILE_WIDTH - 1, last_y = TILE_HEIGHT - 1;
+  Reach part;
+  part.x0 = smaller(larger((float)(grid.guard - x), 0.0f), last_x);
+  part.x1 = smaller(larger((float)(grid.width - grid.guard - 1 - x), 0.0f), last_x);
+  part.y0 = smaller(larger((float)(grid.guard - y), 0.0f), last_y);
+  part.y1 = smaller(larger((float)(grid.height - grid.guard - 1 - y), 0.0f), last_y);
+  return part;
+}
+
+INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid, int column,
+                                  int row) {
   GridOfCells of;
+  of.tile.x0 = of.tile.y0 = 0.0f;
+  of.tile.x1 = (float)(TILE_WIDTH - 1);
+  of.tile.y1 = (float)(TILE_HEIGHT - 1);
+  of.picture = picture_in_tile(grid, column, row);
   of.level = (int)(p->blur[0] > 0.0f ? (g + 1) >> 1 : g);
   of.mean_sigma = grid.mean_sigma;
   of.blur = g == 0 ? 0.0f : p->blur[(g & 1) == 0];
@@ -86,11 +114,20 @@ INLINED void collect_splat(__global const TileSplat* splat, const CertifyParamet
   const int octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
   const int in_picture =
       octave + grid.level < WIDTH_OCTAVES ? octave + grid.level : WIDTH_OCTAVES - 1;
-  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, (float)(TILE_WIDTH - 1));
-  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, (float)(TILE_HEIGHT - 1));
+  // What is only listed leaves out at the picture's edge what it stands for.
+  const Reach within = splat->radius < 0.0f ? grid.picture : grid.tile;
+  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, within.x0, within.x1);
+  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, within.y0, within.y1);
   cells[cell_at(p->peaks[octave], x, y)] += smaller(peak, grid.most_peak);
-  cells[cell_at(p->endings[octave], x, y)] +=
-      ending_peak(splat, p, p->extent2[in_picture], peak, width2);
+  int of_ending = octave;
+  float ending = smaller(peak, p->edge_peak);
+  if (splat->radius < 0.0f) {
+    ending = listed_ending(splat, p, p->extent2[in_picture], peak, width2);
+  } else if (peak > p->edge_peak) {
+    of_ending = octave_of_ending(splat->radius - 0.5f, octave, grid.level, p);
+    ending *= exp(p->extent2[of_ending + grid.level] - p->extent2[in_picture]);
+  }
+  cells[cell_at(p->endings[of_ending], x, y)] += ending;
 }
 
 // The cells of each tile one after the other.
@@ -103,10 +140,10 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
   if (id > 0 && segments[id - 1].tile == tile) return;
   const uint g = grid_of_tile(grids, p.grid_count, tile);
   const Grid grid = grids[g];
-  const GridOfCells of_grid = grid_of_cells(&p, g, grid);
   const uint in_grid = tile - grid.first_tile;
-  const Reach reach =
-      reach_of(grid, (int)(in_grid % (uint)grid.tiles_x), (int)(in_grid / (uint)grid.tiles_x));
+  const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
+  const Reach reach = reach_of(grid, column, row);
+  const GridOfCells of_grid = grid_of_cells(&p, g, grid, column, row);
   __global float* own_cells = cells + (size_t)tile * p.cells_per_tile;
   for (uint s = id; s < p.segment_count && segments[s].tile == tile; ++s) {
     own_cells[p.listed] += (float)(segments[s].end - segments[s].begin);

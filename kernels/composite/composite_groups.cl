@@ -72,14 +72,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   for (int c = 0; c < PLANES; ++c) {
     pixel[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
   }
-#ifndef LIGHT_ORDERED
-  // Sums are made by the batch (composite_rows.cl, BLOCKED_SUMS).
-  float sum[PLANES];
-  for (int c = 0; c < PLANES; ++c) {
-    sum[c] = pixel[c];
+  // Sums of light are made by the batch (composite_rows.cl, BLOCKED_SUMS).
+  float sums[3];
+  for (int c = 0; c < 3; ++c) {
+    sums[c] = pixel[c];
     pixel[c] = 0.0f;
   }
-#endif
   // begin and end are the group's: every item meets every barrier.
   for (uint first = segment.begin; first < segment.end; first += GROUP) {
     const uint count = min((uint)GROUP, segment.end - first);
@@ -92,18 +90,14 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       const float shape = pixel_shape(dx, dy, splat, grid.mean_sigma);
       if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
     }
-#ifndef LIGHT_ORDERED
-    for (int c = 0; c < PLANES; ++c) {
-      sum[c] += pixel[c];
+    for (int c = 0; c < 3; ++c) {
+      sums[c] += pixel[c];
       pixel[c] = 0.0f;
     }
-#endif
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-#ifndef LIGHT_ORDERED
-  for (int c = 0; c < PLANES; ++c)
-    pixel[c] = sum[c];
-#endif
+  for (int c = 0; c < 3; ++c)
+    pixel[c] = sums[c];
   for (int c = 0; c < PLANES; ++c) {
     if (segment.partial == NO_PARTIAL) {
       own[(size_t)c * grid.plane_size] = pixel[c];

@@ -18,9 +18,20 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #define store_eight(v, p) vstore8(v, 0, p)
 #endif
 
+// Sums of light, of which there are three, begin with nothing in every list and are added to what
+// is there when they are stored: however many splats there are, those of one list only are added to
+// a sum that is much larger than they are. Opacities go on from what is there.
+#define SUMS 3
+
+inline void clear_planes(float* tile, int first, int end) {
+  for (int i = first * TILE_PIXELS; i < end * TILE_PIXELS; i += 8)
+    vstore8((float8)(0.0f), 0, tile + i);
+}
+
 #ifdef LIGHT_ORDERED
-inline void load_tile(float* tile, __global const float* planes, const Grid grid, size_t corner) {
-  for (int c = 0; c < PLANES; ++c) {
+inline void load_opacities(float* tile, __global const float* planes, const Grid grid,
+                           size_t corner) {
+  for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global const float* row =
           planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
@@ -30,27 +41,15 @@ inline void load_tile(float* tile, __global const float* planes, const Grid grid
     }
   }
 }
-
 #endif
 
-inline void clear_tile(float* tile) {
-  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
-    vstore8((float8)(0.0f), 0, tile + i);
-}
-
-// Sums are added to what is there: they begin with nothing, so that however many splats there are,
-// those of one list only are added to a sum that is much larger than they are.
 inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* row = planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         const float8 drawn = vload8(0, tile + c * TILE_PIXELS + y * ROW + x);
-#ifdef LIGHT_ORDERED
-        vstore8(drawn, 0, row + x);
-#else
-        vstore8(vload8(0, row + x) + drawn, 0, row + x);
-#endif
+        vstore8(c < SUMS ? vload8(0, row + x) + drawn : drawn, 0, row + x);
       }
     }
   }
@@ -61,11 +60,9 @@ inline void store_tile(const float* tile, __global float* planes, const Grid gri
 // them err by as many roundings and one for each n / SPLATS_OF_SUM, not n.
 #define SPLATS_OF_SUM 64u
 
-inline void move_to_sum(float* tile, float* sum) {
-  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8) {
-    vstore8(vload8(0, sum + i) + vload8(0, tile + i), 0, sum + i);
-    vstore8((float8)(0.0f), 0, tile + i);
-  }
+inline void add_sums(const float* from, float* to) {
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
+    vstore8(vload8(0, to + i) + vload8(0, from + i), 0, to + i);
 }
 #endif
 
@@ -342,18 +339,13 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   float tile[PLANES * TILE_PIXELS];
+  clear_planes(tile, 0, PLANES);
 #ifdef LIGHT_ORDERED
-  if (segment.partial == NO_PARTIAL) {
-    load_tile(tile, planes, grid, corner);
-  } else {
-    clear_tile(tile);
-  }
-#else
-  clear_tile(tile);
+  if (segment.partial == NO_PARTIAL) load_opacities(tile, planes, grid, corner);
 #endif
 #ifdef BLOCKED_SUMS
-  float sum[PLANES * TILE_PIXELS];
-  clear_tile(sum);
+  float sums[SUMS * TILE_PIXELS];
+  clear_planes(sums, 0, SUMS);
 #endif
   for (uint k = segment.begin; k < segment.end; ++k) {
 #ifdef LIGHT_ORDERED
@@ -361,18 +353,18 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #endif
     add_splat(tile, entries + k, grid.mean_sigma, p);
 #ifdef BLOCKED_SUMS
-    if ((k - segment.begin) % SPLATS_OF_SUM == SPLATS_OF_SUM - 1u) move_to_sum(tile, sum);
+    if ((k - segment.begin) % SPLATS_OF_SUM == SPLATS_OF_SUM - 1u) {
+      add_sums(tile, sums);
+      clear_planes(tile, 0, SUMS);
+    }
 #endif
   }
 #ifdef BLOCKED_SUMS
-  move_to_sum(tile, sum);
-  const float* drawn = sum;
-#else
-  const float* drawn = tile;
+  add_sums(sums, tile);
 #endif
   if (segment.partial == NO_PARTIAL) {
-    store_tile(drawn, planes, grid, corner);
+    store_tile(tile, planes, grid, corner);
   } else {
-    store_partial(drawn, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
+    store_partial(tile, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
   }
 }

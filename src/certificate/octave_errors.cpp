@@ -14,6 +14,9 @@ constexpr double pi = 3.141592653589793;
 
 // Cells this many times as full as those around the pixel are not taken for even light.
 constexpr double uneven = 2;
+// Peaks of which four cells hold so much are opaque if they are even, and then their errors do not
+// show.
+constexpr double bright_square = 8;
 // Errors of a peak show at most so many cells away: five pixels of a coarse grid are 2.4 sigma.
 constexpr int peak_spread = 2;
 // The smallest cells are two pixels wide. A block at the picture's edge may reach beyond it, and
@@ -186,7 +189,9 @@ double OctaveErrors::peaks_around(int x, int y) const {
   const CellRange square = {x, x + 2, y, y + 2};
   const double here = peaks_.over_near(square);
   const double around = peaks_.over_near(square.widened(2)) - here;
-  return std::max(0.0, here - uneven * 4 * around / 32);
+  // Crowds in regular places look even to the cells; where they are bright, it shows between them.
+  const double not_even = here > bright_square ? 1 : uneven;
+  return std::max(0.0, here - not_even * 4 * around / 32);
 }
 
 double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const {

@@ -137,7 +137,7 @@ ProgramSource Specialization::composite() const {
              "extended.cl", "extended_lanes.cl", "composite_extended.cl"}};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(full_precision_ && !is_ordered(), "BLOCKED_SUMS");
+             define_if(full_precision_ && rows_, "BLOCKED_SUMS");
   return {defines,
           {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl",
            rows_ ? "composite_rows.cl" : "composite_groups.cl"}};

@@ -29,23 +29,34 @@ void lay_out(int narrowest, std::uint32_t width, std::uint32_t height, shared::O
   }
 }
 
-// Whether nothing was collected of an octave in any tile of a grid.
-bool is_empty(const std::vector<float>& values, std::size_t cells_per_tile,
-              const shared::OctaveCells& octave, std::size_t cell_count, const shared::Grid& grid) {
-  const std::size_t tiles =
+// What was collected, tile by tile.
+struct CellsOfTiles {
+  std::vector<float> values;
+  std::size_t cells_per_tile;
+  int tile_width, tile_height;
+
+  std::size_t first_of(std::size_t tile, const shared::OctaveCells& octave) const {
+    return tile * cells_per_tile + octave.first;
+  }
+  // Whether nothing was collected of the octave in any tile of the grid.
+  bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const;
+  // The cells of the octave in all tiles of the grid.
+  CellSums gather(const shared::OctaveCells& octave, const shared::Grid& grid) const;
+};
+
+bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+  const auto tiles =
       static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
+  const auto cells =
+      static_cast<std::size_t>((tile_width >> octave.shift) * (tile_height >> octave.shift));
   for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
-    const float* first = values.data() + tile * cells_per_tile + octave.first;
-    if (std::any_of(first, first + cell_count, [](float value) { return value != 0; }))
-      return false;
+    const float* first = values.data() + first_of(tile, octave);
+    if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
   }
   return true;
 }
 
-// The cells of one octave in all tiles of a grid.
-CellSums gather(const std::vector<float>& values, std::size_t cells_per_tile,
-                const shared::OctaveCells& octave, const shared::Grid& grid, int tile_width,
-                int tile_height) {
+CellSums CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::Grid& grid) const {
   const int across = tile_width >> octave.shift, along = tile_height >> octave.shift;
   CellSums sums;
   sums.side = 1 << octave.shift;
@@ -56,8 +67,8 @@ CellSums gather(const std::vector<float>& values, std::size_t cells_per_tile,
   for (int row = 0; row < sums.rows; ++row) {
     for (int column = 0; column < grid.tiles_x; ++column) {
       const auto tile = static_cast<std::size_t>(row / along * grid.tiles_x + column);
-      const std::size_t from = (grid.first_tile + tile) * cells_per_tile + octave.first +
-                               static_cast<std::size_t>(row % along * across);
+      const std::size_t from =
+          first_of(grid.first_tile + tile, octave) + static_cast<std::size_t>(row % along * across);
       to = std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), across, to);
     }
   }
@@ -128,30 +139,28 @@ void Certifier::collect(const TileLists& lists) {
 CollectedSplats Certifier::collected() const {
   CollectedSplats found;
   if (!has_started_) return found;
-  const std::vector<float> values = context_.device.pool.download(cells_, cells_.size());
-  for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
-    found.longest_list = std::max(found.longest_list, static_cast<double>(values[i]));
-  const int tile_width = static_cast<int>(context_.specialization.tile_width());
-  const int tile_height = static_cast<int>(context_.specialization.tile_height());
+  const CellsOfTiles tiles = {context_.device.pool.download(cells_, cells_.size()),
+                              parameters_.cells_per_tile,
+                              static_cast<int>(context_.specialization.tile_width()),
+                              static_cast<int>(context_.specialization.tile_height())};
+  for (std::size_t i = parameters_.listed; i < tiles.values.size(); i += tiles.cells_per_tile)
+    found.longest_list = std::max(found.longest_list, static_cast<double>(tiles.values[i]));
   for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
     const shared::Grid& grid = context_.layout.grids[g];
-    const int level = context_.plan.pyramid.grids[g].level;
     const double blur = g == 0 ? 0 : static_cast<double>(parameters_.blur[g % 2 == 0]);
     for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
       const shared::OctaveCells& peaks = parameters_.peaks[octave];
-      const auto cell_count =
-          static_cast<std::size_t>((tile_width >> peaks.shift) * (tile_height >> peaks.shift));
-      if (is_empty(values, parameters_.cells_per_tile, peaks, cell_count, grid)) continue;
+      const shared::OctaveCells& endings = parameters_.endings[octave];
+      // Bright splats end where those of wider octaves do.
+      if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) continue;
       PeakCells cells;
-      cells.peaks =
-          gather(values, parameters_.cells_per_tile, peaks, grid, tile_width, tile_height);
-      if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
-      cells.endings = gather(values, parameters_.cells_per_tile, parameters_.endings[octave], grid,
-                             tile_width, tile_height);
-      cells.level = level;
+      cells.level = context_.plan.pyramid.grids[g].level;
+      cells.octave = octave + cells.level;
       cells.left = grid.first_x - grid.guard;
       cells.top = grid.first_y - grid.guard;
-      cells.octave = octave + level;
+      cells.peaks = tiles.gather(peaks, grid);
+      if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
+      cells.endings = tiles.gather(endings, grid);
       found.cells.push_back(std::move(cells));
     }
   }

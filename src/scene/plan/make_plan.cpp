@@ -27,7 +27,7 @@ SplatNeeds first_needs(const FramePlan& plan) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
   const std::array<double, 5> farther =
-      plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.5, 1.0, 0.0, 0.0, 0.0};
+      plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.9, 1.4, 0.6, 0.0, 0.0};
   for (std::size_t octave = 0; octave < farther.size(); ++octave)
     needs.widths[octave].farther = farther[octave];
   return needs;
