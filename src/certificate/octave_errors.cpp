@@ -138,7 +138,15 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan)
                             : peak_spread_of(level_, frame)),
       endings_(cells.endings, window_.reach + cells_in_block),
-      peaks_(cells.peaks, peak_reach_ + cells_in_block) {}
+      peaks_(cells.peaks, peak_reach_ + cells_in_block) {
+  find_inner_cells(frame);
+}
+
+// Splats beyond the picture are collected in the cells at its edge.
+void OctaveErrors::find_inner_cells(const Frame& frame) {
+  const CellRange picture = cells_of({0, frame.crop.width, 0, frame.crop.height}, ending_side_);
+  inner_ = picture.widened(-1);
+}
 
 CellRange OctaveErrors::cells_of(const PixelBlock& block, int side) const {
   // Both are whole numbers of pixels of the grid or of the picture: shifts round down.
@@ -160,13 +168,17 @@ double OctaveErrors::ends_around(const CellRange& cell) const {
   return std::max(0.0, all_ends_around(cell) - even);
 }
 
-// Of the four squares of two cells by two that the cell lies in, the emptiest: a cluster beside
-// the cell is no even light.
+// Of the four squares of two cells by two that the cell lies in, or the inner one next to it, the
+// emptiest: a cluster beside the cell is no even light.
 double OctaveErrors::even_around(const CellRange& cell) const {
+  if (inner_.x1 - inner_.x0 < 2 || inner_.y1 - inner_.y0 < 2) return 0;
   double least = std::numeric_limits<double>::max();
-  for (const int x : {cell.x0 - 1, cell.x0}) {
-    for (const int y : {cell.y0 - 1, cell.y0})
+  for (const int beside_x : {cell.x0 - 1, cell.x0}) {
+    for (const int beside_y : {cell.y0 - 1, cell.y0}) {
+      const int x = std::clamp(beside_x, inner_.x0, inner_.x1 - 2);
+      const int y = std::clamp(beside_y, inner_.y0, inner_.y1 - 2);
       least = std::min(least, endings_.over_near({x, x + 2, y, y + 2}));
+    }
   }
   return least / 4;
 }

@@ -51,6 +51,7 @@ class OctaveErrors {
   double all_ends_around(const CellRange& cell) const;
   double ends_around(const CellRange& cell) const;
   double even_around(const CellRange& cell) const;
+  void find_inner_cells(const Frame& frame);
   double peaks_around(int x, int y) const;
 
   bool is_bound_;
@@ -61,7 +62,8 @@ class OctaveErrors {
   double ending_, peak_error_;
   double place_error_, place_share_;  // parts of a peak; the most that one splat errs
   EndingWindow window_;
-  int peak_reach_;  // cells from a pixel to the farthest splat whose errors show there
+  CellRange inner_;  // cells of endings that hold no splats from beyond the picture
+  int peak_reach_;   // cells from a pixel to the farthest splat whose errors show there
   BlockSums endings_, peaks_;
 };
 
