@@ -71,30 +71,10 @@ typedef struct GridOfCells {
   float mean_sigma;
   float blur;       // what the square of the width drawn lacks to that of the picture
   float most_peak;  // no more than this counts of a peak
-  // First and last pixels of a tile, and of the picture in it.
-  Reach tile, picture;
 } GridOfCells;
 
-// The part of the picture, without its guard band, in a tile; the pixel next to it where there is
-// none.
-INLINED Reach picture_in_tile(const Grid grid, int column, int row) {
-  const int x = grid.first_x + column * TILE_WIDTH, y = grid.first_y + row * TILE_HEIGHT;
-  const float last_x = TILE_WIDTH - 1, last_y = TILE_HEIGHT - 1;
-  Reach part;
-  part.x0 = smaller(larger((float)(grid.guard - x), 0.0f), last_x);
-  part.x1 = smaller(larger((float)(grid.width - grid.guard - 1 - x), 0.0f), last_x);
-  part.y0 = smaller(larger((float)(grid.guard - y), 0.0f), last_y);
-  part.y1 = smaller(larger((float)(grid.height - grid.guard - 1 - y), 0.0f), last_y);
-  return part;
-}
-
-INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid, int column,
-                                  int row) {
+INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid) {
   GridOfCells of;
-  of.tile.x0 = of.tile.y0 = 0.0f;
-  of.tile.x1 = (float)(TILE_WIDTH - 1);
-  of.tile.y1 = (float)(TILE_HEIGHT - 1);
-  of.picture = picture_in_tile(grid, column, row);
   of.level = (int)(p->blur[0] > 0.0f ? (g + 1) >> 1 : g);
   of.mean_sigma = grid.mean_sigma;
   of.blur = g == 0 ? 0.0f : p->blur[(g & 1) == 0];
@@ -102,32 +82,71 @@ INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid
   return of;
 }
 
-INLINED void collect_splat(__global const TileSplat* splat, const CertifyParameters* p,
-                           const GridOfCells grid, __global float* cells) {
+// The part of the picture, without its guard band, in a tile, of pixels from its corner; the pixel
+// next to it where there is none.
+typedef struct PictureInTile {
+  float x0, x1, y0, y1;
+} PictureInTile;
+
+INLINED PictureInTile picture_in_tile(__global const Grid* grid, int column, int row) {
+  const int x = grid->first_x + column * TILE_WIDTH, y = grid->first_y + row * TILE_HEIGHT;
+  const float last_x = TILE_WIDTH - 1, last_y = TILE_HEIGHT - 1;
+  PictureInTile part;
+  part.x0 = smaller(larger((float)(grid->guard - x), 0.0f), last_x);
+  part.x1 = smaller(larger((float)(grid->width - grid->guard - 1 - x), 0.0f), last_x);
+  part.y0 = smaller(larger((float)(grid->guard - y), 0.0f), last_y);
+  part.y1 = smaller(larger((float)(grid->height - grid->guard - 1 - y), 0.0f), last_y);
+  return part;
+}
+
+// Of a splat: its octave of widths here, and of that in the picture; what limits its errors.
+typedef struct Collected {
+  int octave, in_picture;
+  float peak, width2;
+} Collected;
+
+// A call: hardly any splats are only listed. What they leave out is left out at the picture's edge.
+__attribute__((noinline)) void collect_listed(__global const TileSplat* splat, const Collected* c,
+                                              const CertifyParameters* p, __global const Grid* grid,
+                                              int column, int row, __global float* cells) {
+  const PictureInTile part = picture_in_tile(grid, column, row);
+  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, part.x0, part.x1);
+  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, part.y0, part.y1);
+  cells[cell_at(p->peaks[c->octave], x, y)] += smaller(c->peak, p->bright_peak);
+  cells[cell_at(p->endings[c->octave], x, y)] +=
+      listed_ending(splat, p, p->extent2[c->in_picture], c->peak, c->width2);
+}
+
+INLINED Collected measured(__global const TileSplat* splat, const CertifyParameters* p,
+                           const GridOfCells grid) {
   const float sigma = fabs(splat->sigma), sigma_x = fabs(SIGMA_X(*splat));
   const int by_mean = splat->sigma < grid.mean_sigma;
   const float area = sigma * sigma_x, flux = 3.15f * area;
+  Collected c;
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
-  const float peak = amplitude_of(splat) * (by_mean && flux < 1.0f ? flux : 1.0f);
-  const float width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : grid.blur);
-  const int power = ((as_int(width2) >> 23) - 127) >> 1;
-  const int octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
-  const int in_picture =
-      octave + grid.level < WIDTH_OCTAVES ? octave + grid.level : WIDTH_OCTAVES - 1;
-  // What is only listed leaves out at the picture's edge what it stands for.
-  const Reach within = splat->radius < 0.0f ? grid.picture : grid.tile;
-  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, within.x0, within.x1);
-  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, within.y0, within.y1);
-  cells[cell_at(p->peaks[octave], x, y)] += smaller(peak, grid.most_peak);
-  int of_ending = octave;
-  float ending = smaller(peak, p->edge_peak);
-  if (splat->radius < 0.0f) {
-    ending = listed_ending(splat, p, p->extent2[in_picture], peak, width2);
-  } else if (peak > p->edge_peak) {
-    of_ending = octave_of_ending(splat->radius - 0.5f, octave, grid.level, p);
-    ending *= exp(p->extent2[of_ending + grid.level] - p->extent2[in_picture]);
+  c.peak = amplitude_of(splat) * (by_mean && flux < 1.0f ? flux : 1.0f);
+  c.width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : grid.blur);
+  const int power = ((as_int(c.width2) >> 23) - 127) >> 1;
+  c.octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
+  c.in_picture = c.octave + grid.level < WIDTH_OCTAVES ? c.octave + grid.level : WIDTH_OCTAVES - 1;
+  return c;
+}
+
+INLINED void collect_drawn(__global const TileSplat* splat, const Collected c,
+                           const CertifyParameters* p, int level, __global float* cells,
+                           float most_peak) {
+  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, 0.0f, (float)(TILE_WIDTH - 1));
+  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, 0.0f, (float)(TILE_HEIGHT - 1));
+  cells[cell_at(p->peaks[c.octave], x, y)] += smaller(c.peak, most_peak);
+  if (c.peak <= p->edge_peak) {
+    cells[cell_at(p->endings[c.octave], x, y)] += c.peak;
+    return;
   }
-  cells[cell_at(p->endings[of_ending], x, y)] += ending;
+  const int as_far = octave_of_ending(splat->radius - 0.5f, c.octave, level, p);
+  const int of_ending = as_far + level < WIDTH_OCTAVES ? as_far + level : WIDTH_OCTAVES - 1;
+  const float part =
+      as_far == c.octave ? 1.0f : exp(p->extent2[of_ending] - p->extent2[c.in_picture]);
+  cells[cell_at(p->endings[as_far], x, y)] += p->edge_peak * part;
 }
 
 // The cells of each tile one after the other.
@@ -143,15 +162,19 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
   const uint in_grid = tile - grid.first_tile;
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const Reach reach = reach_of(grid, column, row);
-  const GridOfCells of_grid = grid_of_cells(&p, g, grid, column, row);
+  const GridOfCells of_grid = grid_of_cells(&p, g, grid);
   __global float* own_cells = cells + (size_t)tile * p.cells_per_tile;
   for (uint s = id; s < p.segment_count && segments[s].tile == tile; ++s) {
     own_cells[p.listed] += (float)(segments[s].end - segments[s].begin);
     for (uint k = segments[s].begin; k < segments[s].end; ++k) {
       __global const TileSplat* splat = entries + k;
-      if (splat->radius < 0.0f || (splat->x >= reach.x0 && splat->x < reach.x1 &&
-                                   splat->y >= reach.y0 && splat->y < reach.y1)) {
-        collect_splat(splat, &p, of_grid, own_cells);
+      if (splat->radius < 0.0f) {
+        const Collected listed = measured(splat, &p, of_grid);
+        collect_listed(splat, &listed, &p, grids + g, column, row, own_cells);
+      } else if (splat->x >= reach.x0 && splat->x < reach.x1 && splat->y >= reach.y0 &&
+                 splat->y < reach.y1) {
+        collect_drawn(splat, measured(splat, &p, of_grid), &p, of_grid.level, own_cells,
+                      of_grid.most_peak);
       }
     }
   }

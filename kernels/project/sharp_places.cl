@@ -121,6 +121,8 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
   in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
 #endif
   const VALUE fading = 0.693147181f * log2_positive(max(peak, (VALUE)(1.0f)));
-  const VALUE slope = choose(0.86f * peak, 2.0f * sqrt(fading), peak > 2.0f);
+  // Copies of a faint one may lie upon one another, and are misplaced alike.
+  const VALUE of_copies = max(peak, min(8.0f * peak, (VALUE)(1.0f)));
+  const VALUE slope = choose(0.86f * of_copies, 2.0f * sqrt(fading), peak > 2.0f);
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));
 }

@@ -200,6 +200,85 @@ std::vector<HardCase> promise_cases() {
             "projection cube width 48 tolerance 1e-5 turned 1 group scatter places 30 sigma 1 peak "
             "20000 depth 50",
             {LightPlan::emission}),
+      found(
+          "ThousandsOfLayersBeforeStars",
+          "a polynomial of exp(-y) that is not 1 at 0 takes a part of the light away in each layer",
+          "light stars_among_gas turned 1 group ring places 40 copies 300 spread 4 sigma 11.0406",
+          {LightPlan::ordered}),
+      found(
+          "CrowdThatEndsBeforeTheFirstPixel",
+          "squares that reach the picture's edge, but no pixel's center, are in no list",
+          "light stars_among_gas turned 1 group corner copies 400 x -80 sigma 5.09446 width_range "
+          "3.28685 peak 0.09",
+          {LightPlan::ordered}),
+      found("RingOfStarsWiderThanThePicture", "all of its light comes from far beside the picture",
+            "light stars_among_gas turned 1 group ring places 47 spread 2.86905 sigma 377.554 "
+            "width_range 1.13964 peak 200 star 1",
+            {LightPlan::ordered}),
+      found(
+          "CrowdThatEndsBeforeACoarseGrid", "the same of a grid's guard band",
+          "tolerance 1e-4 turned 1 group point places 200 copies 60 y 42.025 sigma 5.2 width_range "
+          "1.00508 peak 0.55 star 1",
+          {LightPlan::proportional}),
+      found("CrowdTakenAsMeansOnACoarseGrid",
+            "means of a crowd's clouds are those of the picture's pixels, not of a coarse grid's",
+            "tolerance 1e-4 turned 1 filler 191346 period 13 offset 10 group point copies 20 x -80 "
+            "sigma 10 peak 100 group point copies 6 sigma 9.5 peak 0.6 hue 0.4",
+            {LightPlan::emission}),
+      found(
+          "ThousandsOfEqualClouds", "equal numbers err by equal roundings when they are added up",
+          "tolerance 1e-5 turned 1 group point places 10 copies 400 y 40 sigma 20 peak 0.5 hue 0.8",
+          sums),
+      found("ThousandsOfEqualStarsBetweenLayers", "the same in order",
+            "light stars_among_gas tolerance 1e-4 group point places 100 copies 30 sigma 90 peak "
+            "3000 "
+            "star 1 group point copies 60 sigma 90 peak 8e5 depth 7 star 1",
+            {LightPlan::ordered}),
+      found("CopiesOfFaintStarsInALargePicture",
+            "copies are misplaced alike, however faint each of them is",
+            "light stars_among_gas picture_size 16384 crop_x 0.9 turned 1 group lattice places 40 "
+            "copies 400 y 21.5386 spread 0.598396 sigma 0.4 width_range 1.5 peak 0.001 star 1",
+            {LightPlan::ordered}),
+      found(
+          "CopiesInALargePictureAt1e_5", "the same of what pairs of floats know of their places",
+          "tolerance 1e-5 projection perspective picture_size 16384 turned 1 group scatter places "
+          "10 copies 40 sigma 0.4 peak 0.08",
+          {LightPlan::proportional}),
+      found(
+          "CutEdgesOfCopies", "edges of copies lie upon one another on every place of a lattice",
+          "tolerance 1e-2 sampling center turned 1 cut 1.81871 group lattice places 20 copies 9 x "
+          "-12 spread 3.67311 sigma 8 width_range 1.2 peak 0.137877 group lattice places 4 copies "
+          "9 "
+          "x -12 spread 4 sigma 8 width_range 1.2 peak 0.137835",
+          {LightPlan::proportional}),
+      found("SheetAroundAFisheye",
+            "where a cloud exactly behind the camera lies on the rim is a matter of roundings",
+            "light stars_among_gas projection fisheye field_of_view 150 turned 1 source 40 group "
+            "sheet "
+            "copies 10 sigma 30 peak 0.02",
+            {LightPlan::ordered}),
+      found("BrightCloudsThatJustEndBesideThePicture",
+            "brighter clouds end farther out than others of their width",
+            "light factor tolerance 1e-2 turned 1 group point places 2 copies 20 x -25 y 36 sigma "
+            "3.95968 peak 3.8 group point copies 40 x -20 y 36.5219 sigma 3.91905 peak 11.536",
+            {LightPlan::proportional}),
+      found("LatticeOfBrightCrowds", "crowds in regular places look like even light to wide cells",
+            "light factor tolerance 1e-2 turned 1 source 5 group lattice places 25 copies 90 y 30 "
+            "spread 5 sigma 8.4 peak 0.36 hue 0.2 group lattice places 30 copies 90 x 78 y 30 "
+            "spread 5 "
+            "sigma 8 peak 0.3",
+            {LightPlan::proportional}),
+      found(
+          "SheetsInGrayLightOfACube", "a sheet that goes on beside the picture",
+          "light gray projection cube tolerance 0.01 width 48 group sheet x 20 y -23 spread 0.5 "
+          "sigma 15 peak 0.05 group point places 16 copies 17 y 39.7642 sigma 13.2481 peak 430000 "
+          "star 1",
+          {LightPlan::ordered}),
+      found("SheetInGrayLightOfAFisheye", "the same in a dome",
+            "light gray projection fisheye tolerance 0.01 field_of_view 100 source 0.002 group "
+            "sheet y "
+            "7 spread 0.5 sigma 36 peak 0.03 star 1",
+            {LightPlan::ordered}),
   };
 }
 
