@@ -55,6 +55,13 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
   }
 }
 
+#define SPLATS_OF_SUM 64u
+
+inline uint touches_tile(const TileSplat splat) {
+  return fabs(splat.x) <= 0.5f * TILE_WIDTH + RADIUS_X(splat) &&
+         fabs(splat.y) <= 0.5f * TILE_HEIGHT + splat.radius;
+}
+
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes, __global float* partials) {
@@ -72,7 +79,9 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   for (int c = 0; c < PLANES; ++c) {
     pixel[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
   }
-  // Sums of light are made by the batch (composite_rows.cl, BLOCKED_SUMS).
+  // Sums of light are made by so many splats (composite_rows.cl, BLOCKED_SUMS) that touch the tile:
+  // a crop's lists have others than those of the picture, too.
+  uint touching = 0;
   float sums[3];
   for (int c = 0; c < 3; ++c) {
     sums[c] = pixel[c];
@@ -89,15 +98,18 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       const float dy = (float)y + (0.5f - 0.5f * TILE_HEIGHT) - splat.y;
       const float shape = pixel_shape(dx, dy, splat, grid.mean_sigma);
       if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
-    }
-    for (int c = 0; c < 3; ++c) {
-      sums[c] += pixel[c];
-      pixel[c] = 0.0f;
+      touching += touches_tile(splat);
+      if (touching < SPLATS_OF_SUM) continue;
+      touching = 0;
+      for (int c = 0; c < 3; ++c) {
+        sums[c] += pixel[c];
+        pixel[c] = 0.0f;
+      }
     }
     barrier(CLK_LOCAL_MEM_FENCE);
   }
   for (int c = 0; c < 3; ++c)
-    pixel[c] = sums[c];
+    pixel[c] += sums[c];
   for (int c = 0; c < PLANES; ++c) {
     if (segment.partial == NO_PARTIAL) {
       own[(size_t)c * grid.plane_size] = pixel[c];

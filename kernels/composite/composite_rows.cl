@@ -219,11 +219,12 @@ inline float8 seven_means(float first, float sigma) {
   return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
 }
 
-inline void add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
-                      const CompositeParameters p) {
+// Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
+inline int add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
+                     const CompositeParameters p) {
   const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
-  if (rows.x > rows.y || columns.x > columns.y) return;
+  if (rows.x > rows.y || columns.x > columns.y) return 0;
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   float deepest = 0.0f;
 #ifdef LIGHT_ORDERED
@@ -248,7 +249,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     vstore4(means.hi, 0, along);
     update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
                   p);
-    return;
+    return 1;
   }
 #endif
   const float inverse = 1.44269504f / (sigma * sigma);
@@ -279,7 +280,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
                                   : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
 #endif
     update_window(tile, window, across, along, splat, deepest, p);
-    return;
+    return 1;
   }
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, columns_count, sigma_x, inverse_x,
@@ -308,6 +309,7 @@ inline void add_splat(float* tile, __global const TileSplat* splat, float mean_s
     update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat, deepest,
                   p);
   }
+  return 1;
 }
 
 #ifdef LIGHT_ORDERED
@@ -347,16 +349,21 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   float sums[SUMS * TILE_PIXELS];
   clear_planes(sums, 0, SUMS);
 #endif
-  for (uint k = segment.begin; k < segment.end; ++k) {
+  uint drawn = 0, end = segment.end;
 #ifdef LIGHT_ORDERED
-    if ((k - segment.begin) % 256u == 0u && is_opaque(tile, p.opaque)) break;
+  if (is_opaque(tile, p.opaque)) end = segment.begin;
 #endif
-    add_splat(tile, entries + k, grid.mean_sigma, p);
+  for (uint k = segment.begin; k < end; ++k) {
+    if (!add_splat(tile, entries + k, grid.mean_sigma, p)) continue;
+    ++drawn;
 #ifdef BLOCKED_SUMS
-    if ((k - segment.begin) % SPLATS_OF_SUM == SPLATS_OF_SUM - 1u) {
+    if (drawn % SPLATS_OF_SUM == 0u) {
       add_sums(tile, sums);
       clear_planes(tile, 0, SUMS);
     }
+#endif
+#ifdef LIGHT_ORDERED
+    if (drawn % 256u == 0u && is_opaque(tile, p.opaque)) break;
 #endif
   }
 #ifdef BLOCKED_SUMS
