@@ -42,6 +42,12 @@ HardCase found(const std::string& name, const std::string& why, const std::strin
   return hard;
 }
 
+// All that is seen of these is what ends beside the picture.
+HardCase dark(HardCase hard) {
+  hard.dark = true;
+  return hard;
+}
+
 HardCase slow_in_groups(HardCase hard) {
   hard.in_groups = Drawn::in_long_tests;
   return hard;
@@ -205,21 +211,21 @@ std::vector<HardCase> promise_cases() {
           "a polynomial of exp(-y) that is not 1 at 0 takes a part of the light away in each layer",
           "light stars_among_gas turned 1 group ring places 40 copies 300 spread 4 sigma 11.0406",
           {LightPlan::ordered}),
-      found(
+      dark(found(
           "CrowdThatEndsBeforeTheFirstPixel",
           "squares that reach the picture's edge, but no pixel's center, are in no list",
           "light stars_among_gas turned 1 group corner copies 400 x -80 sigma 5.09446 width_range "
           "3.28685 peak 0.09",
-          {LightPlan::ordered}),
+          {LightPlan::ordered})),
       found("RingOfStarsWiderThanThePicture", "all of its light comes from far beside the picture",
             "light stars_among_gas turned 1 group ring places 47 spread 2.86905 sigma 377.554 "
             "width_range 1.13964 peak 200 star 1",
             {LightPlan::ordered}),
-      found(
+      dark(found(
           "CrowdThatEndsBeforeACoarseGrid", "the same of a grid's guard band",
           "tolerance 1e-4 turned 1 group point places 200 copies 60 y 42.025 sigma 5.2 width_range "
           "1.00508 peak 0.55 star 1",
-          {LightPlan::proportional}),
+          {LightPlan::proportional})),
       found("CrowdTakenAsMeansOnACoarseGrid",
             "means of a crowd's clouds are those of the picture's pixels, not of a coarse grid's",
             "tolerance 1e-4 turned 1 filler 191346 period 13 offset 10 group point copies 20 x -80 "
@@ -257,11 +263,12 @@ std::vector<HardCase> promise_cases() {
             "sheet "
             "copies 10 sigma 30 peak 0.02",
             {LightPlan::ordered}),
-      found("BrightCloudsThatJustEndBesideThePicture",
-            "brighter clouds end farther out than others of their width",
-            "light factor tolerance 1e-2 turned 1 group point places 2 copies 20 x -25 y 36 sigma "
-            "3.95968 peak 3.8 group point copies 40 x -20 y 36.5219 sigma 3.91905 peak 11.536",
-            {LightPlan::proportional}),
+      dark(found(
+          "BrightCloudsThatJustEndBesideThePicture",
+          "brighter clouds end farther out than others of their width",
+          "light factor tolerance 1e-2 turned 1 group point places 2 copies 20 x -25 y 36 sigma "
+          "3.95968 peak 3.8 group point copies 40 x -20 y 36.5219 sigma 3.91905 peak 11.536",
+          {LightPlan::proportional})),
       found("LatticeOfBrightCrowds", "crowds in regular places look like even light to wide cells",
             "light factor tolerance 1e-2 turned 1 source 5 group lattice places 25 copies 90 y 30 "
             "spread 5 sigma 8.4 peak 0.36 hue 0.2 group lattice places 30 copies 90 x 78 y 30 "
