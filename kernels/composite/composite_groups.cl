@@ -57,9 +57,10 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
 
 #define SPLATS_OF_SUM 64u
 
+// Whether it reaches a pixel's center.
 inline uint touches_tile(const TileSplat splat) {
-  return fabs(splat.x) <= 0.5f * TILE_WIDTH + RADIUS_X(splat) &&
-         fabs(splat.y) <= 0.5f * TILE_HEIGHT + splat.radius;
+  return fabs(splat.x) <= 0.5f * TILE_WIDTH - 0.5f + RADIUS_X(splat) &&
+         fabs(splat.y) <= 0.5f * TILE_HEIGHT - 0.5f + splat.radius;
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
