@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <future>
@@ -92,22 +93,31 @@ std::vector<Layer> composite(const std::vector<Splat>& splats, const Frame& fram
   std::vector<Layer> layers(static_cast<std::size_t>(frame.crop.width) *
                             static_cast<std::size_t>(frame.crop.height));
   const int thread_count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::atomic<bool> has_failed = false;  // what one thread throws ends all
   const auto draw_rows = [&](int thread) {
     RowPainter painter(frame, thread, thread_count);
     const std::size_t report_every = std::max<std::size_t>(1, splats.size() / 100);
-    for (std::size_t i = 0; i < splats.size(); ++i) {
+    for (std::size_t i = 0; i < splats.size() && !has_failed; ++i) {
       painter.add(splats[i], layers);
       if (thread == 0 && progress && i % report_every == 0) {
         progress(static_cast<double>(i) / static_cast<double>(splats.size()));
       }
     }
   };
+  const auto draw_or_fail = [&](int thread) {
+    try {
+      draw_rows(thread);
+    } catch (...) {
+      has_failed = true;
+      throw;
+    }
+  };
   // Futures carry an exception of any thread here, after all have ended.
   std::vector<std::future<void>> others;
   for (int t = 1; t < thread_count; ++t) {
-    others.push_back(std::async(std::launch::async, draw_rows, t));
+    others.push_back(std::async(std::launch::async, draw_or_fail, t));
   }
-  draw_rows(0);
+  draw_or_fail(0);
   for (std::future<void>& other : others)
     other.get();
   return layers;
