@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "splotchcl/image.h"
 
@@ -28,6 +30,11 @@ struct ImageFileOptions {
 // do, and DataError for a value that is not a number or a file that cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageFileOptions& options = {});
+
+// Red, green and blue of each pixel, rows from the top, as formats of 8 bits store them. `path` is
+// for messages. Throws DataError for a value that is not a number.
+std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
+                                        const ImageFileOptions& options = {});
 
 // Values as stored: 8 bits become value / 255, without a gamma. Gray becomes equal red,
 // green and blue; missing alpha becomes 1. Throws DataError.

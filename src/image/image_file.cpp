@@ -84,32 +84,12 @@ std::uint8_t to_byte(float value, float exponent, bool truncates) {
   return static_cast<std::uint8_t>(255 * displayed + 0.5F);  // rounds, since it is positive
 }
 
-std::vector<std::uint8_t> to_bytes(const std::filesystem::path& path, const Image& image,
-                                   const ImageFileOptions& options) {
-  const std::size_t pixels = image.pixels.size() / 4;
-  std::vector<std::uint8_t> bytes(3 * pixels);
-  const auto exponent = static_cast<float>(1 / options.gamma);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const float value = image.pixels[4 * pixel + channel];
-      if (std::isnan(value)) {
-        const auto width = static_cast<std::size_t>(image.width);
-        throw DataError(path.string() + ": the picture is not a number at pixel " +
-                        std::to_string(pixel % width) + "," + std::to_string(pixel / width) +
-                        ", which 8 bits cannot hold; an .exr file can");
-      }
-      bytes[3 * pixel + channel] = to_byte(value, exponent, options.truncates);
-    }
-  }
-  return bytes;
-}
-
 // The whole file, as bytes.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Image& image,
                                   const ImageFileOptions& options) {
   const Format& format = format_of(path);
   if (format.encode_light != nullptr) return format.encode_light(path, image, options.metadata);
-  const std::vector<std::uint8_t> bytes = to_bytes(path, image, options);
+  const std::vector<std::uint8_t> bytes = display_bytes(path, image, options);
   if (std::string(format.ending) == "png") {
     return encode_png(path, image.width, image.height, bytes);
   }
@@ -133,6 +113,26 @@ void check_image_size(const std::filesystem::path& path, int width, int height) 
   throw UsageError(path.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
                    " pixels do not fit into ." + format.ending + ", which holds up to " +
                    std::to_string(format.longest_side) + " a side; choose .png or .exr");
+}
+
+std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
+                                        const ImageFileOptions& options) {
+  const std::size_t pixels = image.pixels.size() / 4;
+  std::vector<std::uint8_t> bytes(3 * pixels);
+  const auto exponent = static_cast<float>(1 / options.gamma);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const float value = image.pixels[4 * pixel + channel];
+      if (std::isnan(value)) {
+        const auto width = static_cast<std::size_t>(image.width);
+        throw DataError(path.string() + ": the picture is not a number at pixel " +
+                        std::to_string(pixel % width) + "," + std::to_string(pixel / width) +
+                        ", which 8 bits cannot hold; an .exr file can");
+      }
+      bytes[3 * pixel + channel] = to_byte(value, exponent, options.truncates);
+    }
+  }
+  return bytes;
 }
 
 void write_image(const std::filesystem::path& path, const Image& image,
