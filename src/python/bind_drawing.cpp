@@ -1,0 +1,115 @@
+#include <pybind11/stl.h>
+
+#include <mutex>
+
+#include "python/drawing.h"
+#include "python/picture.h"
+#include "python/progress.h"
+#include "python/source.h"
+#include "splotchcl/frame_drawer.h"
+#include "splotchcl/load.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::python {
+namespace {
+
+// A device, or the reference, and what is told while it draws.
+class Drawer {
+ public:
+  Drawer(const std::string& device, bool by_reference, bool certify)
+      : drawer_(without_python([&] {
+          return FrameDrawer({device, by_reference,
+                              [this](const std::string& what, double fraction) {
+                                if (progress_ != nullptr) (*progress_)(what, fraction);
+                              },
+                              certify});
+        })) {}
+
+  DrawnFrame draw(const Scene& scene, const Source& source, const Progress& progress) {
+    return without_python([&] {
+      const std::lock_guard<Turn> mine(turn_);
+      const std::lock_guard<Turn> mine_to_read(source.turn());
+      source.refresh();
+      progress_ = &progress;
+      try {
+        DrawnFrame drawn = drawer_.draw(scene, source.snapshot());
+        progress_ = nullptr;
+        return drawn;
+      } catch (...) {
+        progress_ = nullptr;
+        throw;
+      }
+    });
+  }
+
+ private:
+  Turn turn_;
+  const Progress* progress_ = nullptr;  // while it draws
+  FrameDrawer drawer_;
+};
+
+py::dict describe(const RenderStats& stats) {
+  py::dict stages;
+  for (const StageTime& stage : stats.stages)
+    stages[py::str(stage.stage)] = stage.seconds;
+  py::dict text;
+  text["device"] = stats.device;
+  text["particles"] = stats.particles;
+  text["bad_particles"] = stats.bad_particles;
+  text["drawn_particles"] = stats.drawn_particles;
+  text["tile_entries"] = stats.tile_entries;
+  text["device_bytes"] = stats.device_bytes;
+  text["build_seconds"] = stats.build_seconds;
+  text["total_seconds"] = stats.total_seconds;
+  text["stages"] = stages;
+  return text;
+}
+
+// As the program stores them.
+ImageFileOptions file_options(const Scene& scene, const RenderStats& stats) {
+  return image_file_options(
+      scene, {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:device", stats.device}});
+}
+
+// Pictures by what tells their files apart, notes, statistics.
+py::tuple draw(Drawer& drawer, const Scene& scene, const Source& source, py::object report) {
+  const Progress progress(std::move(report));
+  DrawnFrame drawn = drawer.draw(scene, source, progress);
+  py::dict pictures;
+  for (Picture& picture : drawn.pictures) {
+    pictures[py::str(picture.suffix)] =
+        PictureObject{std::move(picture.image), file_options(scene, drawn.stats)};
+  }
+  return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats));
+}
+
+py::dict describe(const DeviceInfo& device) {
+  py::dict text;
+  text["name"] = device.name;
+  text["platform"] = device.platform;
+  text["driver"] = device.driver;
+  text["is_gpu"] = device.is_gpu;
+  text["compute_units"] = device.compute_units;
+  text["memory_bytes"] = device.memory_bytes;
+  text["is_default"] = device.is_default;
+  return text;
+}
+
+}  // namespace
+
+void bind_drawing(py::module_& module) {
+  py::class_<Drawer>(module, "Drawer")
+      .def(py::init<const std::string&, bool, bool>())
+      .def("draw", &draw);
+  module.def("devices", [] {
+    const std::vector<DeviceInfo> devices = without_python([] { return list_devices(); });
+    std::vector<py::dict> texts;
+    for (const DeviceInfo& device : devices)
+      texts.push_back(describe(device));
+    return texts;
+  });
+}
+
+}  // namespace splotchcl::python

@@ -1,0 +1,104 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <mutex>
+
+#include "python/drawing.h"
+#include "python/progress.h"
+#include "python/source.h"
+#include "splotchcl/map.h"
+#include "splotchcl/reference.h"
+#include "splotchcl/renderer.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::python {
+namespace {
+
+// Lowest row first, as files of maps have it: the view turns rows around and copies nothing.
+py::buffer_info buffer_of(const Map& map, const std::vector<float>& values) {
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+  const auto width = static_cast<py::ssize_t>(map.width);
+  const auto height = static_cast<py::ssize_t>(map.height);
+  constexpr bool is_read_only = true;
+  float* const last_row = const_cast<float*>(values.data()) + (height - 1) * width;
+  return {last_row,
+          size,
+          py::format_descriptor<float>::format(),
+          2,
+          {height, width},
+          {-size * width, size},
+          is_read_only};
+}
+
+// The effective numbers of particles of a map.
+struct Noise {
+  std::shared_ptr<const Map> map;
+};
+
+DrawFrame drawing(const std::string& device, bool by_reference, std::optional<Renderer>& renderer) {
+  if (by_reference) {
+    return [](const Frame& frame) { return reference::render(frame).to_float(); };
+  }
+  RendererOptions options;
+  options.device = device;
+  renderer.emplace(options);
+  return [&renderer](const Frame& frame) { return renderer->render(frame); };
+}
+
+py::tuple draw(const Scene& scene, const Source& source, const std::string& device,
+               bool by_reference, py::object report) {
+  const Progress progress(std::move(report));
+  std::vector<std::string> notes = source.snapshot().info().notes;
+  auto map = std::make_shared<Map>(without_python([&] {
+    const std::lock_guard<Turn> mine(source.turn());
+    source.refresh();
+    std::optional<Renderer> renderer;
+    return draw_map(scene, source.snapshot(), drawing(device, by_reference, renderer), notes,
+                    progress.function());
+  }));
+  return py::make_tuple(std::move(map), std::move(notes));
+}
+
+void write(const Map& map, const std::filesystem::path& path, const Scene& scene,
+           const Source& source) {
+  without_python([&] {
+    const SnapshotInfo& info = source.snapshot().info();
+    check_map_path(path);
+    check_map_output(path, scene, info);
+    write_map(path, map, scene, info,
+              {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:version", SPLOTCHCL_VERSION}});
+  });
+}
+
+}  // namespace
+
+void bind_maps(py::module_& module) {
+  py::class_<Noise>(module, "Noise", py::buffer_protocol()).def_buffer([](const Noise& noise) {
+    return buffer_of(*noise.map, noise.map->effective_particles);
+  });
+  py::class_<Map, std::shared_ptr<Map>>(module, "Map", py::buffer_protocol())
+      .def_buffer([](const Map& map) { return buffer_of(map, map.values); })
+      .def_property_readonly("noise",
+                             [](const std::shared_ptr<Map>& map) -> std::optional<Noise> {
+                               if (map->effective_particles.empty()) return std::nullopt;
+                               return Noise{map};
+                             })
+      .def_readonly("width", &Map::width)
+      .def_readonly("height", &Map::height)
+      .def_readonly("quantity", &Map::quantity)
+      .def_readonly("unit", &Map::unit)
+      .def_readonly("length_unit", &Map::length_unit)
+      .def_readonly("right_name", &Map::right_name)
+      .def_readonly("up_name", &Map::up_name)
+      .def_readonly("pixel", &Map::pixel)
+      .def_readonly("center_right", &Map::center_right)
+      .def_readonly("center_up", &Map::center_up)
+      .def_readonly("tolerance", &Map::tolerance)
+      .def_readonly("particles", &Map::particles)
+      .def_readonly("bad_particles", &Map::bad_particles)
+      .def("save", &write);
+  module.def("draw_map", &draw);
+}
+
+}  // namespace splotchcl::python

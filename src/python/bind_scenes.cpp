@@ -1,0 +1,109 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <mutex>
+
+#include "film/path/film_path.h"
+#include "python/progress.h"
+#include "python/scene.h"
+#include "python/source.h"
+#include "scene_file/file_names.h"
+#include "splotchcl/load.h"
+#include "splotchcl/open_scene.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/snapshot_source.h"
+#include "splotchcl/views.h"
+
+namespace splotchcl::python {
+namespace {
+
+using Settings = std::vector<std::string>;
+using Notes = std::vector<std::string>;
+
+// A scene whose file names hold wherever it is written to.
+Scene with_absolute_names(Scene scene) {
+  scene_file::change_file_names(scene, [](const std::string& name) {
+    return name.empty() ? name : std::filesystem::absolute(name).string();
+  });
+  return scene;
+}
+
+py::tuple open(const std::filesystem::path& path, const Settings& settings) {
+  SceneWithSnapshot opened = without_python([&] { return open_scene(path, settings); });
+  return py::make_tuple(std::move(opened.scene), std::make_shared<Source>(opened.snapshot),
+                        std::move(opened.notes));
+}
+
+template <typename Work>
+auto in_turn(const Source& source, Work&& work) {
+  return without_python([&] {
+    const std::lock_guard<Turn> mine(source.turn());
+    source.refresh();
+    return work();
+  });
+}
+
+py::tuple decide_scene(const Scene& scene, const Source& source, py::object report) {
+  const Progress progress(std::move(report));
+  Notes notes;
+  Scene fixed = in_turn(source, [&] {
+    return fixed_scene(decide(scene, source.snapshot(), notes, progress.function()));
+  });
+  return py::make_tuple(std::move(fixed), std::move(notes));
+}
+
+std::vector<Scene> scenes_of_path(const Scene& scene) {
+  Notes notes;
+  const FilmPath path(scene, notes);
+  path.check(scene);
+  std::vector<Scene> scenes;
+  for (int frame = 0; frame < path.frame_count(); ++frame)
+    scenes.push_back(path.scene_at(scene, frame));
+  return scenes;
+}
+
+void bind_scene(py::module_& module) {
+  py::class_<Scene>(module, "Scene")
+      .def("with_settings", &apply_settings)
+      .def("to_toml", &format_scene)
+      .def("with_absolute_names", &with_absolute_names)
+      .def("frames",
+           [](const Scene& scene) { return without_python([&] { return scenes_of_path(scene); }); })
+      .def("component_names",
+           [](const Scene& scene) {
+             std::vector<std::string> names;
+             for (const Component& component : scene.components)
+               names.push_back(component.name);
+             return names;
+           })
+      .def_property_readonly("gamma", [](const Scene& scene) { return scene.image.gamma; })
+      .def_property_readonly("size", [](const Scene& scene) {
+        return std::make_pair(scene.image.width, scene.image.height);
+      });
+}
+
+}  // namespace
+
+void bind_scenes(py::module_& module) {
+  bind_scene(module);
+  module.def("open_scene", &open);
+  module.def("read_scene", [](const std::filesystem::path& path, const Settings& settings) {
+    return read_scene_file(path, settings);
+  });
+  module.def("parse_scene", [](const std::string& text, const Settings& settings) {
+    return parse_scene(text, "scene", settings);
+  });
+  module.def("snapshot_of", [](const Scene& scene) {
+    return without_python([&] { return std::make_shared<Source>(SnapshotSource().at(scene)); });
+  });
+  module.def("suggest", [](const Source& source) {
+    return in_turn(source, [&] { return suggest_scene(source.snapshot()); });
+  });
+  module.def("tell_not_drawn", [](const Scene& scene, const Source& source) {
+    return in_turn(source, [&] { return tell_not_drawn(scene, source.snapshot()); });
+  });
+  module.def("decide", &decide_scene);
+}
+
+}  // namespace splotchcl::python

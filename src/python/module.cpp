@@ -1,0 +1,73 @@
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <string>
+
+#include "python/drawing.h"
+#include "python/picture.h"
+#include "python/scene.h"
+#include "python/source.h"
+#include "splotchcl/error.h"
+
+// The module splotchcl._core: the library's values and functions as they are. What users call is
+// written in Python around it.
+namespace splotchcl::python {
+namespace {
+
+constexpr const char* module_name = "splotchcl._core";
+
+py::object new_error(const char* name, const py::handle& bases) {
+  const std::string full_name = std::string(module_name) + "." + name;
+  return py::reinterpret_steal<py::object>(
+      PyErr_NewException(full_name.c_str(), bases.ptr(), nullptr));
+}
+
+// Each is an Error of the library and one of Python's own kind.
+void add_errors(py::module_& module) {
+  const py::object error = new_error("Error", py::handle(PyExc_Exception));
+  const auto add = [&](const char* name, PyObject* kind) {
+    module.attr(name) = new_error(name, py::make_tuple(error, py::handle(kind)));
+  };
+  module.attr("Error") = error;
+  add("UsageError", PyExc_ValueError);
+  add("DataError", PyExc_OSError);
+  add("DeviceError", PyExc_RuntimeError);
+}
+
+// What a compiler says has several lines.
+void raise(const char* name, const Error& error) {
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  const py::object kind = py::module_::import(module_name).attr(name);
+  PyErr_SetString(kind.ptr(), message.c_str());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const UsageError& error) {
+    raise("UsageError", error);
+  } catch (const DataError& error) {
+    raise("DataError", error);
+  } catch (const DeviceError& error) {
+    raise("DeviceError", error);
+  } catch (const Error& error) {
+    raise("Error", error);
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.attr("version") = SPLOTCHCL_VERSION;
+  add_errors(module);
+  py::register_exception_translator(&translate);
+  bind_sources(module);
+  bind_scenes(module);
+  bind_pictures(module);
+  bind_drawing(module);
+  bind_maps(module);
+  bind_films(module);
+}
+
+}  // namespace splotchcl::python

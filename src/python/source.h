@@ -1,0 +1,61 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "python/turn.h"
+#include "splotchcl/array_snapshot.h"
+
+namespace splotchcl::python {
+
+namespace py = pybind11;
+
+// What is drawn: a snapshot, and whose turn it is to read it.
+class Source {
+ public:
+  explicit Source(std::shared_ptr<const Snapshot> snapshot) : snapshot_(std::move(snapshot)) {}
+  virtual ~Source() = default;
+
+  const Snapshot& snapshot() const { return *snapshot_; }
+  // To be called before the snapshot is used, with the turn taken.
+  virtual void refresh() const {}
+  Turn& turn() const { return turn_; }
+
+ private:
+  std::shared_ptr<const Snapshot> snapshot_;
+  mutable Turn turn_;
+};
+
+// Arrays of Python as a snapshot. Each is kept, with its buffer exported, until another takes its
+// place, so that neither `del` nor a resize takes away what is drawn.
+class ParticleArrays : public Source {
+ public:
+  ParticleArrays();
+
+  // Floats in C order of the shape (count) or (count, 3) are borrowed; doubles are copied. Throws
+  // UsageError for others.
+  void set_field(int type, const std::string& field, const py::buffer& values);
+  void set_mass(int type, double mass);
+  void clear(int type);
+  void set_box_size(double size);
+  void set_time(double time);
+  void set_origin(const Vec3& origin);
+  // The arrays may hold other values than when they were drawn last.
+  void refresh() const override { arrays_->changed(); }
+
+ private:
+  explicit ParticleArrays(const std::shared_ptr<ArraySnapshot>& arrays)
+      : Source(arrays), arrays_(arrays) {}
+
+  std::shared_ptr<ArraySnapshot> arrays_;
+  std::map<std::pair<int, std::string>, std::unique_ptr<py::buffer_info>> owners_;
+};
+
+// Adds Source, Particles and what opens snapshots to the module.
+void bind_sources(py::module_& module);
+
+}  // namespace splotchcl::python

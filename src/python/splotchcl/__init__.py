@@ -1,0 +1,43 @@
+"""Draws particle simulations of the universe with OpenCL.
+
+>>> import splotchcl
+>>> splotchcl.render("snapshot_006").save("a.png")
+
+`render` draws, `suggest` chooses a `Scene`, `Particles` takes one's own arrays, `Snapshot` opens
+a file, `column` makes a map in physical units, `movie` a film, `reference` says how exact a picture
+is. Errors are of `Error`, with one line each: `UsageError` is a ValueError, `DataError` an OSError,
+`DeviceError` a RuntimeError.
+"""
+
+from ._core import DataError, DeviceError, Error, UsageError
+from ._core import version as __version__
+from ._image import Difference, Image
+from ._maps import Map, column
+from ._movie import Film, movie
+from ._render import Renderer, devices, reference, render, suggest
+from ._scene import Scene, UnknownKey
+from ._sources import Particles, ParticleType, Snapshot
+
+__all__ = [
+    "DataError",
+    "DeviceError",
+    "Difference",
+    "Error",
+    "Film",
+    "Image",
+    "Map",
+    "ParticleType",
+    "Particles",
+    "Renderer",
+    "Scene",
+    "Snapshot",
+    "UnknownKey",
+    "UsageError",
+    "__version__",
+    "column",
+    "devices",
+    "movie",
+    "reference",
+    "render",
+    "suggest",
+]

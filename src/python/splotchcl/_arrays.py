@@ -1,0 +1,71 @@
+"""From what users have to arrays that the library takes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._core import UsageError
+
+# By which array libraries call the unit of an array.
+_UNIT_ATTRIBUTES = ("units", "unit")
+
+
+def unit_of(values: Any) -> str | None:
+    """The unit that an array carries with it (unyt, swiftsimio, pynbody, astropy), as text."""
+    for attribute in _UNIT_ATTRIBUTES:
+        unit = getattr(values, attribute, None)
+        if unit is not None and not callable(unit) and str(unit) not in ("", "NoUnit()"):
+            return str(unit)
+    return None
+
+
+def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None]:
+    """An array of floats or doubles in C order, and a note where that took a copy.
+
+    Parameters
+    ----------
+    field : str
+        The field's name, for messages.
+    values : array_like
+        Numbers of shape (N,) or (N, 3).
+
+    Raises
+    ------
+    UsageError
+        For masked values, and for what is no array of real numbers.
+    """
+    try:
+        given = values if isinstance(values, np.ndarray) else np.asarray(values)
+    except ValueError as error:
+        raise UsageError(f"field {field}: {error}, expected an array of numbers") from error
+    if isinstance(given, np.ma.MaskedArray):
+        if np.ma.is_masked(given):
+            raise UsageError(
+                f"field {field}: {int(np.ma.getmaskarray(given).sum())} values are masked, expected "
+                "none; leave these particles out of all fields, or fill the values"
+            )
+        given = given.data
+    plain = given.view(np.ndarray)
+    if plain.dtype.kind not in "fiub":
+        raise UsageError(
+            f"field {field}: values of dtype {plain.dtype}, expected real numbers"
+        )
+    if plain.ndim not in (1, 2) or (plain.ndim == 2 and plain.shape[1] not in (1, 3)):
+        raise UsageError(
+            f"field {field}: an array of shape {plain.shape}, expected (N,) or (N, 3) for N particles"
+        )
+    # What 32 bits cannot hold goes as doubles, from which the library subtracts the origin.
+    is_narrow = plain.dtype.kind == "b" or np.can_cast(plain.dtype, np.float32, "safe")
+    wanted = np.dtype(np.float32 if is_narrow else np.float64)
+    note = _copy_note(field, plain)
+    if plain.dtype == wanted and plain.flags.c_contiguous and plain.flags.aligned:
+        is_borrowed = wanted == np.float32 and isinstance(values, np.ndarray)
+        return plain, None if is_borrowed else note
+    return np.require(plain, wanted, ["C", "A"]), note
+
+
+def _copy_note(field: str, given: np.ndarray[Any, Any]) -> str:
+    order = "" if given.flags.c_contiguous else ", not in C order"
+    return f"field {field} was copied as 32-bit floats (it has dtype {given.dtype.str}{order})"

@@ -1,0 +1,193 @@
+"""Maps: pictures whose numbers are a quantity in a unit."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._render import Progress, keys_of, open_drawable, using_opencl
+from ._scene import Scene
+from ._sources import Source
+
+
+@dataclass
+class Map:
+    """A map (docs/maps.md). ``numpy.asarray(map)`` is `values`."""
+
+    _map: _core.Map = field(repr=False)
+    notes: list[str]
+    """What the user should know, a line each."""
+    scene: Scene = field(repr=False)
+    _source: Source = field(repr=False)
+
+    @property
+    def values(self) -> np.ndarray[Any, np.dtype[np.float32]]:
+        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest.
+
+        Not a number where a mean has too little matter to be known.
+        """
+        return np.asarray(self._map)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray[Any, Any]:
+        values = self.values
+        if dtype is not None and np.dtype(dtype) != values.dtype:
+            if copy is False:
+                raise ValueError(f"a map is float32; as {np.dtype(dtype)} it is a copy")
+            return values.astype(dtype)
+        return values.copy() if copy else values
+
+    @property
+    def effective_particles(self) -> np.ndarray[Any, np.dtype[np.float32]] | None:
+        """How many particles of equal weight would make each pixel; None unless asked for."""
+        return None if self._map.noise is None else np.asarray(self._map.noise)
+
+    @property
+    def unit(self) -> str:
+        """Of the values, such as "Msun/pc^2"."""
+        return self._map.unit
+
+    @property
+    def quantity(self) -> str:
+        """What is shown: "mean of temperature, weighted by mass"."""
+        return self._map.quantity
+
+    @property
+    def length_unit(self) -> str:
+        """Of `extent` and `pixel`."""
+        return self._map.length_unit
+
+    @property
+    def axes(self) -> tuple[str, str]:
+        """What points to the right and upwards: ("x", "y")."""
+        return self._map.right_name, self._map.up_name
+
+    @property
+    def pixel(self) -> float:
+        """The side of a pixel, in `length_unit`."""
+        return self._map.pixel
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom, top in `length_unit`, for ``imshow(..., origin="lower")``."""
+        half = self._map.pixel * self._map.width / 2, self._map.pixel * self._map.height / 2
+        right, up = self._map.center_right, self._map.center_up
+        return right - half[0], right + half[0], up - half[1], up + half[1]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes .fits, .hdf5, .npy or .exr with the numbers, .pdf or a picture as a figure.
+
+        Raises
+        ------
+        UsageError
+            For an ending that no map can be written as.
+        DataError
+            For a file that cannot be written.
+        """
+        self._map.save(Path(path), self.scene._scene, self._source._source)
+
+
+def column(
+    scene: Scene | Source | str | os.PathLike[str],
+    field: str | None = None,
+    weight: str | None = None,
+    *,
+    particles: Source | None = None,
+    types: Sequence[str | int] | str | None = None,
+    statistic: str | None = None,
+    slice: bool = False,
+    view: str = "xy",
+    center: Sequence[float] | str | None = None,
+    width: float | None = None,
+    depth: float | None = None,
+    size: tuple[int, int] | None = None,
+    unit: str | None = None,
+    noise: bool = False,
+    tolerance: float | None = None,
+    device: str | None = None,
+    settings: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Map:
+    """A quantity along lines of sight, in its unit (docs/maps.md).
+
+    Parameters
+    ----------
+    scene, particles, size, tolerance, device, settings, progress
+        As for `render`. The map shows one component: the first, or ``map.component``.
+    field : str, optional
+        None: the surface density. "counts", "line_of_sight_velocity", or a field, of which the
+        weighted mean is shown.
+    weight : str, optional
+        Of means: "mass" (None says the same; of slices "volume"), "volume", or a field.
+    types : str or sequence, optional
+        Particle types, such as "gas", that the first component has in place of its own.
+    statistic : {"mean", "dispersion", "integral"}, optional
+    slice : bool
+        In the plane through the center, instead of along the line.
+    view : {"xy", "xz", "yz", "camera"}
+        The first axis points to the right, the second upwards.
+    center : 3 floats or {"box", "mass", "densest"}, optional
+        The middle, in the snapshot's unit of length.
+    width, depth : float, optional
+        In the snapshot's unit of length.
+    unit : str, optional
+        Of the map, such as "Msun/pc^2"; None: what the snapshot's units give. What a file does not
+        say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
+    noise : bool
+        Also the effective number of particles.
+
+    Returns
+    -------
+    Map
+
+    Raises
+    ------
+    UsageError, DataError, DeviceError
+    """
+    keys = keys_of(size, tolerance, settings)
+    keys |= _map_keys(field, weight, statistic, view, unit, center)
+    if width is not None:
+        keys["map.width"] = float(width)
+    if depth is not None:
+        keys["map.depth"] = float(depth)
+    if slice:
+        keys["map.slice"] = True
+    if noise:
+        keys["map.noise"] = True
+    if types is not None:
+        names = [types] if isinstance(types, str) else list(types)
+        keys[f"component.{keys.get('map.component', 0)}.types"] = names
+    chosen, source, notes = open_drawable(scene, particles, keys)
+    by_reference = device == "reference"
+    name = "" if device is None or by_reference else device
+    with nullcontext() if by_reference else using_opencl():
+        drawn, more = _core.draw_map(chosen._scene, source._source, name, by_reference, progress)
+    return Map(drawn, notes + [note for note in more if note not in notes], chosen, source)
+
+
+def _map_keys(
+    quantity: str | None,
+    weight: str | None,
+    statistic: str | None,
+    view: str,
+    unit: str | None,
+    center: Sequence[float] | str | None,
+) -> dict[str, Any]:
+    keys: dict[str, Any] = {
+        "map.quantity": quantity,
+        "map.weight": weight,
+        "map.statistic": statistic,
+        "map.view": view,
+        "map.unit": unit,
+    }
+    if isinstance(center, str):
+        keys["map.center_at"] = center
+    elif center is not None:
+        keys["map.center"] = [float(x) for x in center]
+    return {key: value for key, value in keys.items() if value is not None}

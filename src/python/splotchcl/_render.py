@@ -1,0 +1,284 @@
+"""Drawing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from . import _core, _toml
+from ._core import DeviceError, UsageError
+from ._image import Image
+from ._scene import Scene
+from ._sources import Particles, Snapshot, Source
+
+Progress = Callable[[str, float], object]
+
+# Threads of OpenCL do not live on in a child that was forked: drawing there would never end.
+_used_in: list[int] = []
+
+
+@contextmanager
+def using_opencl() -> Iterator[None]:
+    """Refuses a forked child of a process that has used OpenCL."""
+    if not _used_in:
+        _used_in.append(os.getpid())
+    if _used_in[0] != os.getpid():
+        raise DeviceError(
+            "OpenCL was used before this process was forked, and does not work in it; start "
+            'processes with multiprocessing.get_context("spawn")'
+        )
+    yield
+
+
+def suggest(
+    source: Source | str | os.PathLike[str],
+    *,
+    size: tuple[int, int] | None = None,
+    settings: Mapping[str, Any] | None = None,
+) -> Scene:
+    """A scene that suits the data: camera, components, fields and palettes, all as numbers.
+
+    Parameters
+    ----------
+    source : Snapshot, Particles or path-like
+    size : (int, int), optional
+        Width and height in pixels; 1024 x 1024 otherwise.
+    settings : mapping, optional
+        Scene keys that override what was chosen.
+
+    Raises
+    ------
+    UsageError, DataError
+    """
+    scene, _, _ = open_drawable(source, None, keys_of(size, None, settings))
+    return scene
+
+
+def keys_of(
+    size: tuple[int, int] | None, tolerance: float | None, settings: Mapping[str, Any] | None
+) -> dict[str, Any]:
+    """What arguments say as scene keys."""
+    keys = dict(settings or {})
+    if size is not None:
+        keys["image.size"] = [int(side) for side in size]
+    if tolerance is not None:
+        keys["tolerance"] = float(tolerance)
+    return keys
+
+
+def open_drawable(
+    what: Scene | Source | str | os.PathLike[str], particles: Source | None, keys: dict[str, Any]
+) -> tuple[Scene, Source, list[str]]:
+    """The scene, its data, and notes on both."""
+    if isinstance(what, str | os.PathLike) and particles is None:
+        pairs = [_toml.setting(key, value) for key, value in keys.items()]
+        opened, data, notes = _core.open_scene(Path(what), pairs)
+        return Scene._of(opened), _snapshot_of(data), notes + data.describe()["notes"]
+    if isinstance(what, str | os.PathLike):
+        what = Scene.from_file(what)
+    if isinstance(what, Source):
+        if particles is not None:
+            raise UsageError("two sources of particles, expected a scene and particles, or one")
+        return _suggested(what, keys)
+    if not isinstance(what, Scene):
+        raise UsageError(
+            f"found a {type(what).__name__}, expected a Scene, Snapshot, Particles or path"
+        )
+    scene = what.copy()
+    scene.update(keys)
+    if particles is None:
+        particles = _snapshot_of(_core.snapshot_of(scene._scene))
+    elif not isinstance(particles, Source):
+        raise UsageError(
+            f"found a {type(particles).__name__}, expected Particles or a Snapshot"
+        )
+    return scene, particles, _notes_of(particles)
+
+
+def _suggested(source: Source, keys: dict[str, Any]) -> tuple[Scene, Source, list[str]]:
+    scene = Scene._of(_core.suggest(source._source))
+    scene.update(keys)
+    notes = _notes_of(source)
+    not_drawn = _core.tell_not_drawn(scene._scene, source._source)
+    return scene, source, notes + ([not_drawn] if not_drawn else [])
+
+
+def _snapshot_of(data: _core.Source) -> Snapshot:
+    snapshot = Snapshot.__new__(Snapshot)
+    snapshot._source = data
+    return snapshot
+
+
+def _notes_of(source: Source) -> list[str]:
+    return source.notes if isinstance(source, Snapshot | Particles) else []
+
+
+class Renderer:
+    """A device that draws; keeps compiled kernels and buffers from picture to picture.
+
+    Python's lock is free while it draws. Threads take turns at one renderer; two renderers draw at
+    the same time.
+
+    Parameters
+    ----------
+    device : str, optional
+        A part of a device's name, in any case (`devices`). None: a GPU, else the processor.
+        "reference": the renderer in double precision on the processor, which takes long.
+    certify : bool
+        Draw until a bound, not an estimate, says that the tolerance is kept.
+
+    Raises
+    ------
+    DeviceError
+        Where there is no device, and in a process that was forked after OpenCL had been used.
+    UsageError
+        Where no device has such a name.
+    """
+
+    def __init__(self, device: str | None = None, *, certify: bool = False) -> None:
+        self._by_reference = device == "reference"
+        with self._device():
+            name = "" if device is None or self._by_reference else device
+            self._drawer = _core.Drawer(name, self._by_reference, certify)
+
+    def render(
+        self,
+        scene: Scene | Source | str | os.PathLike[str],
+        particles: Source | None = None,
+        *,
+        size: tuple[int, int] | None = None,
+        tolerance: float | None = None,
+        settings: Mapping[str, Any] | None = None,
+        progress: Progress | None = None,
+    ) -> Image:
+        """Draws one picture; arguments as those of `splotchcl.render`."""
+        pictures = self.render_all(
+            scene,
+            particles,
+            size=size,
+            tolerance=tolerance,
+            settings=settings,
+            progress=progress,
+        )
+        if len(pictures) != 1:
+            raise UsageError(
+                f"the scene has {len(pictures)} pictures ({', '.join(pictures)}), expected one; "
+                "render_all draws them"
+            )
+        return next(iter(pictures.values()))
+
+    def render_all(
+        self,
+        scene: Scene | Source | str | os.PathLike[str],
+        particles: Source | None = None,
+        *,
+        size: tuple[int, int] | None = None,
+        tolerance: float | None = None,
+        settings: Mapping[str, Any] | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Image]:
+        """Draws every picture of a scene (eyes, faces), by what is added to their files' names."""
+        keys = keys_of(size, tolerance, settings)
+        chosen, source, notes = open_drawable(scene, particles, keys)
+        with self._device():
+            pictures, more, stats = self._drawer.draw(chosen._scene, source._source, progress)
+        return {
+            suffix: Image(picture, chosen, notes + more, stats, source)
+            for suffix, picture in pictures.items()
+        }
+
+    @contextmanager
+    def _device(self) -> Iterator[None]:
+        if self._by_reference:
+            yield
+        else:
+            with using_opencl():
+                yield
+
+
+def render(
+    scene: Scene | Source | str | os.PathLike[str],
+    particles: Source | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    tolerance: float | None = None,
+    device: str | None = None,
+    certify: bool = False,
+    settings: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Image:
+    """Draws a picture.
+
+    Parameters
+    ----------
+    scene : Scene, Snapshot, Particles or path-like
+        What to draw; a path is that of a scene file or of a snapshot. For a snapshot or particles a
+        scene is chosen from the data.
+    particles : Particles or Snapshot, optional
+        What a scene shows; None: the snapshot that it names.
+    size : (int, int), optional
+        Width and height in pixels.
+    tolerance : float, optional
+        Of every pixel and channel, as the scene's key: 1e-3 of the display's white unless said
+        otherwise; 0 is the most exact.
+    device, certify
+        As for `Renderer`.
+    settings : mapping, optional
+        Scene keys that override the scene's.
+    progress : callable, optional
+        Called with what is being done and the fraction done, from 0 to 1, where reading, the search
+        for neighbors or the reference take long. What it raises ends the work.
+
+    Returns
+    -------
+    Image
+
+    Raises
+    ------
+    UsageError
+        For a scene, a setting or an array that is wrong.
+    DataError
+        For files that cannot be read, and particles of which none can be drawn.
+    DeviceError
+        Where there is no device, or it fails.
+    KeyboardInterrupt
+        While it reads, or draws by the reference; a device finishes its picture first.
+    """
+    return Renderer(device, certify=certify).render(
+        scene,
+        particles,
+        size=size,
+        tolerance=tolerance,
+        settings=settings,
+        progress=progress,
+    )
+
+
+def reference(
+    scene: Scene | Source | str | os.PathLike[str],
+    particles: Source | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    settings: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Image:
+    """Draws a picture by the reference renderer: in double precision, and slowly.
+
+    Arguments as those of `render`. ``render(...).compare(reference(...))`` says how exact a picture
+    is.
+    """
+    return render(
+        scene, particles, size=size, device="reference", settings=settings, progress=progress
+    )
+
+
+def devices() -> list[dict[str, Any]]:
+    """The OpenCL devices: name, platform, driver, is_gpu, compute_units, memory_bytes, is_default.
+
+    Empty where there is none.
+    """
+    with using_opencl():
+        return _core.devices()

@@ -1,0 +1,274 @@
+"""What is drawn: snapshots from files, and particles from arrays."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from numbers import Real
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_values, unit_of
+from ._core import UsageError
+
+_STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
+
+
+class ParticleType:
+    """The particles of one type of a snapshot; ``particles["density"]`` reads a field."""
+
+    def __init__(self, source: _core.Source, name: str, described: dict[str, Any]) -> None:
+        self._source = source
+        self._described = described
+        self.name = name
+
+    def __len__(self) -> int:
+        return int(self._described["count"])
+
+    @property
+    def fields(self) -> dict[str, str]:
+        """Names of the fields, and their units ("" where the file does not say)."""
+        return {name: field[2] for name, field in self._described["fields"].items()}
+
+    def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
+        """A field, stored or derived ("temperature"), in the snapshot's unit.
+
+        Returns
+        -------
+        numpy.ndarray
+            float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
+            file allows it. Positions that the file holds in double precision are float64.
+
+        Raises
+        ------
+        UsageError, DataError
+            For a field that the type does not have, naming those that it has.
+        """
+        number = int(self._described["type"])
+        values: np.ndarray[Any, Any] = np.asarray(self._source.read(number, field))
+        origin = np.array(self._source.position_origin())
+        if origin.any() and self._source.canonical_name(number, field) == "position":
+            absolute: np.ndarray[Any, Any] = values + origin
+            return absolute
+        return values
+
+    def __repr__(self) -> str:
+        return f"<splotchcl {self.name}: {len(self)} particles, {', '.join(self.fields)}>"
+
+
+class Source:
+    """What Snapshot and Particles have in common."""
+
+    _source: _core.Source
+
+    def _describe(self) -> dict[str, Any]:
+        return self._source.describe()
+
+    @property
+    def types(self) -> dict[str, ParticleType]:
+        """The types that have particles, by name ("gas", "halo", ..., "type_6")."""
+        types = self._describe()["types"]
+        return {name: ParticleType(self._source, name, types[name]) for name in types}
+
+    def __getitem__(self, name: str) -> ParticleType:
+        number = _core.find_particle_type(name)
+        types = self.types
+        if number is not None:
+            name = _core.particle_type_name(number)
+        if name not in types:
+            raise UsageError(f"particle type {name!r}: expected one of {', '.join(types)}")
+        return types[name]
+
+    @property
+    def box_size(self) -> float | None:
+        """Side of the periodic box in the unit of positions; None: there is none."""
+        size: float | None = self._describe()["box_size"]
+        return size
+
+    def __repr__(self) -> str:
+        described = self._describe()
+        types = ", ".join(f"{name} {t['count']}" for name, t in described["types"].items())
+        return f"<splotchcl {described['format']}: {types or 'no particles'}>"
+
+
+class Snapshot(Source):
+    """A snapshot file, opened; particles are read when they are asked for.
+
+    Parameters
+    ----------
+    path : path-like
+        Any member or the base name of a snapshot (docs/formats.md).
+    read : mapping, optional
+        Keys of a scene's ``[read]``: ``{"every": 10}``, ``{"max_particles": 100000}``.
+
+    Raises
+    ------
+    DataError
+        For a file that cannot be read or has no known format.
+    """
+
+    def __init__(
+        self, path: str | os.PathLike[str], *, read: Mapping[str, Any] | None = None
+    ) -> None:
+        from ._toml import setting
+
+        settings = [setting(f"read.{key}", value) for key, value in (read or {}).items()]
+        self._source = _core.open_snapshot(Path(path), settings)
+
+    @property
+    def format(self) -> str:
+        """What the file was found to be."""
+        return str(self._describe()["format"])
+
+    @property
+    def files(self) -> list[Path]:
+        """The files that it is read from."""
+        return [Path(file) for file in self._describe()["files"]]
+
+    @property
+    def time(self) -> float:
+        """The time, or scale factor, as the file has it."""
+        return float(self._describe()["time"])
+
+    @property
+    def redshift(self) -> float | None:
+        """The redshift, where the file has one."""
+        redshift: float | None = self._describe()["redshift"]
+        return redshift
+
+    @property
+    def notes(self) -> list[str]:
+        """Oddities of the file, a line each."""
+        return list(self._describe()["notes"])
+
+
+class Particles(Source):
+    """One's own arrays.
+
+    Contiguous float32 arrays are borrowed: they are kept, never changed, and read anew for each
+    picture. Others are copied once, which `notes` tells. Lengths, masses and other values may have
+    any units, the same for all; a scene's camera has the unit of positions.
+
+    Parameters
+    ----------
+    box_size : float, optional
+        Side of the periodic box, in the unit of positions. None: there is none.
+    time : float, optional
+        In the simulation's unit, for texts in pictures.
+    origin : sequence of 3 floats, optional
+        What positions are relative to: float32 positions are taken as offsets from it, from
+        float64 positions it is subtracted before they become floats.
+
+    Examples
+    --------
+    >>> particles = splotchcl.Particles(box_size=100)
+    >>> particles.gas(position=x, mass=m, temperature=t)
+    """
+
+    def __init__(
+        self,
+        *,
+        box_size: float | None = None,
+        time: float | None = None,
+        origin: Any = None,
+    ) -> None:
+        self._arrays = _core.ParticleArrays()
+        self._source = self._arrays
+        self._units: dict[str, str] = {}
+        self._notes: dict[tuple[int, str], str] = {}
+        if box_size is not None:
+            self._arrays.set_box_size(float(box_size))
+        if time is not None:
+            self._arrays.set_time(float(time))
+        if origin is not None:
+            self._arrays.set_origin([float(x) for x in origin])
+
+    @property
+    def notes(self) -> list[str]:
+        """Which arrays were copied, a line each."""
+        return list(self._notes.values())
+
+    def add(self, type: str | int, /, **fields: Any) -> Particles:
+        """Sets fields of one type; a field that is set again replaces the earlier one.
+
+        Parameters
+        ----------
+        type : str or int
+            "gas", "halo", "disk", "bulge", "stars", "boundary", or a number from 0 to 31.
+        **fields : array_like of shape (N,) or (N, 3), or a number for ``mass``
+            ``position`` (needed), ``mass``, ``density``, ``smoothing_length``, or any other name
+            that a scene asks for. Smoothing lengths end the kernel, and are found where they are
+            missing.
+
+        Returns
+        -------
+        Particles
+            Itself.
+
+        Raises
+        ------
+        UsageError
+            For shapes, dtypes, lengths or units that do not fit; fields before the wrong one are
+            set.
+        """
+        number = self._number(type)
+        for field, values in fields.items():
+            if field == "mass" and _is_number(values):
+                self._arrays.set_mass(number, float(values))
+                continue
+            self._check_unit(field, values)
+            array, note = as_values(field, values)
+            self._arrays.set_field(number, field, array)
+            self._notes.pop((number, field), None)
+            if note is not None:
+                self._notes[(number, field)] = note
+        return self
+
+    def gas(self, **fields: Any) -> Particles:
+        """`add` for gas."""
+        return self.add("gas", **fields)
+
+    def stars(self, **fields: Any) -> Particles:
+        """`add` for stars."""
+        return self.add("stars", **fields)
+
+    def dark_matter(self, **fields: Any) -> Particles:
+        """`add` for the type "halo", which is dark matter."""
+        return self.add("halo", **fields)
+
+    def clear(self, type: str | int) -> None:
+        """Forgets a type's fields. Needed before its number of particles changes."""
+        number = self._number(type)
+        self._arrays.clear(number)
+        self._notes = {key: note for key, note in self._notes.items() if key[0] != number}
+
+    def _number(self, type: str | int) -> int:
+        if not isinstance(type, str):
+            return int(type)
+        number = _core.find_particle_type(type)
+        if number is None:
+            raise UsageError(
+                f"particle type {type!r}: expected one of {', '.join(_STANDARD_TYPES)} or a number "
+                "from 0 to 31"
+            )
+        return number
+
+    # All that has a meaning together must have one unit.
+    def _check_unit(self, field: str, values: Any) -> None:
+        unit = unit_of(values)
+        if unit is None:
+            return
+        kind = "length" if field in ("position", "smoothing_length") else field
+        known = self._units.setdefault(kind, unit)
+        if known != unit:
+            raise UsageError(
+                f"field {field}: the unit {unit}, expected {known} as for other particles; convert "
+                "one of them"
+            )
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) or (isinstance(value, np.ndarray) and value.ndim == 0)

@@ -1,0 +1,128 @@
+"""Maps as data, snapshots as data, films."""
+
+import numpy as np
+import pytest
+
+import splotchcl
+from conftest import make_arrays
+from splotchcl import DataError, Particles, Snapshot, UsageError
+
+
+@pytest.fixture(autouse=True)
+def needs_a_device(renderer):
+    pass
+
+
+def test_a_map_has_the_bits_of_the_command_line(program, universe, tmp_path):
+    program(
+        "map", universe, "--types", "gas", "--quantity", "temperature", "--size", "64x48",
+        "-o", tmp_path / "map.npy",
+    )
+    drawn = splotchcl.column(universe, "temperature", types="gas", size=(64, 48))
+    assert np.array_equal(drawn.values, np.load(tmp_path / "map.npy"), equal_nan=True)
+
+
+def test_a_saved_map_is_its_values(universe, tmp_path):
+    drawn = splotchcl.column(universe, types="gas", size=(32, 32))
+    drawn.save(tmp_path / "map.npy")
+    assert np.array_equal(np.load(tmp_path / "map.npy"), np.asarray(drawn))
+
+
+def test_a_surface_density_adds_up_to_the_mass(universe):
+    drawn = splotchcl.column(universe, types="gas", size=(64, 64))
+    mass = Snapshot(universe)["gas"]["mass"].sum(dtype=float)
+    assert drawn.values.sum(dtype=float) * drawn.pixel**2 == pytest.approx(mass, rel=2e-3)
+
+
+def test_a_mean_of_one_value_is_that_value():
+    arrays = make_arrays(500)
+    arrays["temperature"][:] = 300
+    drawn = splotchcl.column(Particles().gas(**arrays), "temperature", size=(32, 32))
+    known = drawn.values[np.isfinite(drawn.values)]
+    assert known.size > 100
+    assert known == pytest.approx(300, rel=2e-3)
+
+
+def test_y_grows_with_the_row():
+    arrays = make_arrays(500)
+    arrays["position"][:, 1] = np.linspace(0, 10, 500)
+    arrays["mass"] = np.where(arrays["position"][:, 1] > 5, 2, 1).astype(np.float32)
+    drawn = splotchcl.column(Particles(box_size=10).gas(**arrays), size=(32, 32))
+    assert drawn.extent == pytest.approx((0, 10, 0, 10))
+    assert drawn.values[20:28].sum() > 1.5 * drawn.values[4:12].sum()
+
+
+def test_a_unit_is_converted(universe):
+    says = {"map.length_unit": "kpc", "map.mass_unit": "1e10 Msun"}
+    plain = splotchcl.column(universe, types="gas", size=(16, 16), settings=says)
+    drawn = splotchcl.column(
+        universe, types="gas", size=(16, 16), settings=says, unit="Msun/pc^2"
+    )
+    assert drawn.unit == "Msun/pc^2"
+    assert drawn.values == pytest.approx(plain.values * 1e4, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"field": "temprature"}, {"view": "zx"}, {"unit": "K"}, {"width": -1.0}]
+)
+def test_a_wrong_map_is_refused(universe, wrong):
+    with pytest.raises(UsageError):
+        splotchcl.column(universe, types="gas", size=(16, 16), **wrong)
+
+
+def test_fields_of_a_snapshot_are_arrays(universe):
+    gas = Snapshot(universe)["gas"]
+    assert gas["position"].shape == (len(gas), 3)
+    assert gas["position"].dtype == np.float32
+    assert gas["temperature"].shape == (len(gas),)  # derived
+    assert (gas["temperature"] > 0).all()
+
+
+def test_an_unknown_field_or_type_is_refused(universe):
+    snapshot = Snapshot(universe)
+    with pytest.raises(splotchcl.Error, match="colour_of_the_sky"):
+        snapshot["gas"]["colour_of_the_sky"]
+    with pytest.raises(UsageError, match="gas, stars"):
+        snapshot["bulge"]
+
+
+def test_a_part_of_a_snapshot_is_read(universe):
+    assert len(Snapshot(universe, read={"every": 10})["gas"]) == pytest.approx(
+        len(Snapshot(universe)["gas"]) / 10, abs=1
+    )
+
+
+def test_what_is_no_snapshot_is_a_data_error(tmp_path):
+    (tmp_path / "rubbish").write_bytes(b"\0\1\2\3" * 100)
+    with pytest.raises(DataError, match="rubbish"):
+        Snapshot(tmp_path / "rubbish")
+
+
+def test_a_film_has_the_pictures_of_its_frames(renderer, universe, tmp_path):
+    scene = splotchcl.suggest(universe, size=(32, 32))
+    scene.update({"path.orbit.degrees": 360, "movie.frames": 3})
+    told = []
+    film = splotchcl.movie(
+        scene, tmp_path / "f_%02d.png", progress=lambda what, fraction: told.append(fraction)
+    )
+    assert (film.state, film.frames) == ("complete", 3)
+    assert told == pytest.approx([0, 1 / 3, 2 / 3])
+    decided = scene.decide()
+    for i, frame in enumerate(decided.frames()):
+        renderer.render(frame).save(tmp_path / "one.png")
+        expected = (tmp_path / f"f_{i:02}.png").read_bytes()
+        assert (tmp_path / "one.png").read_bytes() == expected
+
+
+def test_what_progress_raises_ends_a_film_and_keeps_its_frames(universe, tmp_path):
+    scene = splotchcl.suggest(universe, size=(32, 32))
+    scene.update({"path.orbit.degrees": 360, "movie.frames": 3})
+
+    def stop(what, fraction):
+        if fraction > 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        splotchcl.movie(scene, tmp_path / "f_%02d.png", progress=stop)
+    assert sorted(path.name for path in tmp_path.glob("f_*.png")) == ["f_00.png", "f_01.png"]
+    assert splotchcl.movie(scene, tmp_path / "f_%02d.png").state == "complete"

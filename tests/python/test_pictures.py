@@ -1,0 +1,149 @@
+"""Pictures have the bits of the command line's, and keep their tolerance."""
+
+import numpy as np
+import pytest
+
+import splotchcl
+from splotchcl import Image, Scene, Snapshot, UsageError
+
+SIZE = (96, 64)
+
+
+def test_a_snapshot_has_the_bits_of_the_command_line(renderer, program, universe, tmp_path):
+    program("render", universe, "--size", "96x64", "-o", tmp_path / "program.exr")
+    image = renderer.render(universe, size=SIZE)
+    assert np.array_equal(image.linear, Image.open(tmp_path / "program.exr").linear)
+
+
+def test_a_saved_picture_has_the_bytes_of_the_command_line(renderer, program, universe, tmp_path):
+    program("render", universe, "--size", "96x64", "-o", tmp_path / "program.png")
+    renderer.render(universe, size=SIZE).save(tmp_path / "python.png")
+    assert (tmp_path / "python.png").read_bytes() == (tmp_path / "program.png").read_bytes()
+
+
+def test_a_notebook_shows_the_bytes_of_a_saved_picture(renderer, particles, tmp_path):
+    image = renderer.render(particles, size=SIZE)
+    image.save(tmp_path / "a.png")
+    assert image._repr_png_() == (tmp_path / "a.png").read_bytes()
+
+
+def test_display_values_are_those_of_a_saved_picture(renderer, particles, tmp_path):
+    image = renderer.render(particles, size=SIZE, settings={"image.gamma": 2.2})
+    image.save(tmp_path / "a.png")
+    stored = np.rint(Image.open(tmp_path / "a.png").linear[..., :3] * 255).astype(np.uint8)
+    assert image.display().any()
+    assert np.array_equal(image.display(), stored)
+
+
+def test_a_scene_and_its_snapshot_draw_what_the_path_draws(renderer, universe):
+    snapshot = Snapshot(universe)
+    scene = splotchcl.suggest(snapshot, size=SIZE)
+    by_scene = renderer.render(scene, snapshot)
+    assert np.array_equal(by_scene.linear, renderer.render(universe, size=SIZE).linear)
+
+
+def test_arrays_of_a_file_draw_what_the_file_draws(renderer, universe):
+    snapshot = Snapshot(universe)
+    scene = splotchcl.suggest(snapshot, size=SIZE, settings={"tolerance": 1e-3})
+    particles = splotchcl.Particles(box_size=snapshot.box_size)
+    for name, matter in snapshot.types.items():
+        fields = {field: matter[field] for field in matter.fields if field != "id"}
+        particles.add(name, **fields)
+    assert np.array_equal(
+        renderer.render(scene, particles).linear, renderer.render(scene, snapshot).linear
+    )
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_a_picture_keeps_its_tolerance(renderer, particles, tolerance):
+    image = renderer.render(particles, size=SIZE, tolerance=tolerance)
+    exact = splotchcl.reference(image.scene, particles)
+    difference = image.compare(exact, limit=tolerance)
+    assert exact.linear[..., :3].max() > 0.1
+    assert difference.worst <= tolerance
+    assert difference.pixels_beyond == 0
+
+
+def test_pictures_of_different_sizes_are_not_compared(renderer, particles):
+    image = renderer.render(particles, size=SIZE)
+    with pytest.raises(UsageError, match="96x64"):
+        image.compare(renderer.render(particles, size=(32, 32)))
+
+
+def test_linear_light_is_a_view_that_outlives_its_picture(renderer, particles):
+    image = renderer.render(particles, size=SIZE)
+    linear = image.linear
+    assert np.shares_memory(linear, image.linear)
+    assert linear.shape == (64, 96, 4) and linear.dtype == np.float32
+    kept = linear.copy()
+    del image
+    assert np.array_equal(linear, kept)
+    with pytest.raises(ValueError):
+        linear[0, 0, 0] = 1
+
+
+def test_a_scene_of_two_eyes_has_two_pictures(renderer, particles):
+    scene = splotchcl.suggest(particles, size=SIZE, settings={"stereo.angle": 2})
+    assert sorted(renderer.render_all(scene, particles)) == ["_left", "_right"]
+    with pytest.raises(UsageError, match="2 pictures"):
+        renderer.render(scene, particles)
+
+
+def test_notes_tell_of_bad_particles(renderer, arrays):
+    arrays["position"][:3] = np.nan
+    image = renderer.render(splotchcl.Particles().gas(**arrays), size=SIZE)
+    assert any("3 of 500 particles are left out" in note for note in image.notes)
+    assert image.stats["bad_particles"] == 3
+
+
+def test_the_extent_is_the_width_at_the_look_at_point(renderer, particles):
+    scene = splotchcl.suggest(particles, size=(100, 50))
+    scene.update(
+        {
+            "camera.position": [5, 5, 0],
+            "camera.look_at": [5, 5, 5],
+            "camera.sky": [0, 1, 0],
+            "camera.field_of_view": 90,
+        }
+    )
+    assert renderer.render(scene, particles).extent == pytest.approx((-5, 5, -2.5, 2.5))
+
+
+def test_a_wide_angle_has_no_extent(renderer, particles):
+    scene = splotchcl.suggest(particles, size=SIZE)
+    del scene["camera.field_of_view"]
+    scene["camera.projection"] = "fisheye"
+    with pytest.raises(UsageError, match="fisheye"):
+        _ = renderer.render(scene, particles).extent
+
+
+def test_a_color_bar_has_the_scene_s_range(renderer, particles):
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    axes = figure.add_subplot()
+    image = renderer.render(particles, size=SIZE)
+    bar = image.colorbar(axes, 0)
+    low, high = image.scene["component.0.color.min"], image.scene["component.0.color.max"]
+    assert (bar.vmin, bar.vmax) == pytest.approx((low, high))
+    assert bar.ax.get_ylabel() == image.scene["component.0.color.field"]
+
+
+def test_a_decided_scene_draws_what_it_drew_before(renderer, particles):
+    scene = Scene({"image": {"size": SIZE}, "component": [{"types": ["gas"]}]})
+    decided = scene.decide(particles)
+    assert decided["camera.position"] is not None
+    assert np.array_equal(
+        renderer.render(scene, particles).linear, renderer.render(decided, particles).linear
+    )
+
+
+def test_an_unknown_ending_is_a_usage_error(renderer, particles, tmp_path):
+    image = renderer.render(particles, size=SIZE)
+    with pytest.raises(ValueError, match=r"\.gem"):
+        image.save(tmp_path / "a.gem")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_is_missing_is_an_oserror(renderer, particles, tmp_path):
+    image = renderer.render(particles, size=SIZE)
+    with pytest.raises(OSError, match="missing"):
+        image.save(tmp_path / "missing" / "a.png")

@@ -1,0 +1,151 @@
+"""Scenes as mappings."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import splotchcl
+from splotchcl import Scene, UnknownKey, UsageError
+
+
+@pytest.fixture
+def scene() -> Scene:
+    return Scene(
+        {
+            "image": {"size": [40, 30]},
+            "component": [{"name": "hot.gas", "types": ["gas"], "color": {"field": "temperature"}}],
+        }
+    )
+
+
+def test_a_key_that_was_set_is_got(scene):
+    scene["component.hot.gas.brightness"] = 2.5
+    assert scene["component.hot.gas.brightness"] == 2.5
+    assert scene["component.0.brightness"] == 2.5
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("camera.position", [1.0, -2.5, 3e20]),
+        ("image.size", [640, 480]),
+        ("tolerance", 0.1 + 0.2),
+        ("component.0.palette", "magma"),
+        ("finish.title.text", 'a "quoted" ü \\ line\nand another'),
+        ("kernel.min_radius", 0.25),
+    ],
+)
+def test_values_come_back_as_they_were(scene, key, value):
+    camera = {"camera.position": [9, 9, 9], "camera.look_at": [0, 0, 0]}
+    scene.update({**camera, key: value})
+    assert scene[key] == value
+
+
+def test_arrays_are_lists_of_numbers(scene):
+    scene["image.background"] = np.array([0.5, 0.25, 0], np.float32)
+    assert scene["image.background"] == [0.5, 0.25, 0]
+
+
+def test_an_unknown_key_names_the_nearest(scene):
+    with pytest.raises(UnknownKey, match="did you mean image.size") as raised:
+        scene["image.sizes"] = [1, 1]
+    assert isinstance(raised.value, KeyError) and isinstance(raised.value, ValueError)
+    with pytest.raises(UnknownKey, match="did you mean image.size"):
+        scene["image.sizes"]
+    with pytest.raises(UnknownKey):
+        scene["component.cold.brightness"]
+    with pytest.raises(UnknownKey):
+        scene["component.1.brightness"]
+
+
+def test_a_key_that_is_not_set_is_none(scene):
+    assert scene["camera.position"] is None
+    assert "camera.position" not in scene
+    assert "image.size" in scene
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("tolerance", -1), ("tolerance", "x"), ("image.size", [0, 5]), ("tolerance", {1, 2})],
+)
+def test_a_wrong_value_leaves_the_scene_as_it_was(scene, key, value):
+    before = scene.to_toml()
+    with pytest.raises(UsageError, match=key.split(".")[0]):
+        scene[key] = value
+    assert scene.to_toml() == before
+
+
+def test_none_is_no_value(scene):
+    with pytest.raises(UsageError, match="del scene"):
+        scene["tolerance"] = None
+
+
+def test_a_deleted_key_is_at_its_default(scene):
+    scene["finish.title.text"] = "x"
+    del scene["finish.title.text"]
+    assert "finish.title.text" not in scene
+
+
+def test_what_is_iterated_can_be_got(scene):
+    assert len(scene) == len(list(scene)) > 5
+    assert all(key in scene for key in scene)
+
+
+def test_a_copy_is_a_scene_of_its_own(scene):
+    for other in (scene.copy(), copy.copy(scene), copy.deepcopy(scene), Scene.from_toml(str(scene))):
+        assert other == scene
+        other["tolerance"] = 0.5
+        assert other != scene
+
+
+def test_a_scene_is_pickled(scene):
+    again = pickle.loads(pickle.dumps(scene))
+    assert again["component.0.color.field"] == "temperature"
+
+
+def test_a_saved_scene_is_read_from_any_folder(universe, tmp_path, monkeypatch):
+    monkeypatch.chdir(universe.parent)
+    scene = Scene({"snapshot": universe.name, "component": [{"types": ["gas"]}]})
+    scene.save(tmp_path / "scene.toml")
+    monkeypatch.chdir("/")
+    assert Scene.from_file(tmp_path / "scene.toml")["snapshot"] == str(universe)
+
+
+def test_an_orbit_comes_round(particles):
+    scene = splotchcl.suggest(particles)
+    frames = scene.orbit(4)
+    assert len(frames) == 4
+    start, center = (np.array(scene[f"camera.{key}"]) for key in ("position", "look_at"))
+    opposite = np.array(frames[2]["camera.position"])
+    distance = np.linalg.norm(start - center)
+    assert np.linalg.norm(opposite - center) == pytest.approx(distance)
+    sky = np.array(scene["camera.sky"]) / np.linalg.norm(scene["camera.sky"])
+    both = start + opposite - 2 * center  # what is left lies along the axis
+    assert both - sky * (both @ sky) == pytest.approx(np.zeros(3), abs=1e-3 * distance)
+
+
+@pytest.mark.parametrize("text", ["component = 3", "x = [", "[image]\nsize = 'a'"])
+def test_text_that_is_no_scene_is_a_usage_error(text):
+    with pytest.raises(UsageError):
+        Scene.from_toml(text)
+
+
+def test_a_missing_file_is_an_oserror(tmp_path):
+    with pytest.raises(OSError, match="missing.toml"):
+        Scene.from_file(tmp_path / "missing.toml")
+    with pytest.raises(OSError, match="missing"):
+        splotchcl.render(tmp_path / "missing")
+
+
+@pytest.mark.parametrize("wrong", [3, None, [1], object()])
+def test_what_is_no_scene_is_a_usage_error(wrong):
+    with pytest.raises(UsageError, match="expected a Scene"):
+        splotchcl.render(wrong, device="reference")
+
+
+def test_an_unknown_device_is_a_usage_error(renderer):
+    with pytest.raises(UsageError, match="no such thing"):
+        splotchcl.Renderer("no such thing")
+

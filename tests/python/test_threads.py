@@ -1,0 +1,159 @@
+"""Python's lock is free while something is drawn; threads, forks and interruptions end well."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import splotchcl
+from conftest import make_arrays
+from splotchcl import DeviceError, Particles, UsageError
+
+SIZE = (64, 64)
+
+
+def test_two_renderers_in_two_threads_draw_what_one_draws(renderer, particles):
+    scene = splotchcl.suggest(particles, size=SIZE)
+    expected = renderer.render(scene, particles).linear
+
+    def draw(_):
+        own = Particles().gas(**make_arrays(500))
+        return splotchcl.Renderer().render(scene, own).linear
+
+    with ThreadPoolExecutor(2) as pool:
+        pictures = list(pool.map(draw, range(4)))
+    assert all(np.array_equal(picture, expected) for picture in pictures)
+
+
+def test_threads_take_turns_at_one_renderer_and_its_particles(renderer, particles):
+    scene = splotchcl.suggest(particles, size=SIZE)
+    expected = renderer.render(scene, particles).linear
+    with ThreadPoolExecutor(4) as pool:
+        pictures = list(pool.map(lambda _: renderer.render(scene, particles).linear, range(8)))
+    assert all(np.array_equal(picture, expected) for picture in pictures)
+
+
+def test_arrays_may_be_set_by_another_thread_while_they_are_drawn(renderer, particles):
+    scene = splotchcl.suggest(particles, size=SIZE)
+    expected = renderer.render(scene, particles).linear
+    with ThreadPoolExecutor(2) as pool:
+        pictures = [pool.submit(lambda: renderer.render(scene, particles).linear) for _ in range(5)]
+        for _ in range(20):
+            particles.gas(**make_arrays(500))  # the same numbers elsewhere
+    assert all(np.array_equal(picture.result(), expected) for picture in pictures)
+
+
+def test_python_goes_on_while_a_picture_is_drawn():
+    """A thread that counts gets on while the reference draws for a while."""
+    particles = Particles().gas(**make_arrays(3000))
+    counted = []
+    drawing = threading.Event()
+    done = threading.Event()
+
+    def count():
+        drawing.wait(60)
+        while not done.is_set():
+            counted.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    scene = splotchcl.suggest(particles, size=(200, 200))
+    drawing.set()
+    splotchcl.reference(scene, particles)
+    done.set()
+    thread.join()
+    assert len(counted) > 5
+
+
+def test_progress_is_told(particles):
+    told = []
+    splotchcl.reference(
+        particles, size=(32, 32), progress=lambda what, fraction: told.append((what, fraction))
+    )
+    fractions = [fraction for what, fraction in told if "reference" in what]
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1
+
+
+def test_what_progress_raises_ends_the_work(particles):
+    def stop(what, fraction):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        splotchcl.reference(particles, size=(32, 32), progress=stop)
+
+
+def test_a_renderer_draws_again_after_progress_raised(particles):
+    renderer = splotchcl.Renderer("reference")
+
+    def stop(what, fraction):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError):
+        renderer.render(particles, size=(32, 32), progress=stop)
+    assert renderer.render(particles, size=(32, 32)).linear.any()
+
+
+def test_progress_must_not_draw_the_same_particles(particles):
+    def draw(what, fraction):
+        splotchcl.reference(particles, size=(8, 8))
+
+    with pytest.raises(UsageError, match="progress"):
+        splotchcl.reference(particles, size=(32, 32), progress=draw)
+
+
+INTERRUPTED = """
+import os, signal, threading
+import numpy as np, splotchcl
+random = np.random.default_rng(1)
+particles = splotchcl.Particles().gas(
+    position=random.random((20000, 3), np.float32), mass=1.0,
+    smoothing_length=np.full(20000, 0.5, np.float32))
+began = threading.Event()
+def interrupt():
+    began.wait()
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt, daemon=True).start()
+scene = splotchcl.suggest(particles, size=(1000, 1000))
+try:
+    splotchcl.reference(scene, particles, progress=lambda what, fraction: began.set())
+except KeyboardInterrupt:
+    print("interrupted")
+    os._exit(0)
+"""
+
+
+def test_an_interruption_ends_a_picture():
+    """It would take minutes."""
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED],
+        capture_output=True, text=True, timeout=500, check=False,
+        
+    )
+    assert done.stdout == "interrupted\n", done.stderr
+
+
+def try_to_draw(queue):
+    try:
+        splotchcl.render(Particles().gas(**make_arrays(50)), size=(8, 8))
+        queue.put("drawn")
+    except DeviceError as error:
+        queue.put(str(error))
+
+
+def test_a_forked_child_is_refused(renderer):
+    fork = multiprocessing.get_context("fork")
+    queue = fork.Queue()
+    child = fork.Process(target=try_to_draw, args=(queue,))
+    child.start()
+    answer = queue.get(timeout=60)
+    child.join(60)
+    assert "spawn" in answer
