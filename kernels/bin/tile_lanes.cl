@@ -32,7 +32,7 @@ INLINED INTEGER last_pixel(VALUE place, VALUE radius, const AxisLanes axis) {
 }
 
 INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
-  const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
+  const INTEGER level = level_of(s.grid, p);
   const INTEGER guard = select((INTEGER)(0), (INTEGER)(p.guard), level > 0);
   const AxisLanes across = axis_of(p.middle_x, p.width, level, guard);
   const AxisLanes along = axis_of(p.middle_y, p.height, level, guard);

@@ -25,6 +25,13 @@ INLINED int4 tile_beside(const Splat splat, const Grid grid) {
   return (int4)(column, column, row, row);
 }
 
+// Of the tiles that a splat touches, those in memory, or the one beside it.
+INLINED int4 listed_tiles(int4 touched, const Splat splat, const Grid grid) {
+  if (!grid.is_part) return touched;
+  const int4 part = tiles_in_memory(touched, grid);
+  return part.x > part.y ? tile_beside(splat, grid) : part;
+}
+
 // First and last pixels (tile_range) of a splat so wide that its units are pixels or more, or that
 // its radius is beyond integers. First pixels are turned round, so that first and last ones are
 // found alike: the last whole number below, as floor() is a call on PoCL. Clamped before the
@@ -74,9 +81,7 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
   if (first_x > last_x || first_y > last_y) return tile_beside(splat, grid);
   const int4 range = (int4)((uint)first_x / TILE_WIDTH, (uint)last_x / TILE_WIDTH,
                             (uint)first_y / TILE_HEIGHT, (uint)last_y / TILE_HEIGHT);
-  if (!grid.is_part) return range;
-  const int4 part = tiles_in_memory(range, grid);
-  return part.x > part.y ? tile_beside(splat, grid) : part;
+  return listed_tiles(range, splat, grid);
 }
 
 // A range of tiles in a word: the first column and row, and how many of both. Ranges that do not
@@ -111,8 +116,7 @@ INLINED uint tiles_of(const Splat splat, const Grid grid) {
 INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid grid) {
   if (in_picture == FOUND_AGAIN) return tiles_of(splat, grid);
   if (!grid.is_part) return in_picture;
-  const int4 part = tiles_in_memory(unpack_tiles(in_picture, splat, grid), grid);
-  return pack_tiles(part.x > part.y ? tile_beside(splat, grid) : part);
+  return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
 }
 
 // Counts the splat in the tiles that it touches.

@@ -65,6 +65,11 @@ inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameter
   return select(grid, (INTEGER)(0), peak > p.coarse_peak);
 }
 
+// Its pixels are 2^level of the picture's wide. Two blurred grids share a level.
+inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
+  return p.blurred ? (grid + 1) >> 1 : grid;
+}
+
 // Wide splats go to the coarsest grid that still shows their shape, bright ones finer. Two
 // blurred grids make an octave.
 inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {

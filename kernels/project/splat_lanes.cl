@@ -174,7 +174,7 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   // enough for one.
   s->grid =
       select(choose_grid(sampled.sigma, brightness.own_peak, p), (INTEGER)(0), sampled.by_mean);
-  const INTEGER level = p.blurred ? (s->grid + 1) >> 1 : s->grid;
+  const INTEGER level = level_of(s->grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
   s->weight = sampled.weight;
@@ -212,7 +212,7 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
 // How far the center lies beyond the part of its grid that is drawn, along the axis where it is
 // farthest; below 0: within.
 INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
-  const INTEGER level = p.blurred ? (s.grid + 1) >> 1 : s.grid;
+  const INTEGER level = level_of(s.grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   VALUE beyond = max(p.top * shrink - s.y, s.y - p.bottom * shrink);
 #ifndef ELLIPSES
