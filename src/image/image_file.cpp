@@ -14,6 +14,7 @@
 #include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
+#include "image/exr_header.h"
 #include "image/image_library.h"
 #include "image/picture_encoders.h"
 #include "image/png_file.h"
@@ -100,6 +101,11 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Image
   return image_library().encode(path, format.ending, picture);
 }
 
+void check_readable(const std::filesystem::path& path) {
+  require_regular_file(path);
+  check_exr_header(path);
+}
+
 }  // namespace
 
 void check_image_path(const std::filesystem::path& path) {
@@ -145,19 +151,19 @@ void write_image(const std::filesystem::path& path, const Image& image,
 }
 
 Image read_image(const std::filesystem::path& path) {
-  require_regular_file(path);
+  check_readable(path);
   const QuietErrors quiet;
   return image_library().read(path);
 }
 
 Image read_linear_image(const std::filesystem::path& path, const LinearImageOptions& options) {
-  require_regular_file(path);
+  check_readable(path);
   const QuietErrors quiet;
   return image_library().read_linear(path, options);
 }
 
 ImageFileInfo read_image_info(const std::filesystem::path& path) {
-  require_regular_file(path);
+  check_readable(path);
   const QuietErrors quiet;
   return image_library().read_info(path);
 }
