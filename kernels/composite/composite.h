@@ -7,7 +7,7 @@ struct CompositeParameters {
   unsigned int segment_count;
   float phi_short;   // optical depth up to which two terms of phi's series serve
   float phi_series;  // and four
-  float opaque;      // stop where every pixel's opacity is at least this; > 1: never
+  float stop;        // where every pixel's transmittance is at most this; below 0: never
 };
 
 #ifdef __OPENCL_VERSION__

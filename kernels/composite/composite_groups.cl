@@ -55,7 +55,20 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
   }
 }
 
-#define SPLATS_OF_SUM 64u
+// A block of splats behind what is in front of it (composite_rows.cl, SPLATS_OF_BLOCK).
+inline void add_block(float* block, float* front) {
+  for (int c = 0; c < 3; ++c) {
+#ifdef LIGHT_ORDERED
+    const float t = transmittance_of(front[c + 3]), behind = block[c + 3];
+    front[c] += t * block[c];
+    front[c + 3] = carry(front[c + 3], t * opacity_of(behind), t * transmittance_of(behind));
+    block[c + 3] = 0.0f;
+#else
+    front[c] += block[c];
+#endif
+    block[c] = 0.0f;
+  }
+}
 
 // Whether it reaches a pixel's center.
 inline uint touches_tile(const TileSplat splat) {
@@ -76,18 +89,14 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   __global float* own = planes + first_float(grid) +
                         ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + y) * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH + x;
-  float pixel[PLANES];
+  float front[PLANES], pixel[PLANES];
   for (int c = 0; c < PLANES; ++c) {
-    pixel[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
-  }
-  // Sums of light are made by so many splats (composite_rows.cl, BLOCKED_SUMS) that touch the tile:
-  // a crop's lists have others than those of the picture, too.
-  uint touching = 0;
-  float sums[3];
-  for (int c = 0; c < 3; ++c) {
-    sums[c] = pixel[c];
+    front[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
     pixel[c] = 0.0f;
   }
+  // Blocks are of splats that touch the tile: a crop's lists have others than those of the picture,
+  // too.
+  uint touching = 0;
   // begin and end are the group's: every item meets every barrier.
   for (uint first = segment.begin; first < segment.end; first += GROUP) {
     const uint count = min((uint)GROUP, segment.end - first);
@@ -100,22 +109,18 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       const float shape = pixel_shape(dx, dy, splat, grid.mean_sigma);
       if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
       touching += touches_tile(splat);
-      if (touching < SPLATS_OF_SUM) continue;
+      if (touching < SPLATS_OF_BLOCK) continue;
       touching = 0;
-      for (int c = 0; c < 3; ++c) {
-        sums[c] += pixel[c];
-        pixel[c] = 0.0f;
-      }
+      add_block(pixel, front);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  for (int c = 0; c < 3; ++c)
-    pixel[c] += sums[c];
+  add_block(pixel, front);
   for (int c = 0; c < PLANES; ++c) {
     if (segment.partial == NO_PARTIAL) {
-      own[(size_t)c * grid.plane_size] = pixel[c];
+      own[(size_t)c * grid.plane_size] = front[c];
     } else {
-      partials[((size_t)segment.partial * PLANES + c) * GROUP + item] = pixel[c];
+      partials[((size_t)segment.partial * PLANES + c) * GROUP + item] = front[c];
     }
   }
 }

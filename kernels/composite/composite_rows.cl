@@ -20,7 +20,7 @@ typedef float8 __attribute__((aligned(4))) Eight;
 
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
 // is there when they are stored: however many splats there are, those of one list only are added to
-// a sum that is much larger than they are. Opacities go on from what is there.
+// a sum that is much larger than they are.
 #define SUMS 3
 
 inline void clear_planes(float* tile, int first, int end) {
@@ -55,15 +55,27 @@ inline void store_tile(const float* tile, __global float* planes, const Grid gri
   }
 }
 
-#ifdef BLOCKED_SUMS
-// Equal splats err by equal roundings, up to half of one each. Summed by so many at a time, n of
-// them err by as many roundings and one for each n / SPLATS_OF_SUM, not n.
-#define SPLATS_OF_SUM 64u
-
-inline void add_sums(const float* from, float* to) {
-  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
-    vstore8(vload8(0, to + i) + vload8(0, from + i), 0, to + i);
+#ifdef SPLATS_OF_BLOCK
+// Equal splats err by equal roundings, up to half of one each, and a layer that is thinner than
+// half a rounding of the opacity in front of it adds light, but no opacity. Drawn by themselves in
+// blocks of so many, n of them err by as many roundings and one for each block, not by n.
+#ifdef LIGHT_ORDERED
+inline void add_block(const float* block, float* front) {
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8) {
+    const float8 opacity = vload8(0, front + SUMS * TILE_PIXELS + i);
+    const float8 behind = vload8(0, block + SUMS * TILE_PIXELS + i);
+    const float8 t = transmittance_of(opacity);
+    vstore8(vload8(0, front + i) + t * vload8(0, block + i), 0, front + i);
+    vstore8(carry(opacity, t * opacity_of(behind), t * transmittance_of(behind)), 0,
+            front + SUMS * TILE_PIXELS + i);
+  }
 }
+#else
+inline void add_block(const float* block, float* front) {
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
+    vstore8(vload8(0, front + i) + vload8(0, block + i), 0, front + i);
+}
+#endif
 #endif
 
 inline void store_partial(const float* tile, __global float* partial) {
@@ -313,19 +325,22 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
 }
 
 #ifdef LIGHT_ORDERED
-// Nothing behind shows any more: every channel of every pixel is opaque enough.
-inline int is_opaque(const float* tile, float opaque) {
-  float8 least = (float8)(2.0f);
-  for (int c = 3; c < 6; ++c) {
+// Nothing behind shows any more: every channel of every pixel of the block behind the front is
+// opaque enough.
+inline int is_opaque(const float* front, const float* block, float stop) {
+  float8 most = (float8)(0.0f);
+  for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        least = min(least, opacity_of(vload8(0, tile + c * TILE_PIXELS + y * ROW + x)));
+        const int i = c * TILE_PIXELS + y * ROW + x;
+        most = max(most,
+                   transmittance_of(vload8(0, front + i)) * transmittance_of(vload8(0, block + i)));
       }
     }
   }
-  const float4 four = min(least.lo, least.hi);
-  const float2 two = min(four.lo, four.hi);
-  return min(two.x, two.y) >= opaque;
+  const float4 four = max(most.lo, most.hi);
+  const float2 two = max(four.lo, four.hi);
+  return max(two.x, two.y) <= stop;
 }
 #endif
 
@@ -342,36 +357,37 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   float tile[PLANES * TILE_PIXELS];
   clear_planes(tile, 0, PLANES);
-#ifdef LIGHT_ORDERED
-  if (segment.partial == NO_PARTIAL) load_opacities(tile, planes, grid, corner);
-#endif
-#ifdef BLOCKED_SUMS
-  float sums[SUMS * TILE_PIXELS];
-  clear_planes(sums, 0, SUMS);
+#ifdef SPLATS_OF_BLOCK
+  float front[PLANES * TILE_PIXELS];
+  clear_planes(front, 0, PLANES);
 #endif
   uint drawn = 0, end = segment.end;
 #ifdef LIGHT_ORDERED
-  if (is_opaque(tile, p.opaque)) end = segment.begin;
+  if (segment.partial == NO_PARTIAL) load_opacities(front, planes, grid, corner);
+  if (is_opaque(front, tile, p.stop)) end = segment.begin;
 #endif
   for (uint k = segment.begin; k < end; ++k) {
     if (!add_splat(tile, entries + k, grid.mean_sigma, p)) continue;
     ++drawn;
-#ifdef BLOCKED_SUMS
-    if (drawn % SPLATS_OF_SUM == 0u) {
-      add_sums(tile, sums);
-      clear_planes(tile, 0, SUMS);
+#ifdef LIGHT_ORDERED
+    if (drawn % 256u == 0u && is_opaque(front, tile, p.stop)) break;
+#endif
+#ifdef SPLATS_OF_BLOCK
+    if (drawn % SPLATS_OF_BLOCK == 0u) {
+      add_block(tile, front);
+      clear_planes(tile, 0, PLANES);
     }
 #endif
-#ifdef LIGHT_ORDERED
-    if (drawn % 256u == 0u && is_opaque(tile, p.opaque)) break;
-#endif
   }
-#ifdef BLOCKED_SUMS
-  add_sums(sums, tile);
+#ifdef SPLATS_OF_BLOCK
+  add_block(tile, front);
+  const float* const all = front;
+#else
+  const float* const all = tile;
 #endif
   if (segment.partial == NO_PARTIAL) {
-    store_tile(tile, planes, grid, corner);
+    store_tile(all, planes, grid, corner);
   } else {
-    store_partial(tile, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
+    store_partial(all, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
   }
 }

@@ -135,8 +135,9 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
       window_(window_of(octave_, level_, cells.endings, plan)),
-      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan)
-                            : peak_spread_of(level_, frame)),
+      peak_reach_(is_bound_ || plan.precision == Precision::full
+                      ? peak_reach_of(octave_, level_, cells.peaks, plan)
+                      : peak_spread_of(level_, frame)),
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {
   find_inner_cells(frame);
@@ -168,17 +169,17 @@ double OctaveErrors::ends_around(const CellRange& cell) const {
   return std::max(0.0, all_ends_around(cell) - even);
 }
 
-// Of the four squares of two cells by two that the cell lies in, or the inner one next to it, the
-// emptiest: a cluster beside the cell is no even light.
+// Of the four squares of two cells by two that the cell lies in, or inner ones next to it, the
+// emptiest: a cluster or a line beside the cell is no even light. So there are two squares along
+// each axis everywhere, and where there is no room for two nothing is known to be even.
 double OctaveErrors::even_around(const CellRange& cell) const {
-  if (inner_.x1 - inner_.x0 < 2 || inner_.y1 - inner_.y0 < 2) return 0;
+  if (inner_.x1 - inner_.x0 < 3 || inner_.y1 - inner_.y0 < 3) return 0;
+  const int left = std::clamp(cell.x0 - 1, inner_.x0, inner_.x1 - 3);
+  const int top = std::clamp(cell.y0 - 1, inner_.y0, inner_.y1 - 3);
   double least = std::numeric_limits<double>::max();
-  for (const int beside_x : {cell.x0 - 1, cell.x0}) {
-    for (const int beside_y : {cell.y0 - 1, cell.y0}) {
-      const int x = std::clamp(beside_x, inner_.x0, inner_.x1 - 2);
-      const int y = std::clamp(beside_y, inner_.y0, inner_.y1 - 2);
+  for (const int x : {left, left + 1}) {
+    for (const int y : {top, top + 1})
       least = std::min(least, endings_.over_near({x, x + 2, y, y + 2}));
-    }
   }
   return least / 4;
 }

@@ -286,6 +286,48 @@ std::vector<HardCase> promise_cases() {
             "sheet y "
             "7 spread 0.5 sigma 36 peak 0.03 star 1",
             {LightPlan::ordered}),
+      dark(found("BrightCrowdFarFromThePixel",
+                 "roundings of erf are parts of a peak as far out as the splat is drawn",
+                 "light factor tolerance 1e-05 turned 1 group point places 2 copies 400 y 37.1305 "
+                 "sigma 3.35034 peak 7.99975",
+                 {LightPlan::proportional})),
+      found("CopiesInARingWiderThanThePicture",
+            "the same of a ring whose clouds' centers lie far away",
+            "light factor tolerance 1e-05 turned 1 source 20 group ring copies 400 spread 3 sigma "
+            "82 peak 100",
+            {LightPlan::proportional}),
+      dark(found(
+          "CrowdOfStarsFarFromThePixel", "the same beside 2e5 others",
+          "tolerance 0.0001 filler 199999 period 13 offset 10 group point copies 300 x 80 sigma "
+          "15 star 1",
+          {LightPlan::proportional})),
+      found("LineBesideACrop", "where a picture is few cells high, a line looks like even light",
+            "picture_size 4096 crop_x 0.89 crop_y 0.1 group line places 100 copies 40 y -10 "
+            "spread 0.05 sigma 10 peak 0.2",
+            {LightPlan::ordered}),
+      found("ThinLayersBehindAnOpaqueFront",
+            "layers too thin for the rounding of an opacity still add light",
+            "tolerance 0.0001 group point places 100 copies 200 y -100 sigma 30 peak 9000",
+            {LightPlan::ordered}),
+      found("EqualLayersBeforeABackground",
+            "equal layers err by equal roundings of their opacities",
+            "light gray tolerance 1e-05 background 4 group corner copies 200 width_range 1.02506 "
+            "peak 0.0111939 star 1",
+            {LightPlan::ordered}),
+      found("ThousandsOfLayersOfOneCrowd", "the same of a crowd in one place",
+            "light stars_among_gas tolerance 1e-05 turned 1 group point places 60 copies 60 peak "
+            "0.054 hue 0.6",
+            {LightPlan::ordered}),
+      found("ThousandsOfLayersInARing", "the same of a ring",
+            "light stars_among_gas tolerance 1e-05 turned 1 group ring places 30 copies 300 spread "
+            "2 peak 0.04",
+            {LightPlan::ordered}),
+      found("GasBeforeManyStars",
+            "where gas lies before light that is hundreds of times white, its places show",
+            "light stars_among_gas sampling center tolerance 1e-05 turned 1 source 0.3 group point "
+            "copies 9 x -10.5291 y 12.4473 peak 30 depth 4.6 group scatter places 200 copies 2 "
+            "sigma 30 peak 30 star 1",
+            {LightPlan::ordered}),
   };
 }
 

@@ -136,11 +136,17 @@ ProgramSource Specialization::composite() const {
             {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "precise.cl",
              "extended.cl", "extended_lanes.cl", "composite_extended.cl"}};
   }
-  defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(full_precision_ && rows_, "BLOCKED_SUMS");
+  defines += number_defines() + define_if(rows_, "LANES_8") + block_defines();
   return {defines,
           {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl",
            rows_ ? "composite_rows.cl" : "composite_groups.cl"}};
+}
+
+// Sums of light to three digits need no blocks beside the lists; rows take them into account for
+// layers, whose opacity stands still where blocks are too long.
+std::string Specialization::block_defines() const {
+  if (full_precision_ || !rows_) return define("SPLATS_OF_BLOCK 64u");
+  return is_ordered() ? define("SPLATS_OF_BLOCK 1024u") : "";
 }
 
 ProgramSource Specialization::join() const {

@@ -62,6 +62,7 @@ class Specialization {
   std::string tile_size_defines() const;
   std::string tile_defines() const;
   std::string number_defines() const;
+  std::string block_defines() const;
 
   LightPlan light_;
   Projection projection_;

@@ -17,7 +17,7 @@ Compositor::Compositor(const StageContext& context)
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
   parameters_.phi_short = context.plan.layers.phi_short;
   parameters_.phi_series = context.plan.layers.phi_series;
-  parameters_.opaque = context.plan.layers.opaque;
+  parameters_.stop = context.plan.layers.stop;
 }
 
 Planes Compositor::start() const {

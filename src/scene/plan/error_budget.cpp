@@ -26,6 +26,13 @@ double response_of_one_source(double source, double background) {
   return largest;
 }
 
+// A layer of depth x takes x exp(-x) of what lies behind for an error of a part of it, where light
+// of 1 or the light itself is what counts.
+double response_of_layers(double brightest_source, double brightest_background) {
+  const double brightest = std::max({1.0, brightest_background, brightest_source});
+  return brightest < euler ? brightest / euler : std::log(brightest);
+}
+
 ToleranceShares extended_shares() {
   ToleranceShares shares;
   shares.promise = extended_tolerance;
@@ -79,8 +86,17 @@ double response_to_splats(LightPlan light, double brightest_source, double brigh
   if (light == LightPlan::proportional) {
     return response_of_one_source(brightest_source, brightest_background);
   }
-  const double brightest = std::max({1.0, brightest_background, brightest_source});
-  return brightest < euler ? brightest / euler : std::log(brightest);
+  return response_of_layers(brightest_source, brightest_background);
+}
+
+double response_to_places(Precision precision, LightPlan light, double brightest_source,
+                          double brightest_background) {
+  constexpr double stars_behind = 1e3;
+  if (precision != Precision::full || light != LightPlan::ordered ||
+      std::isfinite(brightest_source)) {
+    return response_to_splats(light, brightest_source, brightest_background);
+  }
+  return response_of_layers(stars_behind, brightest_background);
 }
 
 }  // namespace splotchcl

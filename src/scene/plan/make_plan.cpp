@@ -50,9 +50,12 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   plan.erf_error = erf_error(plan);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
-  plan.places = plan.is_extended() ? PlaceLimits{}
-                                   : choose_place_limits(frame, plan.drawn_for_tolerance,
-                                                         plan.precision, response);
+  if (plan.is_extended()) {
+    plan.places = {};
+  } else {
+    const double of_places = response_to_places(plan.precision, plan.light, source, background);
+    plan.places = choose_place_limits(frame, plan.drawn_for_tolerance, plan.precision, of_places);
+  }
   plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
 }
 

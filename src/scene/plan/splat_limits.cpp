@@ -9,10 +9,10 @@ namespace {
 // So many clouds of peak 0.1 overlapped in tests.
 constexpr double ends_in_a_pixel = 24;
 
-float opaque_limit(double brightest, double share) {
-  constexpr float never = 2;
+float stop_limit(double brightest, double share) {
+  constexpr float never = -1;
   if (!std::isfinite(brightest) || share <= 0) return never;
-  return brightest > 0 ? static_cast<float>(1 - share / brightest) : 0.0f;
+  return brightest > 0 ? static_cast<float>(std::min(1.0, share / brightest)) : 1.0f;
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * shares.phi)));
   limits.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * shares.phi, 0.25)));
-  limits.opaque = opaque_limit(brightest_behind, shares.early_stop);
+  limits.stop = stop_limit(brightest_behind, shares.early_stop);
   // An opacity close to 1 errs by ten roundings of 1 (exp, phi's difference and quotient, three
   // products, the sum), and with it what shines through.
   limits.keeps_transmittance =
