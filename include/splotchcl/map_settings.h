@@ -50,8 +50,8 @@ struct MapSettings {
   double floor = 1e-3;  // of the mean of the weights' column, > 0
   bool noise = false;   // a second plane: the effective number of particles
 
-  // Where the center is seen on the sky: from a distance such as "16.5 Mpc" (empty: not on the sky)
-  // at [right ascension, declination] in degrees; up is north.
+  // Where the center is seen on the sky: from a distance such as "16.5 Mpc", or "redshift", the
+  // snapshot's (empty: not on the sky), at [right ascension, declination] in degrees; up is north.
   std::string distance;
   std::array<double, 2> sky = {0, 0};
 

@@ -44,8 +44,8 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
       ->type_name("LENGTH");
   sub.add_option(
          "--distance", options.distance,
-         wrapped("From where the center is seen, such as '16.5 Mpc': for coordinates on the "
-                 "sky"))
+         wrapped("From where the center is seen, such as '16.5 Mpc', or redshift: for coordinates "
+                 "on the sky"))
       ->type_name("LENGTH");
   sub.add_option("--sky", options.sky,
                  wrapped("Right ascension and declination of the center in degrees"))

@@ -37,7 +37,7 @@ std::string base_name(double in_cgs, const std::vector<NamedUnit>& known) {
     // Codes round their constants to four digits.
     if (std::abs(in_cgs / unit.in_cgs - 1) < 1e-3) return unit.name;
   }
-  return fmt::format("{:.4g} {}", in_cgs, known.back().name);
+  return fmt::format("{:.7g} {}", in_cgs, known.back().name);
 }
 
 void append_power(std::string& text, std::string base, double power) {

@@ -117,8 +117,8 @@ std::vector<float> in_unit(const std::vector<double>& values, const MapUnits& un
       units.name, largest, Limits::min(), Limits::max()));
 }
 
-void describe_place(const MapGeometry& geometry, const MapSettings& settings, const MapUnits& units,
-                    Map& map) {
+void describe_place(const MapGeometry& geometry, const MapSettings& settings,
+                    const SnapshotInfo& snapshot, const MapUnits& units, Map& map) {
   using boost::qvm::dot;
   map.view = name_of(settings.view);
   map.right_name = settings.view == MapView::camera ? "right" : map.view.substr(0, 1);
@@ -129,7 +129,7 @@ void describe_place(const MapGeometry& geometry, const MapSettings& settings, co
   map.center = geometry.center * units.length_factor;
   map.center_right = dot(map.center, geometry.right);
   map.center_up = dot(map.center, geometry.up);
-  map.sky = decide_sky(settings, units, map.pixel);
+  map.sky = decide_sky(settings, snapshot, units, map.pixel);
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   map.height = geometry.height;
   map.quantity = quantity.description;
   map.unit = units.name;
-  describe_place(geometry, settings, units, map);
+  describe_place(geometry, settings, fields.snapshot_info(), units, map);
   map.tolerance = one.tolerance;
   map.floor = weighted.floor();
   map.particles = matter.count;

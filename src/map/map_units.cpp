@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "common/words.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
@@ -13,21 +15,38 @@
 namespace splotchcl {
 namespace {
 
-// Factor by factor, "Mpc a" to the power -2 as "Mpc^-2 a^-2": other programs read no power of a
-// product.
+struct UnitFactor {
+  std::string name;
+  double exponent = 1;
+};
+
+// "kpc^2"; nothing for numbers, products in parentheses and what is no unit.
+std::optional<UnitFactor> unit_factor(const std::string& text) {
+  const std::size_t mark = std::min(text.find('^'), text.size());
+  UnitFactor factor{text.substr(0, mark), 1};
+  if (factor.name.empty() || factor.name.find_first_of("()*0123456789") != std::string::npos)
+    return std::nullopt;
+  if (mark == text.size()) return factor;
+  const auto exponent = parse_number(text.substr(mark + 1));
+  if (!exponent) return std::nullopt;
+  factor.exponent = *exponent;
+  return factor;
+}
+
+// Factor by factor, "kpc h^-1 a" to the power -2 as "kpc^-2 h^2 a^-2": other programs read no power
+// of a product.
 std::string name_of_power(const std::string& unit, int exponent) {
   if (exponent == 1) return unit;
-  const bool is_plain = unit.find_first_of("()*^") == std::string::npos &&
-                        unit.find_first_of("0123456789") == std::string::npos;
-  if (!is_plain) return fmt::format("({})^{}", unit, exponent);
   std::string power;
   int sign = 1;
   for (std::size_t first = 0; first < unit.size();) {
     const std::size_t end = std::min(unit.find_first_of(" /", first), unit.size());
     if (end > first) {
-      power += power.empty() ? "" : " ";
-      const int own = sign * exponent;
-      power += unit.substr(first, end - first) + (own == 1 ? "" : fmt::format("^{}", own));
+      const auto factor = unit_factor(unit.substr(first, end - first));
+      if (!factor) return fmt::format("({})^{}", unit, exponent);
+      const double all = sign * exponent * factor->exponent;
+      power += (power.empty() ? "" : " ") + factor->name;
+      if (all != 1) power += fmt::format("^{:g}", all);
       sign = 1;
     }
     if (end < unit.size() && unit[end] == '/') sign = -1;

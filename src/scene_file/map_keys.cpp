@@ -119,11 +119,10 @@ Keys number_keys() {
 
 Keys sky_keys() {
   return {
-      text_key(
-          "distance", &MapSettings::distance,
-          {"From where the center is seen: a length with its unit, such as `16.5 Mpc`. FITS and "
-           "HDF5 files then have coordinates on the sky.",
-           "", "not on the sky"}),
+      text_key("distance", &MapSettings::distance,
+               {"From where the center is seen: a length with its unit, such as `16.5 Mpc`, or "
+                "`redshift`. FITS and HDF5 files then have coordinates on the sky.",
+                "", "not on the sky"}),
       key("map.sky", sky_place(), &MapSettings::sky,
           {"Right ascension and declination of the center. Up is north.", "degrees"}),
   };

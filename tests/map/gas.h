@@ -7,6 +7,7 @@
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/map.h"
 #include "splotchcl/reference.h"
+#include "splotchcl/renderer.h"
 
 // Gas that was never a file, and maps of it.
 namespace splotchcl::test {
@@ -56,6 +57,12 @@ inline Gas random_gas(int count, double half_side, float least_h, float most_h, 
   return gas;
 }
 
+inline Gas one_particle(const Vec3& place, float size = 0.5F, float mass = 1) {
+  Gas gas;
+  gas.add(place, size, mass, 100);
+  return gas;
+}
+
 // 64 x 48 pixels of one length each, around the origin.
 inline Scene map_scene() {
   Scene scene;
@@ -70,11 +77,19 @@ inline Scene map_scene() {
   return scene;
 }
 
-inline Map map_of(const Scene& scene, const Snapshot& snapshot) {
-  std::vector<std::string> notes;
+// By the reference renderer.
+inline Map map_of(const Scene& scene, const Snapshot& snapshot,
+                  std::vector<std::string>* notes = nullptr) {
+  std::vector<std::string> untold;
   return draw_map(
       scene, snapshot, [](const Frame& frame) { return reference::render(frame).to_float(); },
-      notes);
+      notes == nullptr ? untold : *notes);
+}
+
+inline Map map_on_device(Renderer& renderer, const Scene& scene, const Snapshot& snapshot) {
+  std::vector<std::string> untold;
+  return draw_map(
+      scene, snapshot, [&renderer](const Frame& frame) { return renderer.render(frame); }, untold);
 }
 
 inline float at(const Map& map, int x, int y) {

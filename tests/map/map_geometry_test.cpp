@@ -13,18 +13,13 @@ using test::at;
 using test::Gas;
 using test::map_of;
 using test::map_scene;
+using test::one_particle;
 
 // Which pixel holds most.
 std::pair<int, int> brightest(const Map& map) {
   const auto most = std::max_element(map.values.begin(), map.values.end());
   const int i = static_cast<int>(most - map.values.begin());
   return {i % map.width, i / map.width};
-}
-
-Gas one_particle(const Vec3& place, float h = 0.5F) {
-  Gas gas;
-  gas.add(place, h, 1, 100);
-  return gas;
 }
 
 double sum(const Map& map) {

@@ -67,23 +67,15 @@ TEST(MapUnitsOfRealFiles, OfPhantomAreTheFiles) {
   EXPECT_NEAR(mean_of(scene, file) * area / (1000 * 5.05e-5 * 1.98841e33), 1, 1e-4);
 }
 
-// GIZMO's default units are comoving kpc/h and 1e10 Msun/h. A column of 2 of its units at z = 1 and
-// h = 0.7 is 2e10 * 0.7 / (0.5 kpc)^2 = 5.6e10 Msun/kpc^2.
-TEST(MapUnitsOfRealFiles, OfGizmoAreWhatTheUserSays) {
-  test::Gas gas;
-  gas.add({{0, 0, 0}}, 0.01F, 2, 100);
-  test::MemorySnapshot snapshot = gas.snapshot();
-  Cosmology cosmology;
-  cosmology.scale_factor = 0.5;
-  snapshot.set_cosmology(cosmology);
-  snapshot.set_hubble_parameter(0.7);
-  Scene scene = test::map_scene();
-  scene.image.width = scene.image.height = 1;
-  scene.map.width = 1;
-  scene.map.length_unit = "a kpc/h";
-  scene.map.mass_unit = "1e10 Msun/h";
-  scene.map.unit = "Msun/kpc^2";
-  EXPECT_NEAR(static_cast<double>(map_of(scene, snapshot).values[0]) / 5.6e10, 1, 1e-5);
+// 20000 particles of 2.3251971288e6 Msun in (1000 kpc)^2.
+TEST(MapUnitsOfRealFiles, OfGadgetFourAreTheFiles) {
+  const std::string file = "galaxy_collision/snapshot_000.hdf5";
+  SKIP_WITHOUT(file);
+  Scene scene = scene_of_gas();
+  scene.components.front().types = {2};
+  scene.map.width = 1000;
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_NEAR(mean_of(scene, file) / (20000 * 2.3251971288e6 / 1e12), 1, 1e-4);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "map/gas.h"
 #include "splotchcl/error.h"
-#include "splotchcl/renderer.h"
 
 namespace splotchcl {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 using test::at;
 using test::Gas;
 using test::map_of;
+using test::map_on_device;
 using test::map_scene;
 using test::random_gas;
 
@@ -252,9 +252,7 @@ TEST(Map, LeavesOutAndCountsParticlesWithoutAValue) {
   Scene scene = map_scene();
   scene.map.quantity = "temperature";
   std::vector<std::string> notes;
-  const Map map = draw_map(
-      scene, gas.snapshot(), [](const Frame& frame) { return reference::render(frame).to_float(); },
-      notes);
+  const Map map = map_of(scene, gas.snapshot(), &notes);
   EXPECT_EQ(map.bad_particles, 2U);
   EXPECT_THAT(notes, testing::Contains(testing::HasSubstr("2 particles")));
 }
@@ -310,9 +308,20 @@ TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
   EXPECT_NEAR(effective(47, 23), 5, 0.05);
 }
 
-bool has_device() {
-  return !list_devices().empty();
-}
+// Maps by OpenCL.
+class MapOnTheDevice : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (list_devices().empty()) GTEST_SKIP() << "no OpenCL device";
+    renderer_ = std::make_unique<Renderer>();
+  }
+  Map map(const Scene& scene, const Snapshot& snapshot) {
+    return map_on_device(*renderer_, scene, snapshot);
+  }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+};
 
 // What of the mass lies in the map, by the uncut kernels.
 double mass_inside(const Gas& gas) {
@@ -330,15 +339,9 @@ double mass_inside(const Gas& gas) {
 }
 
 // From a thousandth of a pixel to a thousand pixels.
-TEST(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
-  Renderer renderer;
-  const auto mass_in_map = [&renderer](const Scene& scene, const Gas& gas) {
-    std::vector<std::string> notes;
-    return total_of(draw_map(
-                        scene, gas.snapshot(),
-                        [&renderer](const Frame& frame) { return renderer.render(frame); }, notes)
-                        .values);
+TEST_F(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
+  const auto mass_in_map = [this](const Scene& scene, const Gas& gas) {
+    return total_of(map(scene, gas.snapshot()).values);
   };
   for (const float h : {1e-3F, 1e-2F, 0.1F, 1.0F, 10.0F, 100.0F, 1e3F}) {
     const Gas gas = random_gas(100, 8, h, h);
@@ -350,15 +353,11 @@ TEST(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
   }
 }
 
-TEST(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
-  Renderer renderer;
+TEST_F(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
   const auto snapshot = random_gas(2000, 30, 0.5F, 30).snapshot();
   Scene scene = map_scene();
   scene.tolerance = 1e-4;
-  std::vector<std::string> notes;
-  const Map drawn = draw_map(
-      scene, snapshot, [&renderer](const Frame& frame) { return renderer.render(frame); }, notes);
+  const Map drawn = map(scene, snapshot);
   const Map exact = map_of(scene, snapshot);
   for (std::size_t i = 0; i < exact.values.size(); ++i) {
     const auto expected = static_cast<double>(exact.values[i]);
@@ -368,36 +367,26 @@ TEST(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
 }
 
 // Squares of many small weights are far below the square of their sum.
-TEST(MapOnTheDevice, TellsOfManyParticlesInAPixelToo) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
-  Renderer renderer;
+TEST_F(MapOnTheDevice, TellsOfManyParticlesInAPixelToo) {
   Gas gas;
   for (int i = 0; i < 1000; ++i)
     gas.add({{0.5, 0.5, 0}}, 15, 2, 100);
   Scene scene = map_scene();
   scene.tolerance = 1e-3;
   scene.map.noise = true;
-  std::vector<std::string> notes;
-  const Map map = draw_map(
-      scene, gas.snapshot(), [&renderer](const Frame& frame) { return renderer.render(frame); },
-      notes);
-  EXPECT_NEAR(static_cast<double>(map.effective_particles[23 * 64 + 32]), 1000, 10);
+  const Map drawn = map(scene, gas.snapshot());
+  EXPECT_NEAR(static_cast<double>(drawn.effective_particles[23 * 64 + 32]), 1000, 10);
 }
 
-TEST(MapOnTheDevice, MapsAConstantFieldToTheConstantAtAnyTolerance) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
-  Renderer renderer;
+TEST_F(MapOnTheDevice, MapsAConstantFieldToTheConstantAtAnyTolerance) {
   Gas gas = random_gas(2000, 30, 1e-2F, 30);
   std::fill(gas.temperature.begin(), gas.temperature.end(), 1234.5F);
   Scene scene = map_scene();
   scene.map.quantity = "temperature";
   for (const double tolerance : {1e-2, 1e-3, 0.0}) {
     scene.tolerance = tolerance;
-    std::vector<std::string> notes;
-    const Map map = draw_map(
-        scene, gas.snapshot(), [&renderer](const Frame& frame) { return renderer.render(frame); },
-        notes);
-    for (const float value : map.values) {
+    const Map drawn = map(scene, gas.snapshot());
+    for (const float value : drawn.values) {
       if (!std::isnan(value)) {
         ASSERT_NEAR(static_cast<double>(value) / 1234.5, 1, 1e-6) << tolerance;
       }
@@ -406,18 +395,14 @@ TEST(MapOnTheDevice, MapsAConstantFieldToTheConstantAtAnyTolerance) {
 }
 
 // docs/maps.md: tolerance (F + max(F, S / D)), to first order.
-TEST(MapOnTheDevice, KeepsTheBoundOfItsMeans) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device";
-  Renderer renderer;
+TEST_F(MapOnTheDevice, KeepsTheBoundOfItsMeans) {
   Gas gas = random_gas(2000, 20, 0.5F, 8);
   const auto snapshot = gas.snapshot();
   Scene scene = map_scene();
   scene.tolerance = 1e-3;
   const Map column = map_of(scene, snapshot);
   scene.map.quantity = "temperature";
-  std::vector<std::string> notes;
-  const Map drawn = draw_map(
-      scene, snapshot, [&renderer](const Frame& frame) { return renderer.render(frame); }, notes);
+  const Map drawn = map(scene, snapshot);
   const Map exact = map_of(scene, snapshot);
   std::nth_element(gas.temperature.begin(), gas.temperature.begin() + 1000, gas.temperature.end());
   const auto typical = static_cast<double>(gas.temperature[1000]);

@@ -12,15 +12,13 @@ using test::map_of;
 using test::map_scene;
 using testing::HasSubstr;
 
-Gas one_particle() {
-  Gas gas;
-  gas.add({{0, 0, 0}}, 10, 3, 100);
-  return gas;
+Gas wide_particle() {
+  return test::one_particle({{0, 0, 0}}, 10, 3);
 }
 
 std::string refusal(const Scene& scene) {
   try {
-    map_of(scene, one_particle().snapshot());
+    map_of(scene, wide_particle().snapshot());
   } catch (const Error& error) {
     return error.what();
   }
@@ -30,18 +28,18 @@ std::string refusal(const Scene& scene) {
 TEST(MapUnits, AreThoseThatTheSettingsSay) {
   Scene scene = map_scene();
   const double in_code =
-      static_cast<double>(test::at(map_of(scene, one_particle().snapshot()), 32, 24));
+      static_cast<double>(test::at(map_of(scene, wide_particle().snapshot()), 32, 24));
   scene.map.length_unit = "kpc";
   scene.map.mass_unit = "1e10 Msun";
   scene.map.unit = "Msun/pc^2";
-  const Map map = map_of(scene, one_particle().snapshot());
+  const Map map = map_of(scene, wide_particle().snapshot());
   EXPECT_EQ(map.unit, "Msun/pc^2");
   EXPECT_EQ(map.length_unit, "kpc");
   EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24)) / in_code, 1e10 / 1e6, 1e-2);
 }
 
 TEST(MapUnits, OfAFieldAreConverted) {
-  Gas gas = one_particle();
+  Gas gas = wide_particle();
   auto snapshot = gas.snapshot();
   Scene scene = map_scene();
   scene.map.quantity = "smoothing_length";
@@ -77,19 +75,44 @@ TEST(MapUnits, OfProductsAreWrittenFactorByFactor) {
   Scene scene = map_scene();
   scene.map.mass_unit = "1e10 Msun";
   scene.map.length_unit = "Mpc/pc kpc";
-  EXPECT_EQ(map_of(scene, one_particle().snapshot()).unit, "1e10 Msun Mpc^-2 pc^2 kpc^-2");
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-2 pc^2 kpc^-2");
 }
 
 // A kiloparsec at a megaparsec is seen under 3.4 arc minutes.
+TEST(MapUnits, OfProductsOfPowersAreWrittenFactorByFactor) {
+  Scene scene = map_scene();
+  scene.map.mass_unit = "1e10 Msun";
+  scene.map.length_unit = "Mpc^0.5 kpc/pc^2";
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-1 kpc^-2 pc^4");
+  scene.map.length_unit = "3 kpc";
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun (3 kpc)^-2");
+}
+
 TEST(MapUnits, OfTheSkyFollowFromTheDistance) {
   Scene scene = map_scene();
   scene.map.length_unit = "kpc";
   scene.map.distance = "1 Mpc";
   scene.map.sky = {10, -20};
-  const Map map = map_of(scene, one_particle().snapshot());
+  const Map map = map_of(scene, wide_particle().snapshot());
   ASSERT_TRUE(map.sky);
   EXPECT_NEAR(map.sky->pixel, 1e-3 * 180 / std::acos(-1.0), 1e-12);
   EXPECT_EQ(map.sky->declination, -20);
+}
+
+// Matter alone at redshift 3: 2 c / H0 (1 - 1 / sqrt(4)) / 4 = 1070.687 Mpc for h = 0.7.
+TEST(MapUnits, OfTheSkyFollowFromTheRedshiftToo) {
+  test::MemorySnapshot snapshot = wide_particle().snapshot();
+  Cosmology cosmology;
+  cosmology.scale_factor = 0.25;
+  cosmology.omega_matter = 1;
+  snapshot.set_cosmology(cosmology);
+  snapshot.set_hubble_parameter(0.7);
+  Scene scene = map_scene();
+  scene.map.length_unit = "kpc";
+  scene.map.distance = "redshift";
+  const Map map = map_of(scene, snapshot);
+  ASSERT_TRUE(map.sky);
+  EXPECT_NEAR(map.sky->pixel * std::acos(-1.0) / 180 * 1070.687e3, 1, 1e-6);
 }
 
 TEST(MapUnits, RefuseTheSkyWhereLengthsAreNotKnown) {

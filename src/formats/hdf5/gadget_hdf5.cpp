@@ -8,6 +8,7 @@
 #include "formats/gadget/gadget_members.h"
 #include "formats/hdf5/gadget_hdf5_fields.h"
 #include "formats/hdf5/gadget_hdf5_header.h"
+#include "formats/hdf5/gizmo_units.h"
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_formats.h"
 #include "snapshot/field_names.h"
@@ -75,6 +76,7 @@ class GadgetHdf5Snapshot : public Snapshot {
   void read_dialect();
   void read_motion();
   void find_fields(ParticleTypeInfo& type);
+  static void name_unit_of_table_mass(const Hdf5File& file, ParticleTypeInfo& type);
   bool is_in_every_member(int type, const Hdf5Field& field) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
   void choose_origin();
@@ -130,8 +132,10 @@ void GadgetHdf5Snapshot::read_motion() {
   };
   const auto member = std::find_if(members_.begin(), members_.end(),
                                    [&](const Member& m) { return m.fields.count(type.type) > 0; });
-  info_.cosmology = read_cosmology(Hdf5File(member->path), member->header(), path_of("position"),
-                                   path_of("velocity"));
+  const Hdf5File file(member->path);
+  info_.cosmology =
+      read_cosmology(file, member->header(), path_of("position"), path_of("velocity"));
+  if (has_gizmo_units(file)) name_gizmo_units(file, info_);
 }
 
 bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
@@ -159,6 +163,22 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
   }
   add_table_mass(type, "MassTable", info_.notes);
   name_fields(type);
+  if (type.table_mass) name_unit_of_table_mass(file, type);
+}
+
+// The table states no unit. Gadget 4's masses have the power of h that its positions state.
+void GadgetHdf5Snapshot::name_unit_of_table_mass(const Hdf5File& file, ParticleTypeInfo& type) {
+  const auto mass = std::find_if(type.fields.begin(), type.fields.end(),
+                                 [](const FieldInfo& field) { return field.name == "mass"; });
+  const FieldInfo* const position = find_field(type, "position");
+  if (mass == type.fields.end() || position == nullptr) return;
+  const auto hubble_power =
+      file.number(fmt::format("/PartType{}/{}", type.type, position->file_name), "h_scaling");
+  if (!hubble_power) return;
+  UnitPowers powers;
+  powers.mass = 1;
+  powers.hubble = *hubble_power;
+  mass->unit = unit_name(powers, read_base_units(file));
 }
 
 std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {

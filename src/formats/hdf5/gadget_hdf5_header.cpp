@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "formats/hdf5/gizmo_units.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -56,7 +57,9 @@ double read_box_size(const Hdf5File& file) {
 
 bool is_without_cosmology(const Hdf5File& file) {
   return find_number(file,
-                     {{"Parameters", "ComovingIntegrationOn"}, {"Cosmology", "Cosmological run"}},
+                     {{"Parameters", "ComovingIntegrationOn"},
+                      {"Header", "ComovingIntegrationOn"},
+                      {"Cosmology", "Cosmological run"}},
                      1) == 0;
 }
 
@@ -92,11 +95,18 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
       file, {{"Header", "HubbleParam"}, {"Parameters", "HubbleParam"}, {"Cosmology", "h"}}, 0);
   if (is_without_cosmology(file)) return header;
   header.redshift = file.number("Header", "Redshift").value_or(0);
-  header.omega_matter = find_number(
-      file, {{"Header", "Omega0"}, {"Parameters", "Omega0"}, {"Cosmology", "Omega_m"}}, 0);
-  header.omega_lambda = find_number(
-      file,
-      {{"Header", "OmegaLambda"}, {"Parameters", "OmegaLambda"}, {"Cosmology", "Omega_lambda"}}, 0);
+  header.omega_matter = find_number(file,
+                                    {{"Header", "Omega0"},
+                                     {"Header", "Omega_Matter"},
+                                     {"Parameters", "Omega0"},
+                                     {"Cosmology", "Omega_m"}},
+                                    0);
+  header.omega_lambda = find_number(file,
+                                    {{"Header", "OmegaLambda"},
+                                     {"Header", "Omega_Lambda"},
+                                     {"Parameters", "OmegaLambda"},
+                                     {"Cosmology", "Omega_lambda"}},
+                                    0);
   return header;
 }
 
@@ -155,6 +165,7 @@ std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader
 }
 
 BaseUnits read_base_units(const Hdf5File& file) {
+  if (has_gizmo_units(file)) return read_gizmo_units(file);
   BaseUnits units;
   units.length_in_cm = find_number(file,
                                    {{"Parameters", "UnitLength_in_cm"},

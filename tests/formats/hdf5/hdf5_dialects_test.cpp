@@ -1,6 +1,7 @@
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -23,6 +24,11 @@ class Hdf5Dialects : public ::testing::Test {
     write_values(file, "PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
     return file;
   }
+  // Of a field of gas.
+  std::string unit_of(const char* field) const {
+    const auto snapshot = open_snapshot(path_);
+    return find_field(*snapshot->info().find_type(0), field)->unit;
+  }
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "snap.hdf5";
 };
@@ -36,6 +42,79 @@ TEST_F(Hdf5Dialects, GizmoIsTold) {
   const auto snapshot = open_snapshot(path_);
   EXPECT_EQ(snapshot->info().format, "GIZMO HDF5");
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+}
+
+// What GIZMO's io.c writes: its units divided by the Hubble parameter.
+TEST_F(Hdf5Dialects, GizmosUnitsAreThoseOfItsHeader) {
+  {
+    const Hdf5Output file = create();
+    write_attribute(file, "Header", "ComovingIntegrationOn", {1}, H5T_STD_I32LE);
+    write_attribute(file, "Header", "Time", {0.5});
+    write_attribute(file, "Header", "Redshift", {1});
+    write_attribute(file, "Header", "Omega_Matter", {0.3});
+    write_attribute(file, "Header", "Omega_Lambda", {0.7});
+    write_attribute(file, "Header", "HubbleParam", {0.7});
+    write_attribute(file, "Header", "UnitLength_In_CGS", {3.085678e21 / 0.7});
+    write_attribute(file, "Header", "UnitMass_In_CGS", {1.989e43 / 0.7});
+    write_attribute(file, "Header", "UnitVelocity_In_CGS", {1e5});
+    write_values(file, "PartType0/Masses", {1, 2});
+    write_values(file, "PartType0/Density", {1, 2});
+    write_values(file, "PartType0/InternalEnergy", {1, 2});
+    write_values(file, "PartType0/Velocities", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  EXPECT_EQ(unit_of("position"), "kpc h^-1 a");
+  EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+  EXPECT_EQ(unit_of("density"), "1e10 M_sun kpc^-3 h^2 a^-3");
+  EXPECT_EQ(unit_of("velocity"), "km/s a^0.5");
+  EXPECT_EQ(unit_of("internal_energy"), "(km/s)^2");
+  const auto snapshot = open_snapshot(path_);
+  ASSERT_TRUE(snapshot->info().cosmology);
+  EXPECT_EQ(snapshot->info().cosmology->scale_factor, 0.5);
+  EXPECT_EQ(snapshot->info().cosmology->omega_matter, 0.3);
+  EXPECT_EQ(snapshot->info().cosmology->velocity_power, 0.5);
+  EXPECT_NEAR(snapshot->info().cosmology->hubble_rate, 0.1, 1e-6);
+}
+
+// Clouds that form stars, in parsecs, solar masses and meters per second; their time is a time.
+TEST_F(Hdf5Dialects, GizmoHasNoScaleFactorWithoutCosmology) {
+  {
+    const Hdf5Output file = create();
+    write_attribute(file, "Header", "ComovingIntegrationOn", {0}, H5T_STD_I32LE);
+    write_attribute(file, "Header", "Time", {1});
+    write_attribute(file, "Header", "Redshift", {0});
+    write_attribute(file, "Header", "HubbleParam", {1});
+    write_attribute(file, "Header", "UnitLength_In_CGS", {3.085678e18});
+    write_attribute(file, "Header", "UnitMass_In_CGS", {1.989e33});
+    write_attribute(file, "Header", "UnitVelocity_In_CGS", {100});
+    write_values(file, "PartType0/Masses", {1, 2});
+    write_values(file, "PartType0/Velocities", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  EXPECT_EQ(unit_of("position"), "pc");
+  EXPECT_EQ(unit_of("mass"), "M_sun");
+  EXPECT_EQ(unit_of("velocity"), "100 cm/s");
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_FALSE(snapshot->info().cosmology);
+  EXPECT_FALSE(snapshot->info().redshift);
+}
+
+TEST_F(Hdf5Dialects, OlderGizmoFilesNameNoUnits) {
+  {
+    const Hdf5Output file = create();
+    write_attribute(file, "Header", "GIZMO_version", {2017});
+    write_attribute(file, "Header", "HubbleParam", {0.7});
+  }
+  EXPECT_EQ(unit_of("position"), "");
+}
+
+TEST_F(Hdf5Dialects, MassesOfGadgetFoursTableHaveItsUnitOfMass) {
+  {
+    const Hdf5Output file = create();
+    make_group(file, "Parameters");
+    write_attribute(file, "Header", "MassTable", {3, 0, 0, 0, 0, 0});
+    write_attribute(file, "Parameters", "UnitMass_in_g", {1.989e43});
+    write_attribute(file, "PartType0/Coordinates", "h_scaling", {-1});
+  }
+  EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
 }
 
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
