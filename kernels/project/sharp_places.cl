@@ -15,6 +15,9 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
   return sigma < p.sharp_width * view.place_error * slope_of_peak(of_crowd);
 }
 
+// Where splats turned out to lie upon one another, so many of them may be copies of one.
+#define MOST_COPIES 50.0f
+
 #ifdef WIDE_ANGLE
 // Of the lanes that are asked for: places, and what widths follow from.
 typedef struct PlaceArrays {
@@ -113,8 +116,10 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, const Vectors positi
 // Of sharp splats, those that even the integers of splats' places would move too far, or that are
 // so bright that single precision of their widths would show where they have faded. Of all in the
 // picture: a crop is drawn as it is.
-INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
+INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak, VALUE crowd_peak,
                               const ProjectParameters p) {
+  // Copies of one particle are misplaced alike, other splats of a crowd either way.
+  const VALUE peak = min(crowd_peak, MOST_COPIES * own_peak);
   const VALUE reach = 7.0f * sigma + 2.0f;
   INTEGER in_picture = view.y + reach >= p.seen_top & view.y - reach <= p.seen_bottom;
 #ifndef ELLIPSES

@@ -321,7 +321,8 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const BrightnessLanes brightness = find_brightness(weight * brightest * share, widths, needs, p);
   const INTEGER sharp = s.visible & are_sharp(view, widths.sigma, brightness.crowd_peak, p);
   if (ANY(sharp)) {
-    s.too_sharp = sharp & are_too_sharp(view, widths.sigma, brightness.crowd_peak, p);
+    s.too_sharp =
+        sharp & are_too_sharp(view, widths.sigma, brightness.own_peak, brightness.crowd_peak, p);
 #ifdef WIDE_ANGLE
     view = sharp_view(view, sharp, i, end, columns, p, e);
 #else
