@@ -7,7 +7,8 @@ namespace splotchcl {
 
 // Linear light, row 0 at the top, four floats per pixel: red, green, blue (1 is the
 // display's white, larger values are kept) and alpha, the opacity 1 - exp(-tau)
-// averaged over the channels. Colour is premultiplied: emission needs no opacity.
+// averaged over the channels, to ten times the frame's tolerance. Colour is premultiplied: emission
+// needs no opacity.
 struct Image {
   int width = 0, height = 0;
   std::vector<float> pixels;  // 4 * width * height

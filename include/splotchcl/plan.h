@@ -131,6 +131,10 @@ struct FramePlan {
   double drawn_for_tolerance = 0;  // what is shared out; at most the promise
   ToleranceShares shares;
   SplatNeeds needs;
+  // Ordered: what lies behind a layer is expected to reach the eye with this light at most, so that
+  // an error of absorption counts as so much of one of emission. The check after drawing takes the
+  // picture's own light; a guess that is too low costs another drawing.
+  double light_behind = 1;
   SplatLimits splats;
   double erf_error = 0;        // absolute
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak

@@ -13,9 +13,9 @@ inline float largest(__global const float* values) {
 }
 
 // The brightest channel at the splat's center.
-inline float amplitude_of(__global const TileSplat* splat) {
+inline float amplitude_of(__global const TileSplat* splat, float light_behind) {
 #ifdef LIGHT_ORDERED
-  return larger(largest(splat->emission), largest(splat->absorption));
+  return larger(largest(splat->emission), light_behind * largest(splat->absorption));
 #else
   return largest(splat->summed);
 #endif
@@ -124,7 +124,7 @@ INLINED Collected measured(__global const TileSplat* splat, const CertifyParamet
   const float area = sigma * sigma_x, flux = 3.15f * area;
   Collected c;
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
-  c.peak = amplitude_of(splat) * (by_mean && flux < 1.0f ? flux : 1.0f);
+  c.peak = amplitude_of(splat, p->light_behind) * (by_mean && flux < 1.0f ? flux : 1.0f);
   c.width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : grid.blur);
   const int power = ((as_int(c.width2) >> 23) - 127) >> 1;
   c.octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;

@@ -98,6 +98,9 @@ struct ProjectParameters {
   float weight_scale;  // for masses its square root: it may be too small for a float
   float peak_color;    // the largest of E and A per unit weight, and of it what
   float peak_own;      // does not follow the particles' own colors
+  // What counts of that for errors (plan.h, light_behind): this part, or with the rule of gray
+  // absorption (scene.h), where it is above 0, what the rule leaves of the emission.
+  float counted_part, gray_absorption;
 
   float least_extent;    // sigmas drawn of a faint splat
   float restored_light;  // part of its weight that such a splat gets back

@@ -98,6 +98,13 @@ INLINED VALUE brightest_color(const ParticleLanes particles, const ProjectParame
   return brightest;
 }
 
+// Of an amplitude at its peak: emission counts as it is, absorption times the light behind.
+INLINED VALUE counted_part(VALUE amplitude, const ProjectParameters p) {
+  VALUE part = (VALUE)(p.counted_part);
+  if (p.gray_absorption > 0.0f) part = max(part, amplitude / (amplitude + p.gray_absorption));
+  return part;
+}
+
 // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
 INLINED VALUE share_of_peak(const WidthLanes widths) {
 #ifdef ELLIPSES
@@ -318,7 +325,9 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE weight =
       limited_weight(find_weight(particles.weight, view, widths, p), brightest * share) *
       normalized(particles.intensity, p.intensity);
-  const BrightnessLanes brightness = find_brightness(weight * brightest * share, widths, needs, p);
+  const VALUE amplitude = weight * brightest;
+  const BrightnessLanes brightness =
+      find_brightness(amplitude * share * counted_part(amplitude, p), widths, needs, p);
   const INTEGER sharp = s.visible & are_sharp(view, widths.sigma, brightness.crowd_peak, p);
   if (ANY(sharp)) {
     s.too_sharp =

@@ -34,12 +34,16 @@ Response of_proportional(const Range& light, double source, double contrast) {
   return {most, at > 0 ? std::max(0.0, -at * std::log(at / contrast)) : 0};
 }
 
-// A splat in front takes away from what lies behind, which is no brighter than the brightest
-// source, and adds its own light. Errors of a part of every splat do no more than to a single
-// source (docs/accuracy.md).
-Response of_ordered(double brightest_behind, double opacity) {
-  constexpr double euler = 2.718281828459045;
-  return {std::max(1.0, brightest_behind), brightest_behind * std::min(opacity, 1 / euler)};
+// A splat in front takes away from what lies behind, of which no more reaches the eye than the
+// pixel's whole light, and adds its own: an error of a part e of it does e (E T - A I), of which
+// neither is negative. Absorption counts as `expected` of emission (plan.h, light_behind). Errors
+// of a part of every splat do no more than to a single source, and no more than all of them one by
+// one (docs/accuracy.md).
+Response of_ordered(double light, double opacity, double brightest_behind, double expected) {
+  constexpr double euler = 2.718281828459045, deep = 60;
+  const double depth = opacity < 1 ? std::min(-std::log1p(-opacity), deep) : deep;
+  return {std::max(1.0, light / expected),
+          std::min(brightest_behind * std::min(opacity, 1 / euler), light * std::max(1.0, depth))};
 }
 
 double brightest_channel(const Image& image) {
@@ -86,13 +90,16 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
 struct Surroundings {
   LightPlan light;
   std::array<double, 3> source;
-  double background, behind;
+  double background;
+  double behind, expected;  // ordered
 };
 
 Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around) {
   const Range& light = ranges.channels[channel];
   if (around.light == LightPlan::emission) return {1, light.most};
-  if (around.light == LightPlan::ordered) return of_ordered(around.behind, ranges.opacity);
+  if (around.light == LightPlan::ordered) {
+    return of_ordered(light.most, ranges.opacity, around.behind, around.expected);
+  }
   const double source = around.source[channel];
   return of_proportional(light, source, source + around.background);
 }
@@ -119,7 +126,7 @@ PictureLight measure_light(const Image& image, const Frame& frame, const FramePl
   picture.rows = BlockErrors::blocks_along(image.height);
   const Surroundings around = {
       plan.light, plan.source, brightest_background(frame),
-      plan.light == LightPlan::ordered ? brightest_behind(image, frame) : 0};
+      plan.light == LightPlan::ordered ? brightest_behind(image, frame) : 0, plan.light_behind};
   const auto columns = static_cast<std::size_t>(picture.columns);
   picture.blocks.resize(columns * static_cast<std::size_t>(picture.rows));
   for_blocks(picture.blocks.size(), columns, [&](std::size_t first, std::size_t last) {

@@ -16,11 +16,11 @@ double brightest_knot(const std::vector<Rgb>& knots) {
 }
 
 // A per unit weight, of the palette's colours `knots`.
-double peak_absorption(const DrawnComponent& component, const std::vector<Rgb>& knots) {
+double absorption_of(const DrawnComponent& component, const std::vector<Rgb>& knots) {
   switch (component.absorption.kind) {
     case Absorption::Kind::none:
-    case Absorption::Kind::gray:
       return 0;
+    case Absorption::Kind::gray:
     case Absorption::Kind::as_emission:
       return component.brightness * brightest_knot(knots);
     case Absorption::Kind::factor:
@@ -31,17 +31,27 @@ double peak_absorption(const DrawnComponent& component, const std::vector<Rgb>& 
 
 }  // namespace
 
+double peak_emission(const DrawnComponent& component) {
+  return component.brightness * brightest_knot(component.palette.emission);
+}
+
+double peak_absorption(const DrawnComponent& component) {
+  // Gray absorption is that of the emission.
+  const Palette& palette = component.palette;
+  const bool own =
+      palette.has_own_absorption() && component.absorption.kind != Absorption::Kind::gray;
+  return absorption_of(component, own ? palette.absorption : palette.emission);
+}
+
 double peak_own_absorption(const DrawnComponent& component) {
   const Palette& palette = component.palette;
-  return palette.has_own_absorption() ? peak_absorption(component, palette.absorption) : 0;
+  const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
+  return palette.has_own_absorption() && !is_gray ? absorption_of(component, palette.absorption)
+                                                  : 0;
 }
 
 double peak_color(const DrawnComponent& component) {
-  const Palette& palette = component.palette;
-  const double emission = component.brightness * brightest_knot(palette.emission);
-  return std::max(emission, palette.has_own_absorption()
-                                ? peak_own_absorption(component)
-                                : peak_absorption(component, palette.emission));
+  return std::max(peak_emission(component), peak_absorption(component));
 }
 
 PeakColors::PeakColors(const DrawnComponent& component)

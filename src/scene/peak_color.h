@@ -10,6 +10,10 @@ namespace splotchcl {
 // whole palette. The particles' own colours multiply it, except for what peak_own_absorption says.
 double peak_color(const DrawnComponent& component);
 
+// E alone, and A alone, which the rule of gray absorption gives E's value without the rule.
+double peak_emission(const DrawnComponent& component);
+double peak_absorption(const DrawnComponent& component);
+
 // That of an absorption palette of the component's own, 0 without one.
 double peak_own_absorption(const DrawnComponent& component);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -52,13 +53,14 @@ inline DrawnComponent in_random_colors(DrawnComponent component, std::uint64_t s
   return component;
 }
 
-// Every pixel of the frame's crop has this light.
+// Every pixel of the frame's crop has this light, and an opacity that is not given.
 inline ReferenceImage even_picture(const Frame& frame, double red, double green, double blue) {
   ReferenceImage image(frame.crop.width, frame.crop.height);
   for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
     image.pixels[i] = red;
     image.pixels[i + 1] = green;
     image.pixels[i + 2] = blue;
+    image.pixels[i + 3] = std::numeric_limits<double>::quiet_NaN();
   }
   return image;
 }

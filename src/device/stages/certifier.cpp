@@ -101,6 +101,7 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
   const SplatLimits& limits = context.plan.splats;
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
+  parameters_.light_behind = static_cast<float>(context.plan.light_behind);
   const float least2 = limits.least_extent * limits.least_extent;
   parameters_.edge_peak = std::exp(least2) / limits.inverse_edge;
   for (std::size_t octave = 0; octave < std::size(parameters_.extent2); ++octave)

@@ -221,14 +221,25 @@ int weight_model_number(WeightModel model) {
   return WEIGHT_MASS;
 }
 
-void set_component(const DrawnComponent& component, double length_scale,
+// Own colors would have to be known particle by particle.
+double counted_part(const DrawnComponent& component, double light_behind) {
+  const double peak = peak_color(component);
+  if (!component.particles.color_vector.is_absent() || peak == 0) return 1;
+  return std::max(peak_emission(component), light_behind * peak_absorption(component)) / peak;
+}
+
+void set_component(const DrawnComponent& component, double length_scale, double light_behind,
                    shared::ProjectParameters& p) {
+  const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
   p.size_factor = static_cast<float>(component.size_factor);
   p.length_scale = static_cast<float>(length_scale);
   p.weight_model = weight_model_number(component.weight);
   p.weight_scale = static_cast<float>(weight_scale(component, length_scale));
   p.peak_color = static_cast<float>(peak_color(component));
   p.peak_own = static_cast<float>(peak_own_absorption(component));
+  p.counted_part =
+      static_cast<float>(is_gray ? light_behind : counted_part(component, light_behind));
+  p.gray_absorption = is_gray ? static_cast<float>(component.absorption.factor) : 0.0f;
   p.color = color_scaling(component);
   p.intensity = intensity_scaling(component);
 }
@@ -247,7 +258,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
   set_picture(context, p);
   set_plan(context.plan, p);
-  set_component(frame.components[component], length_scale(frame), p);
+  set_component(frame.components[component], length_scale(frame), context.plan.light_behind, p);
   p.place_bits = context.layout.grids.front().place_bits;
   p.component = component;
   p.sort_by_field = frame.sort.by == SortOrder::By::field;

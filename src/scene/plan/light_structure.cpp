@@ -41,18 +41,6 @@ double brightest_quotient(const Palette& palette) {
   return largest;
 }
 
-double brightest_source(const DrawnComponent& component) {
-  if (component.absorption.kind == Kind::none) return std::numeric_limits<double>::infinity();
-  if (component.absorption.kind == Kind::gray) return 1;
-  const double factor = component.absorption.kind == Kind::factor
-                            ? component.brightness / component.absorption.factor
-                            : 1;
-  if (!component.palette.has_own_absorption()) return factor;
-  // Colors of the particles' own have no bound that is known without reading them all.
-  if (has_own_colors(component)) return std::numeric_limits<double>::infinity();
-  return factor * brightest_quotient(component.palette);
-}
-
 }  // namespace
 
 LightStructure find_light_structure(const Frame& frame) {
@@ -83,6 +71,18 @@ double brightest_background(const Frame& frame) {
     brightest = std::max({brightest, pixels[i], pixels[i + 1], pixels[i + 2]});
   }
   return static_cast<double>(brightest);
+}
+
+double brightest_source(const DrawnComponent& component) {
+  if (component.absorption.kind == Kind::none) return std::numeric_limits<double>::infinity();
+  if (component.absorption.kind == Kind::gray) return 1;
+  const double factor = component.absorption.kind == Kind::factor
+                            ? component.brightness / component.absorption.factor
+                            : 1;
+  if (!component.palette.has_own_absorption()) return factor;
+  // Colors of the particles' own have no bound that is known without reading them all.
+  if (has_own_colors(component)) return std::numeric_limits<double>::infinity();
+  return factor * brightest_quotient(component.palette);
 }
 
 double brightest_source(const Frame& frame) {

@@ -21,5 +21,6 @@ double brightest_background(const Frame& frame);
 // Largest E / A of any component: the most that a thick layer can shine. Infinite where
 // something does not absorb.
 double brightest_source(const Frame& frame);
+double brightest_source(const DrawnComponent& component);
 
 }  // namespace splotchcl

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/plan/error_budget.h"
 #include "scene/plan/grid_pyramid.h"
+#include "scene/plan/light_behind.h"
 #include "scene/plan/light_structure.h"
 #include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"
@@ -23,13 +25,13 @@ double erf_error(const FramePlan& plan) {
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
 // are drawn again (docs/performance.md).
-SplatNeeds first_needs(const FramePlan& plan) {
+SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
   const std::array<double, 5> farther =
       plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.9, 1.4, 0.6, 0.0, 0.0};
   for (std::size_t octave = 0; octave < farther.size(); ++octave)
-    needs.widths[octave].farther = farther[octave];
+    needs.widths[octave].farther = std::max(0.0, farther[octave] + std::log(light_of_errors));
   return needs;
 }
 
@@ -41,12 +43,25 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   return make_pyramid(frame, plan.splats.mean_sigma, plan.grid_peak_error / plan.needs.grid_light);
 }
 
+double response_of(const Frame& frame, const FramePlan& plan) {
+  return response_to_splats(plan.light, brightest_source(frame), brightest_background(frame));
+}
+
+// What ends of splats do where light is uneven, beyond what even light allows for (set_limits):
+// errors in dim pictures show less.
+double light_of_uneven_ends(const Frame& frame, const FramePlan& plan) {
+  if (!plan.needs_sort()) return 1;
+  return std::min(1.0, std::max(plan.light_behind, response_of(frame, plan)));
+}
+
 // Everything that follows from the precision, the shares and the needs.
 void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
   const double source = brightest_source(frame);
-  const double response = response_to_splats(plan.light, source, background);
-  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light, response);
+  const double response = response_of(frame, plan);
+  // Even light errs by no more than itself for each depth of 1.
+  const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;
+  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light, of_even_light);
   plan.erf_error = erf_error(plan);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
@@ -87,7 +102,8 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   plan.certify = options.certify;
   plan.drawn_for_tolerance = frame.tolerance * (options.certify ? first_part_certified : 1);
   set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, options), plan);
-  plan.needs = first_needs(plan);
+  if (plan.needs_sort() && !plan.is_extended()) plan.light_behind = guess_light_behind(frame);
+  plan.needs = first_needs(plan, light_of_uneven_ends(frame, plan));
   set_limits(frame, plan);
   return plan;
 }
@@ -119,6 +135,7 @@ FramePlan extend_plan(const Frame& frame, const FramePlan& plan) {
   FramePlan extended = plan;
   set_budget(make_extended_budget(), extended);
   extended.needs = {};
+  extended.light_behind = 1;
   set_limits(frame, extended);
   return extended;
 }
