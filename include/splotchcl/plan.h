@@ -57,12 +57,13 @@ struct SplatNeeds {
 
 // Where a splat ends and how its pixels are sampled. Widths in pixels.
 struct SplatLimits {
-  float mean_sigma = 0;      // narrower splats take the pixel mean by erf; 0: none does
-  float widening = 0;        // of sigma^2, for wider ones, in pixels^2
-  float bright_peak = 0;     // brighter splats take means that keep more digits
-  float least_extent = 0;    // sigmas drawn of a faint splat
-  float restored_light = 0;  // part of a faint splat's weight that it gets back
-  float inverse_edge = 0;    // 1 / (value at which a splat may end)
+  float mean_sigma = 0;         // narrower splats take the pixel mean by erf; 0: none does
+  float widening = 0;           // of sigma^2, for wider ones, in pixels^2
+  float bright_peak = 0;        // brighter splats take means that keep more digits, and
+  float bright_mean_sigma = 0;  // take them up to this width and more, the brighter the farther
+  float least_extent = 0;       // sigmas drawn of a faint splat
+  float restored_light = 0;     // part of a faint splat's weight that it gets back
+  float inverse_edge = 0;       // 1 / (value at which a splat may end)
 };
 
 // One grid of pixels of the whole picture: its own, or a coarser one with a guard band around it.

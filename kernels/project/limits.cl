@@ -52,7 +52,7 @@ inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameter
 // to 1 the widened center value errs by 5.6e-3 ln(peak)^2 / sigma^4 of what is there.
 inline VALUE bright_mean_limit(VALUE peak, const ProjectParameters p) {
   const VALUE fading = 0.693147181f * log2_positive(max(peak, (VALUE)(1.0f)));
-  return p.mean_sigma * sqrt(max(0.853f * fading, (VALUE)(1.0f)));
+  return p.bright_mean_sigma * sqrt(max(0.853f * fading, (VALUE)(1.0f)));
 }
 
 // The largest n with 2^n <= value, for positive values.

@@ -79,12 +79,13 @@ struct ProjectParameters {
   struct DepthKeyParameters depth_key;
 
   float size_factor;
-  float kernel_width;  // sigma = kernel_width * h
-  float kernel_cut;    // in sigma; 0: uncut
-  float min_radius;    // pixels
-  float widening;      // sigma'^2 = sigma^2 + widening, in pixels
-  float mean_sigma;    // below: the pixel mean by erf, not the widened center value
-  float bright_peak;   // brighter splats are taken as means up to larger widths (shape.cl)
+  float kernel_width;       // sigma = kernel_width * h
+  float kernel_cut;         // in sigma; 0: uncut
+  float min_radius;         // pixels
+  float widening;           // sigma'^2 = sigma^2 + widening, in pixels
+  float mean_sigma;         // below: the pixel mean by erf, not the widened center value
+  float bright_peak;        // brighter splats are taken as means up to larger widths (shape.cl),
+  float bright_mean_sigma;  // from this one on (limits.cl)
   int octaves_in_need, has_bright_octaves;  // whose needs are not 0; whether any is of light
 
   // sharp_places.cl, docs/accuracy.md

@@ -328,6 +328,19 @@ std::vector<HardCase> promise_cases() {
             "copies 9 x -10.5291 y 12.4473 peak 30 depth 4.6 group scatter places 200 copies 2 "
             "sigma 30 peak 30 star 1",
             {LightPlan::ordered}),
+      found("BrightCopiesBeforeABackground",
+            "center values of deep clouds take away from the background where they have faded",
+            "light stars_among_gas turned 1 background 80 source 0.2 group point copies 200 y -10 "
+            "sigma 8 peak 400000",
+            {LightPlan::ordered}),
+      found("DeepCopiesBeforeStars",
+            "two terms of a series err by more of what is behind than of the layer",
+            "light stars_among_gas turned 1 source 0.0017 group point places 9 copies 3 sigma 50 "
+            "peak 0.0006 group scatter places 100 sigma 60 peak 300 depth 20 star 1",
+            {LightPlan::ordered}),
+      found("DeepCopiesBeforeABrightBackground", "the same of a background of 10000",
+            "turned 1 background 10000 source 1.8 group point copies 28 sigma 30 peak 0.59",
+            {LightPlan::ordered}),
   };
 }
 

@@ -32,7 +32,7 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 128>);
+static_assert(has_words<ProjectParameters, 129>);
 static_assert(has_words<BlockCounts, 3>);
 static_assert(has_words<ExtendedParameters, 72>);
 static_assert(has_words<SortParameters, 4>);

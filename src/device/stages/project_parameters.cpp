@@ -140,6 +140,7 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.widening = limits.widening;
   p.mean_sigma = limits.mean_sigma;
   p.bright_peak = limits.bright_peak;
+  p.bright_mean_sigma = limits.bright_mean_sigma;
   for (std::size_t octave = 0; octave < plan.needs.widths.size(); ++octave) {
     const WidthNeed& need = plan.needs.widths[octave];
     if (need.light > 0 || need.farther > 0) p.octaves_in_need = static_cast<int>(octave) + 1;

@@ -80,20 +80,21 @@ ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan li
 }
 
 double response_to_splats(LightPlan light, double brightest_source, double brightest_background) {
-  // Light without a brightest source shows where nothing is in front of it. How bright it is
-  // behind something is not known.
-  if (light == LightPlan::emission || !std::isfinite(brightest_source)) return 1;
+  if (light == LightPlan::emission) return 1;
+  // Light without a brightest source shows where nothing is in front of it.
+  if (!std::isfinite(brightest_source)) {
+    return std::max(1.0, response_of_layers(1, brightest_background));
+  }
   if (light == LightPlan::proportional) {
     return response_of_one_source(brightest_source, brightest_background);
   }
   return response_of_layers(brightest_source, brightest_background);
 }
 
-double response_to_places(Precision precision, LightPlan light, double brightest_source,
-                          double brightest_background) {
+double response_to_unchecked(LightPlan light, double brightest_source,
+                             double brightest_background) {
   constexpr double stars_behind = 1e3;
-  if (precision != Precision::full || light != LightPlan::ordered ||
-      std::isfinite(brightest_source)) {
+  if (light != LightPlan::ordered || std::isfinite(brightest_source)) {
     return response_to_splats(light, brightest_source, brightest_background);
   }
   return response_of_layers(stars_behind, brightest_background);

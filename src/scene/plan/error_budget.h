@@ -27,10 +27,8 @@ ErrorBudget make_extended_budget();
 // in front of the background b the largest of x |b - q| exp(-x) / max(1, I) over x is less.
 double response_to_splats(LightPlan light, double brightest_source, double brightest_background);
 
-// What wrong places of splats do, likewise. Where stars that only emit stand among absorbing gas,
-// nothing says how bright they are behind it; in full precision a thousand times white is allowed
-// for.
-double response_to_places(Precision precision, LightPlan light, double brightest_source,
-                          double brightest_background);
+// The same of what the check after drawing does not know. Where stars that only emit stand among
+// absorbing gas, nothing says how bright they are behind it: a thousand times white is allowed for.
+double response_to_unchecked(LightPlan light, double brightest_source, double brightest_background);
 
 }  // namespace splotchcl

@@ -59,19 +59,22 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
   const double source = brightest_source(frame);
   const double response = response_of(frame, plan);
+  const double unchecked = response_to_unchecked(plan.light, source, background);
   // Even light errs by no more than itself for each depth of 1.
   const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;
-  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light, of_even_light);
+  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light,
+                                    {of_even_light, response, unchecked});
   plan.erf_error = erf_error(plan);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
   if (plan.is_extended()) {
     plan.places = {};
   } else {
-    const double of_places = response_to_places(plan.precision, plan.light, source, background);
+    const double of_places = plan.precision == Precision::full ? unchecked : response;
     plan.places = choose_place_limits(frame, plan.drawn_for_tolerance, plan.precision, of_places);
   }
-  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source));
+  plan.layers =
+      choose_layer_limits(plan.shares, plan.light, std::max(background, source), unchecked);
 }
 
 // Bounds are several times larger than estimates.

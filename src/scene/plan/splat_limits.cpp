@@ -22,13 +22,26 @@ double center_value_error(double sigma_pixels) {
   return 8.2e-3 / (sigma2 * sigma2);
 }
 
+namespace {
+
+// The widened center value errs by 7.7e-3 / sigma^4 of the peak.
+float widest_of_means(double response, const ToleranceShares& shares) {
+  const double sigma = std::pow(7.7e-3 * response / shares.pixel_mean, 0.25);
+  // At least so much that octaves of widths up to 2 are of means alone, which the check after
+  // drawing tells apart (certificate/octave_errors.cpp).
+  constexpr double least = 1.96;
+  return static_cast<float>(std::clamp(sigma, least, 64.0));
+}
+
+}  // namespace
+
 SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
-                                LightPlan light, double response) {
+                                LightPlan light, const Responses& response) {
   SplatLimits limits;
   // Coarse grids have few pixels, so that drawing splats farther in sums costs little, and saves
   // drawing frames again.
   const double margin = light == LightPlan::ordered ? 1 : 5.5;
-  const double left_out = shares.truncation / (margin * lattice_rows * response);
+  const double left_out = shares.truncation / (margin * lattice_rows * response.of_ends);
   const double extent2 = -std::log(std::min(left_out, 1.0));
   limits.least_extent = static_cast<float>(std::sqrt(extent2));
   // A cut is part of the model: nothing is left out. Otherwise half of 1 - erf(k)^2.
@@ -36,23 +49,20 @@ SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceSha
   limits.inverse_edge = static_cast<float>(ends_in_a_pixel / shares.truncation);
   limits.bright_peak = 8;
   if (kernel.sampling == Sampling::mean) {
-    // The widened center value errs by 7.7e-3 / sigma^4 of the peak.
-    const double sigma = std::pow(7.7e-3 * response / shares.pixel_mean, 0.25);
-    // At least so much that octaves of widths up to 2 are of means alone, which the check after
-    // drawing tells apart (certificate/octave_errors.cpp).
-    constexpr double least = 1.96;
-    limits.mean_sigma = static_cast<float>(std::clamp(sigma, least, 64.0));
+    limits.mean_sigma = widest_of_means(response.of_means, shares);
+    limits.bright_mean_sigma = widest_of_means(response.of_bright_means, shares);
     limits.widening = 1.0f / 6.0f;
   }
   return limits;
 }
 
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind) {
+                                double brightest_behind, double response) {
   LayerLimits limits;
   // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
-  limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * shares.phi)));
-  limits.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * shares.phi, 0.25)));
+  const double phi = shares.phi / std::max(1.0, response);
+  limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
+  limits.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * phi, 0.25)));
   limits.stop = stop_limit(brightest_behind, shares.early_stop);
   // An opacity close to 1 errs by ten roundings of 1 (exp, phi's difference and quotient, three
   // products, the sum), and with it what shines through.

@@ -12,12 +12,17 @@ constexpr double lattice_rows = 2;
 // By how much of its peak the widened center value of a splat errs at most, from sigma 2 on.
 double center_value_error(double sigma_pixels);
 
-// `response`: what a relative error of every splat does to the picture (error_budget.h).
-SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
-                                LightPlan light, double response);
+// What a relative error of every splat does to the picture (error_budget.h), by what is wrong.
+struct Responses {
+  double of_ends = 1, of_means = 1;  // which the check after drawing knows
+  double of_bright_means = 1;
+};
 
-// `brightest_behind`: the most that can shine through a layer.
+SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
+                                LightPlan light, const Responses& response);
+
+// `brightest_behind`: the most that can shine through a layer. `response`: of every layer alike.
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind);
+                                double brightest_behind, double response);
 
 }  // namespace splotchcl
