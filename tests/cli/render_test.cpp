@@ -187,6 +187,30 @@ TEST_F(Render, SaysHowWellThePromiseIsKept) {
   EXPECT_LE(check["errors_of_promise"].back(), 1);
 }
 
+TEST_F(Render, SaysThatStarsWereTooSharpForSinglePrecision) {
+  std::ofstream(folder_ / "stars.csv") << "x,y,z\n0.0101,0.0132,0\n0.5,0.3,0\n";
+  std::ofstream(folder_ / "stars.toml") << R"(snapshot = "stars.csv"
+[image]
+size = [40, 30]
+[camera]
+position = [0, 0, -5]
+look_at = [0, 0, 0]
+[[component]]
+types = "gas"
+size = { fixed = 1e-3 }
+palette = "white"
+weight = "constant"
+absorption = "none"
+brightness = 1e6
+)";
+  for (const auto& [tolerance, is_said] : {std::pair("1e-3", false), std::pair("1e-4", true)}) {
+    ASSERT_EQ(render(std::string("stars.toml -o a.png --stats s.json --tolerance ") + tolerance)
+                  .exit_code,
+              0);
+    EXPECT_EQ(nlohmann::json::parse(read_text(folder_ / "s.json"))["drawn_most_exactly"], is_said);
+  }
+}
+
 TEST_F(Render, CertifiesThatThePromiseIsKept) {
   ASSERT_EQ(render(std::string("u -o a.png --certify --stats s.json") + small).exit_code, 0);
   const auto check = nlohmann::json::parse(read_text(folder_ / "s.json"))["check"];

@@ -14,7 +14,6 @@
 namespace splotchcl {
 namespace {
 
-// The frames of one picture share their particles.
 // Of several views the one that keeps its promise least well counts.
 void add(const FrameCheck& frame, FrameCheck& total) {
   if (frame.errors_of_promise.empty()) return;
@@ -23,6 +22,7 @@ void add(const FrameCheck& frame, FrameCheck& total) {
   if (is_worse) total = frame;
 }
 
+// The frames of one picture share their particles.
 void add(const RenderStats& frame, RenderStats& total) {
   total.device = frame.device;
   total.note = frame.note;
@@ -30,6 +30,7 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
   total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
   total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
+  total.drawn_most_exactly |= frame.drawn_most_exactly;
   total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
   add(frame.check, total.check);
   total.build_seconds += frame.build_seconds;
