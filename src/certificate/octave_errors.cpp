@@ -171,7 +171,8 @@ double OctaveErrors::ends_around(const CellRange& cell) const {
 
 // Of the four squares of two cells by two that the cell lies in, or inner ones next to it, the
 // emptiest: a cluster or a line beside the cell is no even light. So there are two squares along
-// each axis everywhere, and where there is no room for two nothing is known to be even.
+// each axis everywhere, and where there is no room for two nothing is known to be even. Beside the
+// inner cells the nearest of them is the emptiest that may be.
 double OctaveErrors::even_around(const CellRange& cell) const {
   if (inner_.x1 - inner_.x0 < 3 || inner_.y1 - inner_.y0 < 3) return 0;
   const int left = std::clamp(cell.x0 - 1, inner_.x0, inner_.x1 - 3);
@@ -179,9 +180,13 @@ double OctaveErrors::even_around(const CellRange& cell) const {
   double least = std::numeric_limits<double>::max();
   for (const int x : {left, left + 1}) {
     for (const int y : {top, top + 1})
-      least = std::min(least, endings_.over_near({x, x + 2, y, y + 2}));
+      least = std::min(least, endings_.over_near({x, x + 2, y, y + 2}) / 4);
   }
-  return least / 4;
+  const int x = std::clamp(cell.x0, inner_.x0, inner_.x1 - 1);
+  const int y = std::clamp(cell.y0, inner_.y0, inner_.y1 - 1);
+  if (x != cell.x0 || y != cell.y0)
+    least = std::min(least, endings_.over_near({x, x + 1, y, y + 1}));
+  return least;
 }
 
 double OctaveErrors::of_ends(const PixelBlock& block, double negligible) const {

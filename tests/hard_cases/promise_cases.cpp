@@ -341,6 +341,12 @@ std::vector<HardCase> promise_cases() {
       found("DeepCopiesBeforeABrightBackground", "the same of a background of 10000",
             "turned 1 background 10000 source 1.8 group point copies 28 sigma 30 peak 0.59",
             {LightPlan::ordered}),
+      found("LatticeACellFromTheEdge",
+            "light that begins in the second cell from the picture's edge is not even beside it",
+            "light factor tolerance 0.01 turned 1 source 0.2 group lattice places 47 copies 300 y "
+            "16 spread 2.19397 sigma 4 peak 0.1 hue 0.7 group lattice places 47 copies 300 y 16 "
+            "spread 2.19353 sigma 4 peak 0.14",
+            {LightPlan::proportional}),
   };
 }
 
