@@ -119,6 +119,31 @@ TEST_F(CertificateTest, DoesNotTakeTheEdgeOfAnEvenFieldForEven) {
   EXPECT_FALSE(certify_cells(cells).keeps_promise());
 }
 
+// Cells at the edge hold what lies beside the picture, too.
+TEST_F(CertificateTest, DoesNotTakeLightThatBeginsACellFromTheEdgeForEven) {
+  PeakCells cells = empty_cells();
+  for (int y = 2; y < cells.endings.rows; ++y) {
+    for (int x = 0; x < cells.endings.columns; ++x)
+      at(cells.endings, x, y) = static_cast<float>(frame_.tolerance / ending());
+  }
+  const Certificate certificate = certify_cells(cells);
+  EXPECT_GT(certificate.blocks.at(size / 2, 2), frame_.tolerance);
+}
+
+TEST_F(CertificateTest, TakesNothingForEvenInAPictureOfFewCells) {
+  PeakCells cells = empty_cells();
+  frame_.height = frame_.crop.height = 16;
+  cells.endings.rows = cells.peaks.rows = 4;
+  for (CellSums* sums : {&cells.peaks, &cells.endings})
+    sums->values.resize(static_cast<std::size_t>(sums->columns) * 4);
+  std::fill(cells.endings.values.begin(), cells.endings.values.end(),
+            static_cast<float>(frame_.tolerance / ending()));
+  Image image = dark_picture();
+  image.height = 16;
+  image.pixels.resize(static_cast<std::size_t>(4) * size * 16);
+  EXPECT_FALSE(certify({{cells}, 1}, image, frame_, plan_).keeps_promise());
+}
+
 TEST_F(CertificateTest, AsksForMoreOfTheOctaveThatErrs) {
   PeakCells cells = empty_cells();
   at(cells.endings, 10, 10) = static_cast<float>(5 * frame_.tolerance / ending());
@@ -147,6 +172,22 @@ TEST_F(CertificateTest, AsksForFinerGridsWherePeaksLieUponOneAnother) {
   EXPECT_GE(first.needs.grid_light, 100);
   plan_ = refine_plan(frame_, plan_, first.needs);
   EXPECT_TRUE(certify_cells(cells).keeps_promise());
+}
+
+// An error of absorption takes away no more than the light that a pixel has.
+TEST_F(CertificateTest, CountsLayersBeforeALightPixelForAsMuchAsItHas) {
+  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
+  plan_ = make_plan(frame_);
+  ASSERT_TRUE(plan_.needs_sort());
+  ASSERT_LT(plan_.light_behind, 0.2);
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = static_cast<float>(0.5 * frame_.tolerance / ending());
+  for (const double light : {0.0, plan_.light_behind, 5 * plan_.light_behind}) {
+    Image image = dark_picture();
+    std::fill(image.pixels.begin(), image.pixels.end(), static_cast<float>(light));
+    const double expected = 0.5 * std::max(1.0, light / plan_.light_behind);
+    EXPECT_NEAR(certify({{cells}, 1}, image, frame_, plan_).worst.ends, expected, 0.01) << light;
+  }
 }
 
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {

@@ -1,0 +1,77 @@
+// How bright what lies behind layers is guessed to be, before a frame is drawn.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "reference/frames.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl::test {
+namespace {
+
+using Kind = Absorption::Kind;
+
+// Gray clouds of this peak: E / A is peak / (peak + gray).
+Frame gray_clouds(double peak, double gray) {
+  std::vector<Cloud> clouds(100);
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    clouds[i].x = static_cast<double>(i % 10) - 5;
+    clouds[i].y = static_cast<double>(i / 10) - 5;
+    clouds[i].column = peak;
+  }
+  DrawnComponent component = component_of(clouds, one_color(1, 1, 1));
+  component.absorption = {Kind::gray, gray};
+  return frame_of(40, 30, {component});
+}
+
+double light_behind(const Frame& frame) {
+  return make_plan(frame).light_behind;
+}
+
+TEST(LightBehind, IsThreeTimesTheSourceOfGrayClouds) {
+  EXPECT_NEAR(light_behind(gray_clouds(0.1, 0.9)), 0.3, 1e-6);
+}
+
+TEST(LightBehind, IsNotBrighterThanWhite) {
+  EXPECT_EQ(light_behind(gray_clouds(10, 0.1)), 1);
+}
+
+TEST(LightBehind, IsATenthAtLeastSoThatOpacityKeepsTenTimesTheTolerance) {
+  EXPECT_EQ(light_behind(gray_clouds(1e-4, 1)), 0.1);
+}
+
+TEST(LightBehind, LeavesErrorsOfAbsorptionSmallAtLargeTolerances) {
+  Frame frame = gray_clouds(1e-4, 1);
+  frame.tolerance = 0.02;
+  EXPECT_NEAR(light_behind(frame), 0.4, 1e-12);
+}
+
+TEST(LightBehind, IsThatOfTheBackgroundWhereItIsBrighter) {
+  Frame frame = gray_clouds(1e-4, 1);
+  frame.background = {0.1, 0.7, 0.2};
+  EXPECT_NEAR(light_behind(frame), 0.7, 1e-12);
+}
+
+TEST(LightBehind, IsWhiteWhereStarsOnlyEmit) {
+  Frame frame = gray_clouds(1e-4, 1);
+  frame.components.push_back(frame.components.front());
+  frame.components.back().absorption = {Kind::none, 0};
+  EXPECT_EQ(light_behind(frame), 1);
+}
+
+TEST(LightBehind, IsTheSameForEveryCrop) {
+  Frame frame = gray_clouds(0.1, 0.9);
+  const double whole = light_behind(frame);
+  frame.crop = {0, 0, 3, 2};
+  EXPECT_EQ(light_behind(frame), whole);
+}
+
+TEST(LightBehind, CountsAbsorptionAsAWholeInExtendedPrecision) {
+  Frame frame = gray_clouds(1e-4, 1);
+  EXPECT_EQ(extend_plan(frame, make_plan(frame)).light_behind, 1);
+  frame.tolerance = 0;
+  EXPECT_EQ(light_behind(frame), 1);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
