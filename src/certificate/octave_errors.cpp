@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame_check.h"
@@ -118,6 +119,25 @@ int peak_reach_of(int octave, int level, const CellSums& cells, const FramePlan&
   return static_cast<int>(std::min<double>(std::ceil(reach / cells.side), reach_of_all(cells)));
 }
 
+// As an estimate, what is left of an error of a peak so many cells away. Those of erf in full
+// precision do not fade along the axes. Coarse grids err by values that their filters take from
+// five pixels nearer.
+std::vector<double> peak_weights_of(int octave, int level, const CellSums& cells,
+                                    const Frame& frame, const FramePlan& plan) {
+  constexpr double filter_pixels = 5;
+  const int spread = peak_spread_of(level, frame);
+  if (level == 0 && plan.precision != Precision::full)
+    return std::vector<double>(static_cast<std::size_t>(spread) + 1, 1.0);
+  const double sigma = std::ldexp(widest_sigma(octave), -level);
+  const int reach = std::max(spread, peak_reach_of(octave, level, cells, plan));
+  std::vector<double> weights(static_cast<std::size_t>(reach) + 1, 1.0);
+  for (int away = spread + 1; level > 0 && away <= reach; ++away) {
+    const double nearest = std::max(0.0, ((away - 1) * cells.side - filter_pixels) / sigma);
+    weights[static_cast<std::size_t>(away)] = std::exp(-nearest * nearest);
+  }
+  return weights;
+}
+
 }  // namespace
 
 OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan)
@@ -135,9 +155,9 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
       window_(window_of(octave_, level_, cells.endings, plan)),
-      peak_reach_(is_bound_ || plan.precision == Precision::full
-                      ? peak_reach_of(octave_, level_, cells.peaks, plan)
-                      : peak_spread_of(level_, frame)),
+      peak_weights_(peak_weights_of(octave_, level_, cells.peaks, frame, plan)),
+      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan)
+                            : static_cast<int>(peak_weights_.size()) - 1),
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {
   find_inner_cells(frame);
@@ -218,9 +238,17 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
   const double most = peak_error_ * peaks_.over_near(range.widened(1));
   if (most <= negligible) return most;
   double largest = 0;
+  const CellRange here = cells_of(block, peak_side_);
+  const auto away = [](int square, int first, int end) {
+    return std::max({0, first - square - 1, square - end + 1});
+  };
   for (int y = range.y0 - 1; y < range.y1; ++y) {
-    for (int x = range.x0 - 1; x < range.x1; ++x)
-      largest = std::max(largest, peaks_around(x, y));
+    const int rows = away(y, here.y0, here.y1);
+    for (int x = range.x0 - 1; x < range.x1; ++x) {
+      const int cells = std::max(rows, away(x, here.x0, here.x1));
+      largest =
+          std::max(largest, peak_weights_[static_cast<std::size_t>(cells)] * peaks_around(x, y));
+    }
   }
   return peak_error_ * largest;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "certificate/block_sums.h"
 #include "certificate/peak_cells.h"
 #include "scene/plan/splat_limits.h"
@@ -63,7 +65,8 @@ class OctaveErrors {
   double place_error_, place_share_;  // parts of a peak; the most that one splat errs
   EndingWindow window_;
   CellRange inner_;  // cells of endings that hold no splats from beyond the picture
-  int peak_reach_;   // cells from a pixel to the farthest splat whose errors show there
+  std::vector<double> peak_weights_;  // of errors so many cells away, as an estimate
+  int peak_reach_;  // cells from a pixel to the farthest splat whose errors show there
   BlockSums endings_, peaks_;
 };
 

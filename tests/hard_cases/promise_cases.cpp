@@ -347,6 +347,11 @@ std::vector<HardCase> promise_cases() {
             "16 spread 2.19397 sigma 4 peak 0.1 hue 0.7 group lattice places 47 copies 300 y 16 "
             "spread 2.19353 sigma 4 peak 0.14",
             {LightPlan::proportional}),
+      slow_in_groups(
+          found("CrowdOnACoarseGridFarFromThePixel",
+                "what a coarse grid errs by reaches beyond two sigma where there are thousands",
+                "group point places 60 copies 400 y -50 sigma 7.4 width_range 1.04414 peak 8",
+                {LightPlan::emission})),
   };
 }
 
