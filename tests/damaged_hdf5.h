@@ -8,10 +8,10 @@
 namespace splotchcl::testing {
 
 // Copies of an HDF5 file of which bytes are changed where HDF5 keeps its structure: in each another
-// few, of a fixed seed.
+// few.
 class DamagedHdf5 {
  public:
-  explicit DamagedHdf5(std::string whole) : whole_(std::move(whole)) {
+  DamagedHdf5(std::string whole, unsigned seed) : whole_(std::move(whole)), random_(seed) {
     for (const std::string mark : {"TREE", "HEAP", "SNOD"}) {
       for (auto at = whole_.find(mark); at != std::string::npos; at = whole_.find(mark, at + 1))
         places_.push_back(at);
@@ -31,7 +31,7 @@ class DamagedHdf5 {
  private:
   std::string whole_;
   std::vector<std::size_t> places_;
-  std::mt19937 random_{1};
+  std::mt19937 random_;
   int copies_ = 0;
 };
 
