@@ -27,7 +27,7 @@ class EverydayFiles : public ::testing::Test {
             << i / 64 + 0.01 * (i % 5) << '\n';
   }
   ProgramResult run(const std::string& arguments) const {
-    return run_in(folder_, "timeout 60 \"$splotchcl\" " + arguments);
+    return run_in(folder_, "timeout 120 \"$splotchcl\" " + arguments);
   }
   TemporaryFolder folder_;
 };

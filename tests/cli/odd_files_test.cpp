@@ -25,7 +25,7 @@ class OddFiles : public ::testing::Test {
     write_image(folder_ / "a.png", Image(8, 8));
   }
   ProgramResult run(const std::string& arguments) const {
-    return run_in(folder_, "timeout 20 \"$splotchcl\" " + arguments);
+    return run_in(folder_, "timeout 120 \"$splotchcl\" " + arguments);
   }
   // What is drawn of a file is told before another is found to be odd.
   static std::string without_notes(const std::string& text) {
