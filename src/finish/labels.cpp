@@ -62,7 +62,8 @@ std::string replaced(const std::string& text, const std::string& what, const std
 std::string readable_unit(const std::string& unit, bool superscripts) {
   if (!superscripts) return unit;
   const std::string text = with_raised(with_raised(unit, "1e", "10"), "^", "");
-  return replaced(text, "_sun", "☉");
+  // U+2299: the ring of the Sun's own sign, U+2609, is too thin for small letters.
+  return replaced(text, "_sun", "⊙");
 }
 
 std::string field_label(const std::string& field, int type, const SnapshotInfo& snapshot,

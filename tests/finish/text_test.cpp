@@ -71,7 +71,7 @@ TEST(Text, OfSeveralLinesStandsBelowEachOther) {
 }
 
 TEST(Text, TakesLettersBeyondAscii) {
-  EXPECT_GT(ink(font().draw("é ρ ☉ 10⁻⁴ ×", 20)), 0);
+  EXPECT_GT(ink(font().draw("é ρ ⊙ 10⁻⁴ ×", 20)), 0);
 }
 
 TEST(Text, TurnedHasItsBoxTurned) {
