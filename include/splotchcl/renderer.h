@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct DeviceInfo {
 // Never throws for want of a device: the list is empty then.
 std::vector<DeviceInfo> list_devices();
 
+// The library that finds devices, as far as it says: name, version, file.
+std::string opencl_loader();
+
 // What to tell a user whose machine has no OpenCL device.
 std::string no_device_advice();
 
@@ -42,6 +46,10 @@ struct RendererOptions {
   // Frames are drawn again until a bound, not an estimate, says that they keep their tolerance:
   // FrameCheck.
   bool certify = false;
+  // Told from part to part of a frame how much of it is drawn, from 0 to 1, once for each time that
+  // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
+  // is drawn as if nothing had been. Must not use the renderer.
+  std::function<void(double fraction)> progress = {};
 };
 
 struct StageTime {

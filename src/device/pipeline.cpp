@@ -5,7 +5,7 @@
 namespace splotchcl {
 
 Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
-                   const FramePlan& plan)
+                   const FramePlan& plan, std::function<void(double)> progress)
     : particles_(particles),
       context_(device, frame, plan),
       projector_(context_),
@@ -13,7 +13,8 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       binner_(context_),
       compositor_(context_),
       resolver_(context_),
-      certifier_(context_) {}
+      certifier_(context_),
+      progress_(std::move(progress)) {}
 
 Image Pipeline::draw() {
   counts_ = {};
@@ -43,9 +44,10 @@ KeyedSplats Pipeline::project_all() {
 // Order does not matter: particles pass through in chunks, and the working memory is a
 // chunk's, however many there are.
 Planes Pipeline::draw_sums(Planes planes) {
-  for (const ParticleChunk& chunk : particle_chunks()) {
-    planes = add_chunk(chunk, std::move(planes));
-    if (counts_.too_sharp > 0) break;
+  const std::vector<ParticleChunk> chunks = particle_chunks();
+  for (std::size_t i = 0; i < chunks.size() && counts_.too_sharp == 0; ++i) {
+    tell(i, chunks.size());
+    planes = add_chunk(chunks[i], std::move(planes));
   }
   return planes;
 }
@@ -69,8 +71,11 @@ Planes Pipeline::draw_ordered(Planes planes) {
   counts_.too_sharp = keyed.particles.too_sharp;
   if (counts_.too_sharp > 0) return planes;
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
-  for (const SplatChunk& chunk : splat_chunks(sorted.count, context_.device.traits))
-    planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
+  const std::vector<SplatChunk> chunks = splat_chunks(sorted.count, context_.device.traits);
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    tell(i, chunks.size());
+    planes = draw_lists(binner_.count(sorted, chunks[i]), std::move(planes));
+  }
   return planes;
 }
 
@@ -84,6 +89,12 @@ Planes Pipeline::draw_lists(const CountedSplats& counted, Planes planes) {
     planes = compositor_.composite(lists, *counted.splats, std::move(planes));
   }
   return planes;
+}
+
+// The device has drawn all parts but the last: counting the splats of a part waits for those
+// before.
+void Pipeline::tell(std::size_t done, std::size_t total) const {
+  if (progress_ && total > 1) progress_(static_cast<double>(done) / static_cast<double>(total));
 }
 
 }  // namespace splotchcl

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "device/frame/chunks.h"
@@ -28,9 +30,10 @@ struct DrawCounts {
 // and benchmarks run its stages one by one.
 class Pipeline {
  public:
-  // All of them outlive the pipeline. The device's shape is that of its traits.
+  // All of them outlive the pipeline. The device's shape is that of its traits. `progress` as in
+  // RendererOptions.
   Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
-           const FramePlan& plan);
+           const FramePlan& plan, std::function<void(double)> progress = {});
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
@@ -55,6 +58,7 @@ class Pipeline {
   Planes draw_sums(Planes planes);
   Planes draw_ordered(Planes planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
+  void tell(std::size_t done, std::size_t total) const;
 
   ParticleStore& particles_;
   const StageContext context_;
@@ -65,6 +69,7 @@ class Pipeline {
   const Resolver resolver_;
   Certifier certifier_;
   DrawCounts counts_;
+  std::function<void(double)> progress_;
 };
 
 }  // namespace splotchcl

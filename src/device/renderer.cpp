@@ -78,6 +78,7 @@ struct Renderer::State {
     }
     device.traits.double_numbers &= options.use_double;
     certifies = options.certify;
+    progress = options.progress;
   }
 
   Image render(const Frame& frame, const FramePlan& plan);
@@ -88,6 +89,7 @@ struct Renderer::State {
   ParticleStore particles;
   RenderStats stats;
   bool certifies = false;
+  std::function<void(double)> progress;
 };
 
 Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
@@ -130,7 +132,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
 }
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
-  Pipeline pipeline(device, particles, frame, plan);
+  Pipeline pipeline(device, particles, frame, plan, progress);
   Image image = pipeline.draw();
   splats.are_too_sharp = pipeline.counts().too_sharp > 0;
   if (!splats.are_too_sharp) splats.collected = pipeline.collected();
@@ -169,6 +171,10 @@ Image Renderer::render(const Frame& frame, const FramePlan& plan) {
     throw DeviceError("device " + state_->device.device.name() +
                       " failed: " + error.error_string() +
                       "; draw fewer particles or a smaller picture, or choose another device");
+  } catch (...) {
+    // What kernels still read belongs to the caller.
+    state_->device.queue.finish();
+    throw;
   }
 }
 

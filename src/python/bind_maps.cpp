@@ -36,12 +36,17 @@ struct Noise {
   std::shared_ptr<const Map> map;
 };
 
-DrawFrame drawing(const std::string& device, bool by_reference, std::optional<Renderer>& renderer) {
+DrawFrame drawing(const std::string& device, bool by_reference, const Progress& progress,
+                  std::optional<Renderer>& renderer) {
   if (by_reference) {
-    return [](const Frame& frame) { return reference::render(frame).to_float(); };
+    return [&progress](const Frame& frame) {
+      const auto tell = [&progress](double part) { progress("drawing with the reference", part); };
+      return reference::render(frame, tell).to_float();
+    };
   }
   RendererOptions options;
   options.device = device;
+  options.progress = [&progress](double fraction) { progress("drawing", fraction); };
   renderer.emplace(options);
   return [&renderer](const Frame& frame) { return renderer->render(frame); };
 }
@@ -54,8 +59,8 @@ py::tuple draw(const Scene& scene, const Source& source, const std::string& devi
     const std::lock_guard<Turn> mine(source.turn());
     source.refresh();
     std::optional<Renderer> renderer;
-    return draw_map(scene, source.snapshot(), drawing(device, by_reference, renderer), notes,
-                    progress.function());
+    return draw_map(scene, source.snapshot(), drawing(device, by_reference, progress, renderer),
+                    notes, progress.function());
   }));
   return py::make_tuple(std::move(map), std::move(notes));
 }
