@@ -68,6 +68,7 @@ PYBIND11_MODULE(_core, module) {
   bind_drawing(module);
   bind_maps(module);
   bind_films(module);
+  bind_galaxy(module);
 }
 
 }  // namespace splotchcl::python

@@ -34,6 +34,19 @@ def universe(program, tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def real_file():
+    """Finds a real snapshot by its name below the folder of them."""
+    folder = Path(os.environ.get("SPLOTCHCL_TEST_DATA", "nowhere"))
+
+    def find(name):
+        if not (folder / name).is_file():
+            pytest.skip(f"no snapshot {name} in the folder SPLOTCHCL_TEST_DATA")
+        return folder / name
+
+    return find
+
+
+@pytest.fixture(scope="session")
 def renderer():
     if not splotchcl.devices():
         pytest.skip("no OpenCL device")

@@ -1,5 +1,7 @@
 """Every script in examples/python runs and draws."""
 
+import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -47,6 +49,52 @@ def test_a_film_loop(renderer, tmp_path):
     assert is_picture(tmp_path / "frame_0002.png")
 
 
+def test_stars_by_age(renderer, tmp_path):
+    run("stars_by_age.py", tmp_path / "a.png")
+    assert is_picture(tmp_path / "a.png")
+
+
+def test_dust(renderer, tmp_path):
+    pytest.importorskip("matplotlib")
+    run("dust.py", tmp_path / "dust.png")
+    assert is_picture(tmp_path / "dust.png")
+
+
+def test_two_runs(renderer, tmp_path, real_file):
+    pytest.importorskip("matplotlib")
+    swift, gadget = real_file("swift/swift_lcdm_0000.hdf5"), real_file("lcdm/fmt2_snapshot_006")
+    run("two_runs.py", swift, gadget, tmp_path / "figure.png")
+    assert is_picture(tmp_path / "figure.png")
+
+
+def test_beside_pynbody(renderer, tmp_path, real_file):
+    """Kernels differ in shape, and what leaves the square is cut by pixels of other sizes."""
+    pytest.importorskip("pynbody")
+    pytest.importorskip("scipy")
+    told = run("beside_pynbody.py", real_file("lcdm/fmt2_snapshot_006"), tmp_path / "a.png")
+    mass, difference = (line.split(": ")[1] for line in told.splitlines())
+    assert float(mass.split()[0]) == pytest.approx(1, abs=0.02)
+    assert float(difference) < 0.02
+    assert is_picture(tmp_path / "a.png")
+
+
+def test_the_notebook(renderer, universe, tmp_path):
+    cells = json.loads((EXAMPLES / "first_look.ipynb").read_text())["cells"]
+    script = tmp_path / "notebook.py"
+    script.write_text("\n\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code"))
+    done = subprocess.run(
+        [sys.executable, script],
+        env={**os.environ, "SNAPSHOT": str(universe)},
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "the brightest pixel" in done.stdout
+
+
 def test_each_example_is_run():
-    tested = {"first_look.py", "figure.py", "film_loop.py"}
-    assert {path.name for path in EXAMPLES.glob("*.py")} == tested
+    names = {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".ipynb")}
+    source = Path(__file__).read_text()
+    assert {name for name in names if f'"{name}"' not in source} == set()

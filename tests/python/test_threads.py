@@ -115,30 +115,74 @@ import os, signal, threading
 import numpy as np, splotchcl
 random = np.random.default_rng(1)
 particles = splotchcl.Particles().gas(
-    position=random.random((20000, 3), np.float32), mass=1.0,
-    smoothing_length=np.full(20000, 0.5, np.float32))
+    position=random.random((COUNT, 3), np.float32), mass=1.0,
+    smoothing_length=np.full(COUNT, SIZE, np.float32))
 began = threading.Event()
 def interrupt():
     began.wait()
     os.kill(os.getpid(), signal.SIGINT)
 threading.Thread(target=interrupt, daemon=True).start()
 scene = splotchcl.suggest(particles, size=(1000, 1000))
+scene["component.0.absorption"] = "none"
+def began_with(what):
+    return lambda told, fraction: began.set() if what in told else None
 try:
-    splotchcl.reference(scene, particles, progress=lambda what, fraction: began.set())
+    DRAW
 except KeyboardInterrupt:
     print("interrupted")
     os._exit(0)
 """
 
 
-def test_an_interruption_ends_a_picture():
-    """It would take minutes."""
+def run_interrupted(drawing, count, size):
+    script = INTERRUPTED
+    for word, text in (("DRAW", drawing), ("COUNT", str(count)), ("SIZE", str(size))):
+        script = script.replace(word, text)
     done = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED],
-        capture_output=True, text=True, timeout=500, check=False,
-        
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=500,
+        check=False,
     )
     assert done.stdout == "interrupted\n", done.stderr
+
+
+def test_an_interruption_ends_a_picture_of_the_reference():
+    """It would take minutes."""
+    call = "splotchcl.reference(scene, particles, progress=began_with('reference'))"
+    run_interrupted(call, 20000, 0.5)
+
+
+def test_an_interruption_ends_a_picture_of_a_device(renderer):
+    """It takes its particles in tens of parts."""
+    call = "splotchcl.render(scene, particles, progress=began_with('drawing'))"
+    run_interrupted(call, 1500000, 0.01)
+
+
+def test_a_device_tells_how_far_it_is(renderer):
+    told = []
+    particles = Particles().gas(**make_arrays(200)).stars(**make_arrays(200))
+    scene = splotchcl.suggest(particles, size=SIZE)
+    for component in scene["component"]:
+        scene[f"component.{component['name']}.absorption"] = "none"
+    renderer.render(scene, particles, progress=lambda what, part: told.append((what, part)))
+    assert ("drawing", 0.5) in told
+
+
+def test_a_renderer_draws_again_after_a_device_was_stopped(renderer):
+    def stop(what, fraction):
+        if what == "drawing" and fraction > 0:
+            raise LookupError("enough")
+
+    particles = Particles().gas(**make_arrays(200)).stars(**make_arrays(200))
+    scene = splotchcl.suggest(particles, size=SIZE)
+    for component in scene["component"]:
+        scene[f"component.{component['name']}.absorption"] = "none"
+    expected = renderer.render(scene, particles).linear
+    with pytest.raises(LookupError):
+        renderer.render(scene, particles, progress=stop)
+    assert np.array_equal(renderer.render(scene, particles).linear, expected)
 
 
 def try_to_draw(queue):

@@ -11,6 +11,7 @@ is. Errors are of `Error`, with one line each: `UsageError` is a ValueError, `Da
 
 from ._core import DataError, DeviceError, Error, UsageError
 from ._core import version as __version__
+from ._galaxy import galaxy
 from ._image import Difference, Image
 from ._maps import Map, column
 from ._movie import Film, movie
@@ -36,6 +37,7 @@ __all__ = [
     "__version__",
     "column",
     "devices",
+    "galaxy",
     "movie",
     "reference",
     "render",

@@ -98,6 +98,15 @@ class Map(Buffer):
 def draw_map(
     scene: Scene, source: Source, device: str, by_reference: bool, progress: _Progress
 ) -> tuple[Map, list[str]]: ...
+def make_galaxy_file(
+    picture: Path,
+    output: Path,
+    settings: dict[str, object],
+    gamma: float | None,
+    speed: float,
+    core: float,
+    rotation_curve: Path | None,
+) -> None: ...
 def make_film(
     scene: Path,
     output: Path,

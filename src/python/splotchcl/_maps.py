@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._render import Progress, keys_of, open_drawable, using_opencl
+from ._opencl import using_opencl
+from ._render import Progress, keys_of, open_drawable
 from ._scene import Scene
 from ._sources import Source
 
@@ -163,12 +164,15 @@ def column(
     if types is not None:
         names = [types] if isinstance(types, str) else list(types)
         keys[f"component.{keys.get('map.component', 0)}.types"] = names
-    chosen, source, notes = open_drawable(scene, particles, keys)
+    what = open_drawable(scene, particles, keys)
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
-        drawn, more = _core.draw_map(chosen._scene, source._source, name, by_reference, progress)
-    return Map(drawn, notes + [note for note in more if note not in notes], chosen, source)
+        drawn, more = _core.draw_map(
+            what.scene._scene, what.source._source, name, by_reference, progress
+        )
+    notes = what.notes + [note for note in more if note not in what.notes]
+    return Map(drawn, notes, what.scene, what.source)
 
 
 def _map_keys(

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from . import _core, _toml
-from ._render import Progress, keys_of, using_opencl
+from ._opencl import using_opencl
+from ._render import Progress, keys_of
 from ._scene import Scene
 
 

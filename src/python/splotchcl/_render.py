@@ -3,34 +3,29 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from . import _core, _toml
-from ._core import DeviceError, UsageError
+from ._core import UsageError
 from ._image import Image
+from ._opencl import using_opencl
 from ._scene import Scene
 from ._sources import Particles, Snapshot, Source
 
 Progress = Callable[[str, float], object]
 
-# Threads of OpenCL do not live on in a child that was forked: drawing there would never end.
-_used_in: list[int] = []
 
+@dataclass(frozen=True)
+class Drawable:
+    """What arguments come to: a scene, its data, and notes on both."""
 
-@contextmanager
-def using_opencl() -> Iterator[None]:
-    """Refuses a forked child of a process that has used OpenCL."""
-    if not _used_in:
-        _used_in.append(os.getpid())
-    if _used_in[0] != os.getpid():
-        raise DeviceError(
-            "OpenCL was used before this process was forked, and does not work in it; start "
-            'processes with multiprocessing.get_context("spawn")'
-        )
-    yield
+    scene: Scene
+    source: Source
+    notes: list[str]
 
 
 def suggest(
@@ -53,8 +48,7 @@ def suggest(
     ------
     UsageError, DataError
     """
-    scene, _, _ = open_drawable(source, None, keys_of(size, None, settings))
-    return scene
+    return open_drawable(source, None, keys_of(size, None, settings)).scene
 
 
 def keys_of(
@@ -71,12 +65,14 @@ def keys_of(
 
 def open_drawable(
     what: Scene | Source | str | os.PathLike[str], particles: Source | None, keys: dict[str, Any]
-) -> tuple[Scene, Source, list[str]]:
-    """The scene, its data, and notes on both."""
+) -> Drawable:
+    """Whatever may be drawn, opened; with these scene keys."""
     if isinstance(what, str | os.PathLike) and particles is None:
         pairs = [_toml.setting(key, value) for key, value in keys.items()]
         opened, data, notes = _core.open_scene(Path(what), pairs)
-        return Scene._of(opened), _snapshot_of(data), notes + data.describe()["notes"]
+        return Drawable(
+            Scene._of(opened), _snapshot_of(data), notes + data.describe()["notes"]
+        )
     if isinstance(what, str | os.PathLike):
         what = Scene.from_file(what)
     if isinstance(what, Source):
@@ -95,15 +91,15 @@ def open_drawable(
         raise UsageError(
             f"found a {type(particles).__name__}, expected Particles or a Snapshot"
         )
-    return scene, particles, _notes_of(particles)
+    return Drawable(scene, particles, _notes_of(particles))
 
 
-def _suggested(source: Source, keys: dict[str, Any]) -> tuple[Scene, Source, list[str]]:
+def _suggested(source: Source, keys: dict[str, Any]) -> Drawable:
     scene = Scene._of(_core.suggest(source._source))
     scene.update(keys)
     notes = _notes_of(source)
     not_drawn = _core.tell_not_drawn(scene._scene, source._source)
-    return scene, source, notes + ([not_drawn] if not_drawn else [])
+    return Drawable(scene, source, notes + ([not_drawn] if not_drawn else []))
 
 
 def _snapshot_of(data: _core.Source) -> Snapshot:
@@ -140,7 +136,7 @@ class Renderer:
 
     def __init__(self, device: str | None = None, *, certify: bool = False) -> None:
         self._by_reference = device == "reference"
-        with self._device():
+        with nullcontext() if self._by_reference else using_opencl():
             name = "" if device is None or self._by_reference else device
             self._drawer = _core.Drawer(name, self._by_reference, certify)
 
@@ -155,20 +151,8 @@ class Renderer:
         progress: Progress | None = None,
     ) -> Image:
         """Draws one picture; arguments as those of `splotchcl.render`."""
-        pictures = self.render_all(
-            scene,
-            particles,
-            size=size,
-            tolerance=tolerance,
-            settings=settings,
-            progress=progress,
-        )
-        if len(pictures) != 1:
-            raise UsageError(
-                f"the scene has {len(pictures)} pictures ({', '.join(pictures)}), expected one; "
-                "render_all draws them"
-            )
-        return next(iter(pictures.values()))
+        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+        return self._draw_one(drawable, progress)
 
     def render_all(
         self,
@@ -181,22 +165,26 @@ class Renderer:
         progress: Progress | None = None,
     ) -> dict[str, Image]:
         """Draws every picture of a scene (eyes, faces), by what is added to their files' names."""
-        keys = keys_of(size, tolerance, settings)
-        chosen, source, notes = open_drawable(scene, particles, keys)
-        with self._device():
-            pictures, more, stats = self._drawer.draw(chosen._scene, source._source, progress)
+        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+        return self._draw(drawable, progress)
+
+    def _draw_one(self, what: Drawable, progress: Progress | None) -> Image:
+        pictures = self._draw(what, progress)
+        if len(pictures) != 1:
+            raise UsageError(
+                f"the scene has {len(pictures)} pictures ({', '.join(pictures)}), expected one; "
+                "render_all draws them"
+            )
+        return next(iter(pictures.values()))
+
+    def _draw(self, what: Drawable, progress: Progress | None) -> dict[str, Image]:
+        with nullcontext() if self._by_reference else using_opencl():
+            drawn = self._drawer.draw(what.scene._scene, what.source._source, progress)
+        pictures, notes, stats = drawn
         return {
-            suffix: Image(picture, chosen, notes + more, stats, source)
+            suffix: Image(picture, what.scene, what.notes + notes, stats, what.source)
             for suffix, picture in pictures.items()
         }
-
-    @contextmanager
-    def _device(self) -> Iterator[None]:
-        if self._by_reference:
-            yield
-        else:
-            with using_opencl():
-                yield
 
 
 def render(
@@ -230,7 +218,7 @@ def render(
         Scene keys that override the scene's.
     progress : callable, optional
         Called with what is being done and the fraction done, from 0 to 1, where reading, the search
-        for neighbors or the reference take long. What it raises ends the work.
+        for neighbors or drawing take long. What it raises ends the work.
 
     Returns
     -------
@@ -245,16 +233,10 @@ def render(
     DeviceError
         Where there is no device, or it fails.
     KeyboardInterrupt
-        While it reads, or draws by the reference; a device finishes its picture first.
+        While it reads or draws, when the device is done with a part of the particles.
     """
-    return Renderer(device, certify=certify).render(
-        scene,
-        particles,
-        size=size,
-        tolerance=tolerance,
-        settings=settings,
-        progress=progress,
-    )
+    drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+    return Renderer(device, certify=certify)._draw_one(drawable, progress)
 
 
 def reference(
@@ -270,9 +252,8 @@ def reference(
     Arguments as those of `render`. ``render(...).compare(reference(...))`` says how exact a picture
     is.
     """
-    return render(
-        scene, particles, size=size, device="reference", settings=settings, progress=progress
-    )
+    drawable = open_drawable(scene, particles, keys_of(size, None, settings))
+    return Renderer("reference")._draw_one(drawable, progress)
 
 
 def devices() -> list[dict[str, Any]]:

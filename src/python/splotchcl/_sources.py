@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -185,6 +185,38 @@ class Particles(Source):
             self._arrays.set_time(float(time))
         if origin is not None:
             self._arrays.set_origin([float(x) for x in origin])
+
+    @classmethod
+    def of(cls, obj: Any, *, fields: Sequence[str] = ()) -> Particles:
+        """The particles of a pynbody snapshot, a swiftsimio dataset, or yt data of particles.
+
+        Taken are position, mass, and where there are any, density, smoothing length and temperature,
+        with the side of the periodic box. Lengths and masses keep the object's units.
+
+        Parameters
+        ----------
+        obj : pynbody.snapshot.SimSnap, swiftsimio.SWIFTDataset, yt dataset or data container
+            Cut out of a periodic box, it still has the box.
+        fields : sequence of str
+            Further fields, by the object's names for them, which they keep.
+
+        Raises
+        ------
+        UsageError
+            For another object, a field that no type has, and a box that is no cube.
+        """
+        from ._objects import load_object
+
+        loaded = load_object(obj, fields)
+        particles = cls(box_size=loaded.box_size, time=loaded.time)
+        for kind, arrays in loaded.types.items():
+            particles.add(kind, **arrays)
+        return particles
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The units that arrays carried, as text: "length" and names of fields."""
+        return dict(self._units)
 
     @property
     def notes(self) -> list[str]:

@@ -1,0 +1,71 @@
+"""Arrays keep their units, and units that do not agree are refused: with the packages themselves."""
+
+import numpy as np
+import pytest
+
+from splotchcl import Particles, UsageError
+
+
+def in_unyt(values, unit):
+    return pytest.importorskip("unyt").unyt_array(values, unit)
+
+
+def in_astropy(values, unit):
+    units = pytest.importorskip("astropy.units")
+    return units.Quantity(values, unit)
+
+
+def in_pynbody(values, unit):
+    return pytest.importorskip("pynbody.array").SimArray(values, unit)
+
+
+KINDS = [in_unyt, in_astropy, in_pynbody]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_unit_is_kept_and_the_values_are_the_same(arrays, kind):
+    particles = Particles().gas(position=kind(arrays["position"], "kpc"))
+    assert particles.units == {"length": "kpc"}
+    assert np.array_equal(particles["gas"]["position"], arrays["position"])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_floats_with_a_unit_are_borrowed(arrays, kind):
+    given = kind(arrays["position"], "kpc")
+    particles = Particles().gas(position=given)
+    assert particles.notes == []
+    assert np.shares_memory(particles["gas"]["position"], np.asarray(given))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_mixed_units_of_length_are_refused(arrays, kind):
+    particles = Particles().gas(position=kind(arrays["position"], "kpc"))
+    with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
+        particles.gas(smoothing_length=kind(arrays["smoothing_length"], "Mpc"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_one_field_has_one_unit_over_all_types(arrays, kind):
+    particles = Particles().gas(position=arrays["position"], mass=kind(arrays["mass"], "g"))
+    with pytest.raises(UsageError, match="the unit kg, expected g"):
+        particles.stars(position=arrays["position"], mass=kind(arrays["mass"], "kg"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_has_no_dimension_has_no_unit(arrays, kind):
+    ratio = kind(arrays["mass"], "kpc") / kind(arrays["mass"], "kpc")
+    particles = Particles().gas(position=arrays["position"], ratio=ratio)
+    assert particles.units == {}
+
+
+def test_comoving_and_physical_lengths_are_not_mixed(arrays):
+    objects = pytest.importorskip("swiftsimio.objects")
+
+    def length(values, comoving):
+        return objects.cosmo_array(
+            values, "Mpc", comoving=comoving, scale_factor=0.5, scale_exponent=1
+        )
+
+    particles = Particles().gas(position=length(arrays["position"], True))
+    with pytest.raises(UsageError, match=r"physical.*comoving"):
+        particles.gas(smoothing_length=length(arrays["smoothing_length"], False))
