@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "cli/command_builder.h"
+#include "cli/command_tree.h"
 #include "cli/commands.h"
 #include "cli/galaxy_commands.h"
 #include "cli/list_commands.h"
 #include "cli/map_command.h"
+#include "cli/pages.h"
+#include "cli/version.h"
 #include "common/nearest_name.h"
 #include "splotchcl/error.h"
 
@@ -226,11 +229,21 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
       "  splotchcl generate universe -o universe.gadget --particles 1000000 --seed 7");
 }
 
+// For the build, which installs what it writes. Hidden: it has no group in the help.
+void add_pages(CLI::App& app, Run& run) {
+  const auto folder = std::make_shared<std::filesystem::path>();
+  CLI::App* const sub = app.add_subcommand("pages", "Write manual pages and completion of shells");
+  sub->group("");
+  sub->add_option("FOLDER", *folder, wrapped("Where they are written"))->required();
+  sub->callback([&run, &app, folder] {
+    run = [&app, folder] { return write_pages(describe_commands(app), *folder); };
+  });
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(sub->get_name());
-  }
+  for (const CommandWords& command : describe_commands(app).commands)
+    names.push_back(command.name);
   return names;
 }
 
@@ -243,8 +256,9 @@ std::string join(const std::vector<std::string>& words) {
 
 // CLI11 would report an unknown command as an unexpected argument.
 void check_command(const CLI::App& app, const std::string& word) {
+  const auto is_meant = [&word](const CLI::App* sub) { return sub->get_name() == word; };
+  if (!app.get_subcommands(is_meant).empty()) return;
   const std::vector<std::string> names = command_names(app);
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
   std::error_code error;
   if (std::filesystem::exists(word, error)) {
     throw UsageError("'" + word + "' is a file, not a command; did you mean splotchcl render " +
@@ -305,7 +319,7 @@ Verbosity chosen_verbosity(bool is_verbose, bool is_quiet) {
 int run_command_line(int argc, char** argv, Console& console) {
   CLI::App app("Draws particle simulations of the universe, with OpenCL.", "splotchcl");
   Run run;
-  app.set_version_flag("--version", "splotchcl " SPLOTCHCL_VERSION);
+  app.set_version_flag("--version", &version_text);
   app.require_subcommand(1);
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
@@ -321,6 +335,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_generate(app, run, console);
   add_galaxy(app, run, console);
   add_evolve(app, run, console);
+  add_pages(app, run);
   bool is_verbose = false, is_quiet = false;
   add_verbosity(app, is_verbose, is_quiet);
   for (CLI::App* const sub : app.get_subcommands([](const CLI::App*) { return true; }))

@@ -27,7 +27,9 @@ const ImageLibrary& load() {
   void* const module = dlopen(module_file().c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
     throw DataError(std::string("pictures need ") + module_name + ", which cannot be loaded (" +
-                    dlerror() + "); it belongs beside the program, or beside libsplotchcl");
+                    dlerror() +
+                    "); it belongs beside the program, or beside libsplotchcl, and is in Debian's "
+                    "package splotchcl-openimageio");
   }
   void* const entry = dlsym(module, image_library_entry);
   if (entry == nullptr) {

@@ -54,6 +54,8 @@ TEST(Arguments, TellTheVersion) {
   const ProgramResult result = splotchcl_in(folder, "--version");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, StartsWith("splotchcl "));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("\nOpenCL loader: "), HasSubstr("libOpenCL"),
+                                HasSubstr("HDF5 1."), HasSubstr("OpenEXR ")));
 }
 
 TEST(Arguments, AreNeeded) {
