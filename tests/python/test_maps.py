@@ -126,3 +126,44 @@ def test_what_progress_raises_ends_a_film_and_keeps_its_frames(universe, tmp_pat
         splotchcl.movie(scene, tmp_path / "f_%02d.png", progress=stop)
     assert sorted(path.name for path in tmp_path.glob("f_*.png")) == ["f_00.png", "f_01.png"]
     assert splotchcl.movie(scene, tmp_path / "f_%02d.png").state == "complete"
+
+
+class WithUnit(np.ndarray):
+    """As unyt and pynbody have them."""
+
+    units: str
+
+
+def in_unit(values, unit):
+    array = np.asarray(values).view(WithUnit)
+    array.units = unit
+    return array
+
+
+def map_of(arrays, length, mass, **settings):
+    particles = Particles().gas(
+        position=in_unit(arrays["position"], length),
+        mass=in_unit(arrays["mass"], mass),
+        smoothing_length=arrays["smoothing_length"],
+    )
+    return splotchcl.column(particles, size=(8, 8), **settings)
+
+
+def test_a_map_is_in_the_units_that_arrays_carry(renderer, arrays):
+    drawn = map_of(arrays, "kpc", "1e10*Msun", unit="Msun/pc^2")
+    assert drawn.length_unit == "kpc"
+    plain = splotchcl.column(
+        Particles().gas(**{k: arrays[k] for k in ("position", "mass", "smoothing_length")}),
+        size=(8, 8),
+    )
+    assert drawn.values == pytest.approx(plain.values * 1e10 / 1e6, rel=1e-5)
+
+
+def test_units_that_need_a_scale_factor_are_noted(renderer, arrays):
+    notes = map_of(arrays, "Mpc a h**-1", "Msol h**-1").notes
+    assert sum("does not take over" in note for note in notes) == 2
+
+
+def test_units_of_the_scene_come_before_those_of_arrays(renderer, arrays):
+    settings = {"map.length_unit": "Mpc", "map.mass_unit": "g"}
+    assert map_of(arrays, "kpc", "Msun", settings=settings).length_unit == "Mpc"

@@ -9,7 +9,16 @@ is. Errors are of `Error`, with one line each: `UsageError` is a ValueError, `Da
 `DeviceError` a RuntimeError.
 """
 
-from ._core import DataError, DeviceError, Error, UsageError
+try:
+    from ._core import DataError, DeviceError, Error, UsageError
+except ImportError as error:
+    if "libOpenCL" not in str(error):
+        raise
+    raise ImportError(
+        f"{error}: OpenCL's loader, which finds devices, is not installed (Debian: apt-get install "
+        "ocl-icd-libopencl1; conda: khronos-opencl-icd-loader)"
+    ) from error
+
 from ._core import version as __version__
 from ._galaxy import galaxy
 from ._image import Difference, Image

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
@@ -15,7 +16,7 @@ from . import _core
 from ._opencl import using_opencl
 from ._render import Progress, keys_of, open_drawable
 from ._scene import Scene
-from ._sources import Source
+from ._sources import Particles, Source
 
 
 @dataclass
@@ -138,8 +139,8 @@ def column(
     width, depth : float, optional
         In the snapshot's unit of length.
     unit : str, optional
-        Of the map, such as "Msun/pc^2"; None: what the snapshot's units give. What a file does not
-        say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
+        Of the map, such as "Msun/pc^2"; None: what the snapshot's units give, or those that arrays
+        carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
     noise : bool
         Also the effective number of particles.
 
@@ -165,6 +166,7 @@ def column(
         names = [types] if isinstance(types, str) else list(types)
         keys[f"component.{keys.get('map.component', 0)}.types"] = names
     what = open_drawable(scene, particles, keys)
+    what.notes.extend(_use_carried_units(what.scene, what.source))
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
@@ -173,6 +175,30 @@ def column(
         )
     notes = what.notes + [note for note in more if note not in what.notes]
     return Map(drawn, notes, what.scene, what.source)
+
+
+# A number, names of units with powers, and what joins them: but for a and h, whose values arrays do
+# not say.
+_PLAIN_UNIT = re.compile(r"(?!.*\b[ah]\b)[\w.+*/^ -]+")
+
+
+# What maps of arrays are in, unless the scene says so; notes on units that cannot be used.
+def _use_carried_units(scene: Scene, source: Source) -> list[str]:
+    notes = []
+    carried = source.units if isinstance(source, Particles) else {}
+    for kind, key in (("length", "map.length_unit"), ("mass", "map.mass_unit")):
+        unit = carried.get(kind)
+        if unit is None or scene[key]:
+            continue
+        text = unit.removesuffix(" (physical)").replace("**", "^").replace("Msol", "Msun")
+        if _PLAIN_UNIT.fullmatch(text):
+            scene[key] = text.replace("*", " ")
+        else:
+            notes.append(
+                f"arrays carry {kind} in {unit}, which the map does not take over; name its unit as "
+                f"settings['{key}']"
+            )
+    return notes
 
 
 def _map_keys(
