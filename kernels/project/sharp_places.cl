@@ -15,9 +15,6 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
   return sigma < p.sharp_width * view.place_error * slope_of_peak(of_crowd);
 }
 
-// Where splats turned out to lie upon one another, so many of them may be copies of one.
-#define MOST_COPIES 50.0f
-
 #ifdef WIDE_ANGLE
 // Of the lanes that are asked for: places, and what widths follow from.
 typedef struct PlaceArrays {
@@ -118,16 +115,17 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, const Vectors positi
 // picture: a crop is drawn as it is.
 INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak, VALUE crowd_peak,
                               const ProjectParameters p) {
-  // Copies of one particle are misplaced alike, other splats of a crowd either way.
-  const VALUE peak = min(crowd_peak, MOST_COPIES * own_peak);
   const VALUE reach = 7.0f * sigma + 2.0f;
   INTEGER in_picture = view.y + reach >= p.seen_top & view.y - reach <= p.seen_bottom;
 #ifndef ELLIPSES
   in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
 #endif
-  const VALUE fading = 0.693147181f * log2_positive(max(peak, (VALUE)(1.0f)));
-  // Copies of a faint one may lie upon one another, and are misplaced alike.
-  const VALUE of_copies = max(peak, min(8.0f * peak, (VALUE)(1.0f)));
-  const VALUE slope = choose(0.86f * of_copies, 2.0f * sqrt(fading), peak > 2.0f);
+  // Copies of a faint one may lie upon one another, up to a light of 1 or to what turned out to lie
+  // in one place. They are misplaced independently (dither_of), by half a unit of either sign: n of
+  // them by four times sqrt(n) / 2, one by itself by a whole unit.
+  const VALUE all = max(crowd_peak, (VALUE)(1.0f));
+  const VALUE of_copies = max(own_peak, 2.0f * sqrt(own_peak * all) - own_peak);
+  const VALUE fading = 0.693147181f * log2_positive(max(of_copies, (VALUE)(1.0f)));
+  const VALUE slope = choose(0.86f * of_copies, 2.0f * sqrt(fading), of_copies > 2.0f);
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));
 }
