@@ -11,8 +11,6 @@
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
 #define ANY(mask) any(mask)
-#define UNSIGNED uint8
-#define LANE_NUMBERS ((uint8)(0, 1, 2, 3, 4, 5, 6, 7))
 #else
 #define LANES 1
 #define VALUE float
@@ -27,8 +25,6 @@
 // vectors and any non-zero scalar, so masks work alike as long as they are only combined
 // with & and |.
 #define ANY(mask) (mask)
-#define UNSIGNED uint
-#define LANE_NUMBERS 0u
 #endif
 
 // 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.

@@ -15,6 +15,9 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
   return sigma < p.sharp_width * view.place_error * slope_of_peak(of_crowd);
 }
 
+// So many particles may be copies of one.
+#define MOST_COPIES 400.0f
+
 #ifdef WIDE_ANGLE
 // Of the lanes that are asked for: places, and what widths follow from.
 typedef struct PlaceArrays {
@@ -120,11 +123,10 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
 #ifndef ELLIPSES
   in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
 #endif
-  // Copies of a faint one may lie upon one another, up to a light of 1 or to what turned out to lie
-  // in one place. They are misplaced independently (dither_of), by half a unit of either sign: n of
-  // them by four times sqrt(n) / 2, one by itself by a whole unit.
+  // Copies of one may lie upon one another, up to a light of 1 or to what turned out to lie in one
+  // place, and are misplaced alike.
   const VALUE all = max(crowd_peak, (VALUE)(1.0f));
-  const VALUE of_copies = max(own_peak, 2.0f * sqrt(own_peak * all) - own_peak);
+  const VALUE of_copies = max(own_peak, min(MOST_COPIES * own_peak, all));
   const VALUE fading = 0.693147181f * log2_positive(max(of_copies, (VALUE)(1.0f)));
   const VALUE slope = choose(0.86f * of_copies, 2.0f * sqrt(fading), of_copies > 2.0f);
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));

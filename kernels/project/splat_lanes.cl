@@ -176,7 +176,7 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
 // Puts the splat on its grid: its width, weight and radius there. `extent` is in sigma.
 INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
                            const SampledLanes sampled, const BrightnessLanes brightness,
-                           VALUE extent, DitherLanes dither, const ProjectParameters p) {
+                           VALUE extent, const ProjectParameters p) {
   // Coarse grids know center values only, and splats of a crowd may be taken as means that are wide
   // enough for one.
   s->grid =
@@ -212,7 +212,7 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
 #ifdef ELLIPSES
   farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
 #endif
-  s->place = splat_place(s->x, view.x_low * shrink, s->y, view.y_low * shrink, dither, farthest, p);
+  s->place = splat_place(s->x, view.x_low * shrink, s->y, view.y_low * shrink, farthest, p);
   s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
 }
 
@@ -343,7 +343,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE extent = p.kernel_cut > 0.0f
                            ? (VALUE)(p.kernel_cut)
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
-  place_on_grid(&s, view, widths, sampled, brightness, extent, dither_of(i, sharp), p);
+  place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   keep_those_that_reach(&s, p);
   s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);
   s.color = normalized(particles.color, p.color);

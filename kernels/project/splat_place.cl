@@ -6,52 +6,28 @@ typedef struct PlaceLanes {
   INTEGER x, y, coarser;
 } PlaceLanes;
 
-// To less than a unit. `low` is what the last digit of `high` leaves, where it is known. With a
-// dither from 0 to 1, below 0 without, the unit above is taken as often as it is near.
-INLINED INTEGER in_units(VALUE high, VALUE low, VALUE dither, VALUE units_per_pixel) {
+// To less than a unit, and to half of one where `low` is known, what the last digit of `high`
+// leaves.
+INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel) {
   const VALUE units = high * units_per_pixel;
   const INTEGER whole = TO_INTEGER(units);
-  const INTEGER dithered = dither >= 0.0f;
-  if (!ANY((low != 0.0f) | dithered)) return whole;
+  if (!ANY(low != 0.0f)) return whole;
   const VALUE rest = (units - TO_VALUE(whole)) + low * units_per_pixel;
-  // The rest lies between -1 and 1: what is rounded down is made positive.
-  const INTEGER down = TO_INTEGER(rest + dither + 2.0f) - 2;
-  return whole + select(TO_INTEGER(rest), down, dithered);
-}
-
-// Numbers from 0 to 1 that follow from the numbers of the particles from i on, for two axes; below
-// 0 where a lane is not sharp.
-typedef struct DitherLanes {
-  VALUE x, y;
-} DitherLanes;
-
-// Copies of one particle would otherwise be misplaced alike, and all splats towards the middle.
-INLINED DitherLanes dither_of(uint i, INTEGER sharp) {
-  DitherLanes d;
-  d.x = d.y = (VALUE)(-1.0f);
-  if (!ANY(sharp)) return d;
-  UNSIGNED bits = (UNSIGNED)(i) + LANE_NUMBERS;
-  bits *= (UNSIGNED)(0x9E3779B1u);
-  bits ^= bits >> 15;
-  bits *= (UNSIGNED)(0x85EBCA77u);
-  bits ^= bits >> 13;
-  const UNSIGNED other = bits * (UNSIGNED)(0xC2B2AE3Du);
-  d.x = choose(d.x, TO_VALUE(bits >> 8) * 0x1p-24f, sharp);
-  d.y = choose(d.y, TO_VALUE(other >> 8) * 0x1p-24f, sharp);
-  return d;
+  const VALUE to_nearest = choose((VALUE)(-0.5f), (VALUE)(0.5f), rest > 0.0f);
+  return whole + select((INTEGER)(0), TO_INTEGER(rest + to_nearest), low != 0.0f);
 }
 
 // From pixels of the grid from its middle. The units hold `farthest`, within which the splat lies
 // and all copies of it that are drawn.
-INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, DitherLanes dither,
-                               VALUE farthest, const ProjectParameters p) {
+INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE farthest,
+                               const ProjectParameters p) {
   const INTEGER exponent = power_of_two(farthest);
   const INTEGER beyond = exponent + (p.place_bits - 29);
   PlaceLanes place;
   place.coarser = max(beyond, (INTEGER)(0));
   const VALUE units_per_pixel = AS_VALUE((127 + p.place_bits - place.coarser) << 23);
-  place.x = in_units(x, x_low, dither.x, units_per_pixel);
-  place.y = in_units(y, y_low, dither.y, units_per_pixel);
+  place.x = in_units(x, x_low, units_per_pixel);
+  place.y = in_units(y, y_low, units_per_pixel);
   return place;
 }
 

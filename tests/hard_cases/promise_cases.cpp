@@ -352,8 +352,7 @@ std::vector<HardCase> promise_cases() {
                 "what a coarse grid errs by reaches beyond two sigma where there are thousands",
                 "group point places 60 copies 400 y -50 sigma 7.4 width_range 1.04414 peak 8",
                 {LightPlan::emission})),
-      found("HundredsOfCopiesInALargePicture",
-            "copies are not misplaced alike where each is rounded by chance",
+      found("HundredsOfCopiesInALargePicture", "the same of hundreds whose light is 1 together",
             "light factor tolerance 1e-5 projection perspective picture_size 16384 crop_x 0.5 "
             "field_of_view 90 turned 1 source 9 jitter_seed 3 group scatter places 11 copies 400 "
             "sigma 0.3 peak 0.009",
