@@ -55,7 +55,8 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
 splotchcl_package(openimageio splotchcl-openimageio science
   "renderer of particle simulations - other picture formats" ${about}
   "." "This lets it read and write the formats of pictures that OpenImageIO knows.")
-if(SPLOTCHCL_PYTHON)
+# A module for another Python than Debian's own would not be found.
+if(SPLOTCHCL_PYTHON AND Python_EXECUTABLE MATCHES "^/usr/bin/")
   get_property(minor GLOBAL PROPERTY SPLOTCHCL_PYTHON_MINOR)
   math(EXPR next ${minor}+1)
   splotchcl_package(python3 python3-splotchcl python
