@@ -8,7 +8,7 @@ namespace {
 
 // Smaller tolerances need polynomials of full single precision ...
 constexpr double fast_tolerance = 3e-4;
-// ... and an erf better than the polynomial's 6e-7, which grows with sigma / pixel, to 1e-5 of
+// ... and an erf better than the polynomial's 2.3e-7, which grows with sigma / pixel, to 1e-5 of
 // the peak at sigma 6.
 constexpr double polynomial_erf_tolerance = 3e-5;
 

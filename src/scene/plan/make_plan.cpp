@@ -19,7 +19,7 @@ constexpr int splats_with_copies = 7;
 // Of the device's own, and of the polynomial (kernels/composite/shape.cl), which is cheap beside
 // everything else that a narrow splat costs.
 double erf_error(const FramePlan& plan) {
-  return plan.uses_device_erf ? 2e-7 : 6e-7;
+  return plan.uses_device_erf ? 2e-7 : 2.3e-7;
 }
 
 // Narrow splats are those of dense places, where many lie close together, and drawing them

@@ -1,0 +1,78 @@
+// The functions of kernels/composite/shape.cl keep the errors that their comments name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "device/opencl/launch.h"
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr const char* kernel = R"(
+__kernel void evaluate(__global const float* x, __global float* results) {
+  const uint i = get_global_id(0);
+  STORE(FUNCTION(LOAD(x + LANES * i)), results + LANES * i);
+}
+)";
+
+// Eight lanes or one.
+class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  std::vector<float> evaluate(const std::string& function, const std::string& defines,
+                              const std::vector<float>& x) {
+    const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
+    const compute::program program =
+        device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
+                               {"splat.h", "common.cl", "lanes.cl", "shape.cl"},
+                               kernel});
+    const auto results = device().pool.get<float>(x.size(), "result");
+    Launch(device(), "test", program.create_kernel("evaluate"))
+        .arg(device().pool.upload(x, "argument"))
+        .arg(results)
+        .run_items(x.size() / (GetParam() ? 8 : 1));
+    return device().pool.download(results, x.size());
+  }
+};
+
+std::vector<float> evenly(double first, double last, int count) {
+  std::vector<float> values;
+  for (int i = 0; i < count; ++i)
+    values.push_back(static_cast<float>(first + (last - first) * i / (count - 1)));
+  return values;
+}
+
+double largest(const std::vector<float>& x, const std::vector<float>& found,
+               const std::function<double(double found, double x)>& error) {
+  double most = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    most =
+        std::max(most, std::abs(error(static_cast<double>(found[i]), static_cast<double>(x[i]))));
+  }
+  return most;
+}
+
+TEST_P(ShapeFunctions, ErrorFunctionErrsBy2e_7) {
+  const std::vector<float> x = evenly(-6, 6, 1 << 16);
+  const auto error = [](double found, double at) { return found - std::erf(at); };
+  EXPECT_LE(largest(x, evaluate("error_function", "", x), error), 2.3e-7);
+}
+
+TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
+  const std::vector<float> x = evenly(-60, 0, 1 << 16);
+  const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };
+  EXPECT_LE(largest(x, evaluate("exp2_negative", "", x), error), 2.7e-6);
+  EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, ShapeFunctions, testing::Bool(),
+                         [](const testing::TestParamInfo<bool>& info) {
+                           return info.param ? "eight" : "one";
+                         });
+
+}  // namespace
+}  // namespace splotchcl::test
