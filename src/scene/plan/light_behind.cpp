@@ -70,7 +70,7 @@ double guess_light_behind(const Frame& frame) {
     sample_component(component, frame, stride, sample);
   const double source = std::min(brightest, brighter_than_most * high_source(sample));
   const double guess = std::max(source, brightest_background(frame));
-  return std::clamp(guess, std::max(least, frame.tolerance / most_missing), 1.0);
+  return std::min(1.0, std::max({guess, least, frame.tolerance / most_missing}));
 }
 
 }  // namespace splotchcl

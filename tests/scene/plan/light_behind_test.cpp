@@ -46,6 +46,12 @@ TEST(LightBehind, LeavesErrorsOfAbsorptionSmallAtLargeTolerances) {
   EXPECT_NEAR(light_behind(frame), 0.4, 1e-12);
 }
 
+TEST(LightBehind, IsNotBrighterThanWhiteAtAnyTolerance) {
+  Frame frame = gray_clouds(1e-4, 1);
+  frame.tolerance = 1;
+  EXPECT_EQ(light_behind(frame), 1);
+}
+
 TEST(LightBehind, IsThatOfTheBackgroundWhereItIsBrighter) {
   Frame frame = gray_clouds(1e-4, 1);
   frame.background = {0.1, 0.7, 0.2};
