@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -26,6 +27,11 @@ std::optional<double> scaled_limit(const std::optional<double>& limit, Scaling s
   return value;
 }
 
+// Of a range where the data give none: 1, or so much that large values differ by it.
+double width_at(double value) {
+  return std::max(1.0, 1e-3 * std::abs(value));
+}
+
 // Limits from the data, which must leave room for a limit that the scene gives.
 ValueRange range_from_data(const Column& column, const FieldMap& map,
                            const ComponentFields& fields) {
@@ -46,7 +52,8 @@ ValueRange range_from_data(const Column& column, const FieldMap& map,
   if (bulk->minimum < bulk->maximum) return *bulk;
   fields.note(fmt::format("{} is the same for all particles; they take the middle of its range",
                           map.field));
-  return {bulk->minimum - 0.5, bulk->maximum + 0.5};
+  const double width = width_at(bulk->minimum);
+  return {bulk->minimum - 0.5 * width, bulk->maximum + 0.5 * width};
 }
 
 }  // namespace
@@ -68,7 +75,11 @@ ScalarMap decide_map(const FieldMap& map, const std::function<Column()>& read,
   decided.maximum = maximum.value_or(data.maximum);
   if (decided.minimum < decided.maximum) return decided;
   // All data lie beyond the limit that is given: keep them all beyond it.
-  (minimum ? decided.maximum : decided.minimum) = minimum ? *minimum + 1 : *maximum - 1;
+  if (minimum) {
+    decided.maximum = *minimum + width_at(*minimum);
+  } else {
+    decided.minimum = decided.maximum - width_at(decided.maximum);
+  }
   return decided;
 }
 

@@ -219,6 +219,25 @@ TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
   EXPECT_THAT(notes_of(component, snapshot), Contains(HasSubstr("the same for all")));
 }
 
+// To such numbers 1 adds nothing.
+TEST(LoadFrameColor, OfOneLargeValueForAllIsTheMiddleOfThePalette) {
+  MemorySnapshot snapshot = gas_row();
+  snapshot.add(0, "temperature", std::vector<float>(5, 3e20F));
+  Component component = gas();
+  component.color = {"temperature", Scaling::linear, {}, {}};
+  const DrawnComponent drawn = load(component, snapshot);
+  EXPECT_LT(drawn.color.minimum, 3e20);
+  EXPECT_GT(drawn.color.maximum, 3.00001e20);
+}
+
+TEST(LoadFrameColor, KeepsARangeBeyondALargeLimit) {
+  MemorySnapshot snapshot = gas_row();
+  snapshot.add(0, "temperature", std::vector<float>(5, 100));
+  Component component = gas();
+  component.color = {"temperature", Scaling::linear, 3e20, {}};
+  EXPECT_GT(load(component, snapshot).color.maximum, 3.00001e20);
+}
+
 TEST(LoadFrameColor, SaysWhenNoValueCanBeScaled) {
   MemorySnapshot snapshot = gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 0));
