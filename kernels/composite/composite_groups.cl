@@ -59,9 +59,9 @@ inline void add_splat(float* pixel, const TileSplat splat, float shape, float ph
 inline void add_block(float* block, float* front) {
   for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
-    const float t = transmittance_of(front[c + 3]), behind = block[c + 3];
+    const float t = transmittance_of(front[c + 3]);
     front[c] += t * block[c];
-    front[c + 3] = carry(front[c + 3], t * opacity_of(behind), t * transmittance_of(behind));
+    front[c + 3] = carry_behind(front[c + 3], t, block[c + 3]);
     block[c + 3] = 0.0f;
 #else
     front[c] += block[c];

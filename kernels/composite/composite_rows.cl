@@ -23,8 +23,8 @@ typedef float8 __attribute__((aligned(4))) Eight;
 // a sum that is much larger than they are.
 #define SUMS 3
 
-inline void clear_planes(float* tile, int first, int end) {
-  for (int i = first * TILE_PIXELS; i < end * TILE_PIXELS; i += 8)
+inline void clear_planes(float* tile) {
+  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
     vstore8((float8)(0.0f), 0, tile + i);
 }
 
@@ -66,8 +66,7 @@ inline void add_block(const float* block, float* front) {
     const float8 behind = vload8(0, block + SUMS * TILE_PIXELS + i);
     const float8 t = transmittance_of(opacity);
     vstore8(vload8(0, front + i) + t * vload8(0, block + i), 0, front + i);
-    vstore8(carry(opacity, t * opacity_of(behind), t * transmittance_of(behind)), 0,
-            front + SUMS * TILE_PIXELS + i);
+    vstore8(carry_behind(opacity, t, behind), 0, front + SUMS * TILE_PIXELS + i);
   }
 }
 #else
@@ -356,10 +355,10 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   float tile[PLANES * TILE_PIXELS];
-  clear_planes(tile, 0, PLANES);
+  clear_planes(tile);
 #ifdef SPLATS_OF_BLOCK
   float front[PLANES * TILE_PIXELS];
-  clear_planes(front, 0, PLANES);
+  clear_planes(front);
 #endif
   uint drawn = 0, end = segment.end;
 #ifdef LIGHT_ORDERED
@@ -375,7 +374,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
       add_block(tile, front);
-      clear_planes(tile, 0, PLANES);
+      clear_planes(tile);
     }
 #endif
   }

@@ -9,8 +9,7 @@ inline void join_pixel(__global float* planes, size_t plane, __global const floa
     const float transmittance = transmittance_of(*opacity);
     const float behind = partial[(size_t)(c + 3) * TILE_WIDTH * TILE_HEIGHT + pixel];
     *source += transmittance * partial[(size_t)c * TILE_WIDTH * TILE_HEIGHT + pixel];
-    *opacity = carry(*opacity, transmittance * opacity_of(behind),
-                     transmittance * transmittance_of(behind));
+    *opacity = carry_behind(*opacity, transmittance, behind);
   }
 #else
   for (int c = 0; c < 3; ++c) {

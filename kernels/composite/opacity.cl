@@ -30,3 +30,10 @@ inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
   return carried + taken;
 }
 #endif
+
+// What is carried when layers that were put together by themselves come behind others, of which
+// `transmittance` is let through.
+inline VALUE carry_behind(VALUE carried, VALUE transmittance, VALUE behind) {
+  return carry(carried, transmittance * opacity_of(behind),
+               transmittance * transmittance_of(behind));
+}

@@ -43,22 +43,20 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   return make_pyramid(frame, plan.splats.mean_sigma, plan.grid_peak_error / plan.needs.grid_light);
 }
 
-double response_of(const Frame& frame, const FramePlan& plan) {
-  return response_to_splats(plan.light, brightest_source(frame), brightest_background(frame));
-}
-
 // What ends of splats do where light is uneven, beyond what even light allows for (set_limits):
 // errors in dim pictures show less.
 double light_of_uneven_ends(const Frame& frame, const FramePlan& plan) {
   if (!plan.needs_sort()) return 1;
-  return std::min(1.0, std::max(plan.light_behind, response_of(frame, plan)));
+  const double response =
+      response_to_splats(plan.light, brightest_source(frame), brightest_background(frame));
+  return std::min(1.0, std::max(plan.light_behind, response));
 }
 
 // Everything that follows from the precision, the shares and the needs.
 void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
   const double source = brightest_source(frame);
-  const double response = response_of(frame, plan);
+  const double response = response_to_splats(plan.light, source, background);
   const double unchecked = response_to_unchecked(plan.light, source, background);
   // Even light errs by no more than itself for each depth of 1.
   const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;

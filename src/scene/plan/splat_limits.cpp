@@ -15,15 +15,6 @@ float stop_limit(double brightest, double share) {
   return brightest > 0 ? static_cast<float>(std::min(1.0, share / brightest)) : 1.0f;
 }
 
-}  // namespace
-
-double center_value_error(double sigma_pixels) {
-  const double sigma2 = sigma_pixels * sigma_pixels;
-  return 8.2e-3 / (sigma2 * sigma2);
-}
-
-namespace {
-
 // The widened center value errs by 7.7e-3 / sigma^4 of the peak.
 float widest_of_means(double response, const ToleranceShares& shares) {
   const double sigma = std::pow(7.7e-3 * response / shares.pixel_mean, 0.25);
@@ -34,6 +25,11 @@ float widest_of_means(double response, const ToleranceShares& shares) {
 }
 
 }  // namespace
+
+double center_value_error(double sigma_pixels) {
+  const double sigma2 = sigma_pixels * sigma_pixels;
+  return 8.2e-3 / (sigma2 * sigma2);
+}
 
 SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
                                 LightPlan light, const Responses& response) {
