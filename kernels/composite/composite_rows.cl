@@ -1,22 +1,5 @@
 // Compositing for processors with wide registers: a work-item takes a segment of one
 // tile's list and updates rows of eight pixels in a private copy of the tile.
-// Rows are padded on the right: a row of eight may start at any column.
-#define ROW (TILE_WIDTH + 8)
-// Planes at distances of 4096 bytes would share lines of the cache.
-#define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
-// The first pixel's center, from the tile's middle.
-#define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
-#define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
-// Eight floats at any address in one access: vstore8 may become two, and a processor cannot
-// forward two stores to the load of the next splat's row.
-#ifdef __clang__
-typedef float8 __attribute__((aligned(4))) Eight;
-#define load_eight(p) (*(const Eight*)(p))
-#define store_eight(v, p) (*(Eight*)(p) = (v))
-#else
-#define load_eight(p) vload8(0, p)
-#define store_eight(v, p) vstore8(v, 0, p)
-#endif
 
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
 // is there when they are stored: however many splats there are, those of one list only are added to
@@ -88,75 +71,13 @@ inline void store_partial(const float* tile, __global float* partial) {
   }
 }
 
-#ifdef KERNEL_CUT
-// `shape` of eight pixels of a row, zero outside the cut.
-inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squeeze) {
-#ifdef ELLIPSES
-  int8 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
-#else
-  int8 outside = dx * dx + dy * dy > cut2;
-#endif
-#ifdef SAMPLING_MEAN
-  // The pixel that holds the centre keeps its light.
-  outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
-#endif
-  return select(shape, (float8)(0.0f), outside);
+inline float inverse_of(float sigma) {
+  return 1.44269504f / (sigma * sigma);
 }
-#else
-#define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
-#endif
-
-#ifdef LIGHT_ORDERED
-// The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
-// by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
-// since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
-#define LAYER_CHANNEL(c, PHI, PASSED)                                        \
-  {                                                                          \
-    float* const source = pixel + c * TILE_PIXELS;                           \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
-    const float8 o = load_eight(opacity), t = transmittance_of(o);           \
-    const float8 depth = shape * absorption##c, phi = PHI(depth);            \
-    const float8 covered = shape * phi;                                      \
-    const float8 u = t * covered;                                            \
-    store_eight(load_eight(source) + u * emission##c, source);               \
-    store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
-  }
-
-// The same with two terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2, and
-// every line is one multiplication and addition.
-#define THIN_CHANNEL(c)                                                      \
-  {                                                                          \
-    float* const source = pixel + c * TILE_PIXELS;                           \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
-    const float8 o = load_eight(opacity);                                    \
-    const float8 covered = shape - (shape * shape) * (0.5f * absorption##c); \
-    const float8 u = covered - o * covered;                                  \
-    store_eight(load_eight(source) + u * emission##c, source);               \
-    store_eight(o + u * absorption##c, opacity);                             \
-  }
-
-#define LAYER_ROWS(CHANNELS)                                                             \
-  for (int k = 0; k < window.rows; ++k, pixel += ROW) {                                  \
-    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    CHANNELS                                                                             \
-  }
-
-#define LAYER_CHANNELS(PHI, PASSED) \
-  LAYER_CHANNEL(0, PHI, PASSED)     \
-  LAYER_CHANNEL(1, PHI, PASSED)     \
-  LAYER_CHANNEL(2, PHI, PASSED)
-
-#ifdef KEEP_TRANSMITTANCE
-#define THIN_CHANNELS LAYER_CHANNELS(phi_short, passed_by_series)
-#else
-#define THIN_CHANNELS THIN_CHANNEL(0) THIN_CHANNEL(1) THIN_CHANNEL(2)
-#endif
-#endif
 
 // One axis of the separable shape at `count` pixels, the first one's centre at distance
 // `first`. Writes whole eights: `values` has room for 16 more than `count`.
-inline void fill_axis(float* values, float first, int count, float sigma, float inverse,
-                      float mean_sigma) {
+inline void fill_axis(float* values, float first, int count, float sigma, float mean_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (sigma < 0.0f) {
     for (int k = 0; k < count; k += 8) {
@@ -165,6 +86,7 @@ inline void fill_axis(float* values, float first, int count, float sigma, float 
     return;
   }
   if (sigma >= mean_sigma) {
+    const float inverse = inverse_of(sigma);
     for (int k = 0; k < count; k += 8) {
       vstore8(gaussian(first + (float)k + ramp, inverse), 0, values + k);
     }
@@ -184,55 +106,60 @@ inline void fill_axis(float* values, float first, int count, float sigma, float 
   }
 }
 
-// The window that one splat updates: `count` rows of eight pixels from (x, y) on.
-typedef struct Window {
-  int x, y, rows;
-} Window;
-
-// Updates the window with across[8] * along[rows].
-inline void update_window(float* tile, Window window, float8 across, const float* along,
-                          __global const TileSplat* splat, float deepest,
-                          const CompositeParameters p) {
-#ifdef KERNEL_CUT
-  const float8 dx = (float)window.x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float dy = (float)window.y + FIRST_Y - splat->y;
-  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
-  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
-#endif
-  float* pixel = tile + window.y * ROW + window.x;
-#ifdef LIGHT_ORDERED
-  const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
-  const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
-  const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
-  if (deepest <= p.phi_short) {
-    LAYER_ROWS(THIN_CHANNELS)
-  } else if (deepest <= p.phi_series) {
-    LAYER_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
-  } else {
-    LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
-  }
-#else
-  const float8 summed0 = across * splat->summed[0];
-  const float8 summed1 = across * splat->summed[1];
-  const float8 summed2 = across * splat->summed[2];
-  for (int k = 0; k < window.rows; ++k, pixel += ROW) {
-    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
-    store_eight(load_eight(pixel) + shape * summed0, pixel);
-    store_eight(load_eight(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
-    store_eight(load_eight(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
-  }
-#endif
-}
-
 // Pixel means of seven pixels, the first one's centre at distance `first`; the eighth is 0.
 inline float8 seven_means(float first, float sigma) {
   const float8 edges = error_function((first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) / sigma);
   return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
 }
 
+// Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
+// the first.
+inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
+#ifdef KERNEL_CUT
+  const float last = FIRST_X + (float)(width - 1);
+  const float nearest =
+      clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
+#ifdef ELLIPSES
+  const float part_of_radius = nearest / splat->along_x.radius;
+  const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+#else
+  const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+#endif
+  rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
+#endif
+  window->y = rows.x;
+  window->rows = rows.y - rows.x + 1;
+  return rows.x;
+}
+
+inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                           float mean_sigma, float deepest, const CompositeParameters* p) {
+  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, columns.y - columns.x + 1, sigma_x,
+            mean_sigma);
+  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, rows.y - rows.x + 1, sigma, mean_sigma);
+  Window window;
+  window.x = columns.x;
+#ifdef ROWS_OF_16
+  if (takes_rows_of_16(deepest, p)) {
+    for (; columns.y - window.x >= 8; window.x += 16) {
+      const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
+      update_window_of_16(tile, &window, load_sixteen(along_x + (window.x - columns.x)), along,
+                          splat);
+    }
+  }
+#endif
+  for (; window.x <= columns.y; window.x += 8) {
+    const float* along = along_y + (set_rows(&window, rows, 8, splat) - rows.x);
+    update_window(tile, &window, vload8(0, along_x + (window.x - columns.x)), along, splat, deepest,
+                  p);
+  }
+}
+
 // Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
 inline int add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
-                     const CompositeParameters p) {
+                     const CompositeParameters* p) {
   const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
@@ -258,16 +185,10 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
     const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
     float along[4];
     vstore4(means.hi, 0, along);
-    update_window(tile, window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
+    update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
                   p);
     return 1;
   }
-#endif
-  const float inverse = 1.44269504f / (sigma * sigma);
-#ifdef ELLIPSES
-  const float inverse_x = 1.44269504f / (sigma_x * sigma_x);
-#else
-  const float inverse_x = inverse;
 #endif
   if (columns_count <= 7 && rows_count <= 7 && !bright) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
@@ -278,6 +199,7 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
     float along[8];
     const float dx = (float)window.x + FIRST_X - splat->x,
                 dy = (float)window.y + FIRST_Y - splat->y;
+    const float inverse = inverse_of(sigma);
     float8 across;
     if (sigma < mean_sigma) {
       across = seven_means(dx, sigma);
@@ -287,39 +209,14 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
       vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse), 0, along);
     }
 #ifdef ELLIPSES
-    across = sigma_x < mean_sigma ? seven_means(dx, sigma_x)
-                                  : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_x);
+    across = sigma_x < mean_sigma
+                 ? seven_means(dx, sigma_x)
+                 : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_of(sigma_x));
 #endif
-    update_window(tile, window, across, along, splat, deepest, p);
+    update_window(tile, &window, across, along, splat, deepest, p);
     return 1;
   }
-  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
-  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, columns_count, sigma_x, inverse_x,
-            mean_sigma);
-  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, rows_count, sigma, inverse, mean_sigma);
-  window.y = rows.x;
-  window.rows = rows_count;
-  const float* along = along_y;
-  for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
-#ifdef KERNEL_CUT
-    // The disc's part of these columns.
-    const float nearest =
-        clamp(splat->x, (float)window.x + FIRST_X, (float)window.x + (FIRST_X + 7.0f)) - splat->x;
-#ifdef ELLIPSES
-    const float part_of_radius = nearest / splat->along_x.radius;
-    const float half_height =
-        splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
-#else
-    const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
-#endif
-    const int2 part = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
-    window.y = part.x;
-    window.rows = part.y - part.x + 1;
-    along = along_y + (part.x - rows.x);
-#endif
-    update_window(tile, window, vload8(0, along_x + (window.x - columns.x)), along, splat, deepest,
-                  p);
-  }
+  add_wide_splat(tile, splat, rows, columns, mean_sigma, deepest, p);
   return 1;
 }
 
@@ -366,7 +263,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   if (is_opaque(front, tile, p.stop)) end = segment.begin;
 #endif
   for (uint k = segment.begin; k < end; ++k) {
-    if (!add_splat(tile, entries + k, grid.mean_sigma, p)) continue;
+    if (!add_splat(tile, entries + k, grid.mean_sigma, &p)) continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
     if (drawn % 256u == 0u && is_opaque(front, tile, p.stop)) break;

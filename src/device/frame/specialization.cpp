@@ -20,6 +20,7 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
     : light_(plan.light),
       projection_(frame.projection),
       rows_(traits.rows),
+      rows_of_16_(traits.rows_of_16),
       extended_(plan.is_extended()),
       double_numbers_(traits.double_numbers),
       full_precision_(plan.precision != Precision::fast),
@@ -136,10 +137,15 @@ ProgramSource Specialization::composite() const {
             {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "precise.cl",
              "extended.cl", "extended_lanes.cl", "composite_extended.cl"}};
   }
-  defines += number_defines() + define_if(rows_, "LANES_8") + block_defines();
-  return {defines,
-          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl",
-           rows_ ? "composite_rows.cl" : "composite_groups.cl"}};
+  defines += number_defines() + define_if(rows_, "LANES_8") +
+             define_if(rows_ && rows_of_16_, "ROWS_OF_16") + block_defines();
+  std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
+                                    "lanes.cl", "shape.cl", "opacity.cl"};
+  if (rows_)
+    files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
+  else
+    files.push_back("composite_groups.cl");
+  return {defines, files};
 }
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than

@@ -67,6 +67,7 @@ class Specialization {
   LightPlan light_;
   Projection projection_;
   bool rows_;            // eight lanes, else one
+  bool rows_of_16_;      // wide splats are drawn in sixteen
   bool extended_;        // numbers of 45 bits
   bool double_numbers_;  // as doubles, else pairs of floats
   bool full_precision_, device_erf_;

@@ -17,6 +17,7 @@ DeviceTraits traits_of(const compute::device& device) {
     traits.segment_length = 4096;
   } else {
     traits.rows = true;
+    traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;
     traits.project_block = 8192;
     // Every chunk loads and stores all tiles; lists that are much longer leave the caches, and
     // ordered ones, of more and larger entries per splat, do so sooner.

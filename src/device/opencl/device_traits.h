@@ -12,6 +12,7 @@ struct DeviceTraits {
   bool is_gpu = false;
   bool shares_host_memory = false;         // buffers may lie in the caller's own memory
   bool rows = true;                        // eight lanes, rows of float8; not groups of work-items
+  bool rows_of_16 = false;                 // registers hold sixteen floats: wide splats take them
   bool double_numbers = false;             // extended numbers are double precision, not pairs
   std::uint32_t project_block = 0;         // particles per work-item of a projection
   std::uint32_t chunk_blocks = 0;          // such blocks per chunk of a sum

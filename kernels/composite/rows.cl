@@ -1,0 +1,124 @@
+// Rows of eight pixels of a tile, and how a splat updates a window of them.
+
+// Rows are padded on the right: a row of eight may start at any column.
+#define ROW (TILE_WIDTH + 8)
+// Planes at distances of 4096 bytes would share lines of the cache.
+#define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
+// The first pixel's center, from the tile's middle.
+#define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
+#define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
+// Eight floats at any address in one access: vstore8 may become two, and a processor cannot
+// forward two stores to the load of the next splat's row.
+#ifdef __clang__
+typedef float8 __attribute__((aligned(4))) Eight;
+#define load_eight(p) (*(const Eight*)(p))
+#define store_eight(v, p) (*(Eight*)(p) = (v))
+#else
+#define load_eight(p) vload8(0, p)
+#define store_eight(v, p) vstore8(v, 0, p)
+#endif
+
+#ifdef KERNEL_CUT
+// `shape` of eight pixels of a row, zero outside the cut.
+inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squeeze) {
+#ifdef ELLIPSES
+  int8 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
+#else
+  int8 outside = dx * dx + dy * dy > cut2;
+#endif
+#ifdef SAMPLING_MEAN
+  // The pixel that holds the centre keeps its light.
+  outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
+#endif
+  return select(shape, (float8)(0.0f), outside);
+}
+#else
+#define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
+#endif
+
+#ifdef LIGHT_ORDERED
+// The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
+// by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
+// since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
+#define LAYER_CHANNEL(c, PHI, PASSED)                                        \
+  {                                                                          \
+    float* const source = pixel + c * TILE_PIXELS;                           \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
+    const float8 o = load_eight(opacity), t = transmittance_of(o);           \
+    const float8 depth = shape * absorption##c, phi = PHI(depth);            \
+    const float8 covered = shape * phi;                                      \
+    const float8 u = t * covered;                                            \
+    store_eight(load_eight(source) + u * emission##c, source);               \
+    store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
+  }
+
+// The same with two terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2, and
+// every line is one multiplication and addition.
+#define THIN_CHANNEL(c)                                                      \
+  {                                                                          \
+    float* const source = pixel + c * TILE_PIXELS;                           \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
+    const float8 o = load_eight(opacity);                                    \
+    const float8 covered = shape - (shape * shape) * (0.5f * absorption##c); \
+    const float8 u = covered - o * covered;                                  \
+    store_eight(load_eight(source) + u * emission##c, source);               \
+    store_eight(o + u * absorption##c, opacity);                             \
+  }
+
+#define LAYER_ROWS(CHANNELS)                                                             \
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                 \
+    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
+    CHANNELS                                                                             \
+  }
+
+#define LAYER_CHANNELS(PHI, PASSED) \
+  LAYER_CHANNEL(0, PHI, PASSED)     \
+  LAYER_CHANNEL(1, PHI, PASSED)     \
+  LAYER_CHANNEL(2, PHI, PASSED)
+
+#ifdef KEEP_TRANSMITTANCE
+#define THIN_CHANNELS LAYER_CHANNELS(phi_short, passed_by_series)
+#else
+#define THIN_CHANNELS THIN_CHANNEL(0) THIN_CHANNEL(1) THIN_CHANNEL(2)
+#endif
+#endif
+
+// The window that one splat updates: `count` rows of eight pixels from (x, y) on.
+typedef struct Window {
+  int x, y, rows;
+} Window;
+
+// Updates the window with across[8] * along[rows].
+inline void update_window(float* tile, const Window* window, float8 across, const float* along,
+                          __global const TileSplat* splat, float deepest,
+                          const CompositeParameters* p) {
+#ifdef KERNEL_CUT
+  const float8 dx = (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float dy = (float)window->y + FIRST_Y - splat->y;
+  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
+  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+#endif
+  float* pixel = tile + window->y * ROW + window->x;
+#ifdef LIGHT_ORDERED
+  const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
+  const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
+  const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
+  if (deepest <= p->phi_short) {
+    LAYER_ROWS(THIN_CHANNELS)
+  } else if (deepest <= p->phi_series) {
+    LAYER_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
+  } else {
+    LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
+  }
+#else
+  const float8 summed0 = across * splat->summed[0];
+  const float8 summed1 = across * splat->summed[1];
+  const float8 summed2 = across * splat->summed[2];
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {
+    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
+    store_eight(load_eight(pixel) + shape * summed0, pixel);
+    store_eight(load_eight(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
+    store_eight(load_eight(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
+  }
+#endif
+}

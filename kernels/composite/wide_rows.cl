@@ -1,0 +1,89 @@
+// Rows of sixteen pixels, for processors whose registers hold as many: a splat that is wider than
+// eight pixels takes half as many steps. For what most of them are, sums and thin layers, and to
+// the same bits as rows of eight (composite_rows.cl).
+#ifdef ROWS_OF_16
+#ifdef __clang__
+typedef float16 __attribute__((aligned(4))) Sixteen;
+#define load_sixteen(p) (*(const Sixteen*)(p))
+#define store_sixteen(v, p) (*(Sixteen*)(p) = (v))
+#else
+#define load_sixteen(p) vload16(0, p)
+#define store_sixteen(v, p) vstore16(v, 0, p)
+#endif
+
+#ifdef KERNEL_CUT
+inline float16 cut_shape_of_16(float16 shape, float16 dx, float dy, float cut2, float squeeze) {
+#ifdef ELLIPSES
+  int16 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
+#else
+  int16 outside = dx * dx + dy * dy > cut2;
+#endif
+#ifdef SAMPLING_MEAN
+  // The pixel that holds the center keeps its light.
+  outside &= dx <= -0.5f | dx > 0.5f | (int16)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
+#endif
+  return select(shape, (float16)(0.0f), outside);
+}
+#else
+#define cut_shape_of_16(shape, dx, dy, cut2, squeeze) (shape)
+#endif
+
+// A call, and its argument tells the compiler that it may use registers of sixteen floats, from
+// which it keeps away otherwise.
+__attribute__((noinline)) void update_window_of_16(float* tile, const Window* window,
+                                                   float16 across, const float* along,
+                                                   __global const TileSplat* splat) {
+#ifdef KERNEL_CUT
+  const float16 dx = (float)window->x + FIRST_X - splat->x +
+                     (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const float dy = (float)window->y + FIRST_Y - splat->y;
+  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
+  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+#endif
+  const int rows = window->rows;
+  float* pixel = tile + window->y * ROW + window->x;
+#ifdef LIGHT_ORDERED
+#define THIN_CHANNEL_OF_16(c)                                                 \
+  {                                                                           \
+    float* const source = pixel + c * TILE_PIXELS;                            \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                     \
+    const float16 o = load_sixteen(opacity);                                  \
+    const float16 covered = shape - (shape * shape) * (0.5f * absorption##c); \
+    const float16 u = covered - o * covered;                                  \
+    store_sixteen(load_sixteen(source) + u * emission##c, source);            \
+    store_sixteen(o + u * absorption##c, opacity);                            \
+  }
+  const float16 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
+  const float16 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
+  const float16 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
+  for (int k = 0; k < rows; ++k, pixel += ROW) {
+    const float16 shape = cut_shape_of_16(across * along[k], dx, dy + (float)k, cut2, squeeze);
+    THIN_CHANNEL_OF_16(0)
+    THIN_CHANNEL_OF_16(1)
+    THIN_CHANNEL_OF_16(2)
+  }
+#undef THIN_CHANNEL_OF_16
+#else
+  const float16 summed0 = across * splat->summed[0];
+  const float16 summed1 = across * splat->summed[1];
+  const float16 summed2 = across * splat->summed[2];
+  for (int k = 0; k < rows; ++k, pixel += ROW) {
+    const float16 shape = cut_shape_of_16((float16)(along[k]), dx, dy + (float)k, cut2, squeeze);
+    store_sixteen(load_sixteen(pixel) + shape * summed0, pixel);
+    store_sixteen(load_sixteen(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
+    store_sixteen(load_sixteen(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
+  }
+#endif
+}
+
+// Whether rows of sixteen serve for a splat of such a depth.
+inline int takes_rows_of_16(float deepest, const CompositeParameters* p) {
+#ifndef LIGHT_ORDERED
+  return 1;
+#elif defined(KEEP_TRANSMITTANCE)
+  return 0;
+#else
+  return deepest <= p->phi_short;
+#endif
+}
+#endif
