@@ -24,14 +24,18 @@ double erf_error(const FramePlan& plan) {
 
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
-// are drawn again (docs/performance.md).
+// are drawn again (docs/performance.md). In full precision more of the promise goes to bright
+// splats, which are better not drawn as such.
 SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
   const std::array<double, 5> farther =
       plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.9, 1.4, 0.6, 0.0, 0.0};
-  for (std::size_t octave = 0; octave < farther.size(); ++octave)
-    needs.widths[octave].farther = std::max(0.0, farther[octave] + std::log(light_of_errors));
+  const double in_full = plan.precision == Precision::full ? 0.8 : 0;
+  for (std::size_t octave = 0; octave < farther.size(); ++octave) {
+    needs.widths[octave].farther =
+        std::max(0.0, farther[octave] + in_full + std::log(light_of_errors));
+  }
   return needs;
 }
 
