@@ -120,8 +120,10 @@ struct FramePlan {
   LightPlan light = LightPlan::emission;
   std::array<double, 3> source = {1, 1, 1};  // q, for proportional
   Precision precision = Precision::fast;
-  // The polynomial of erf would not hold the promise.
-  bool uses_device_erf = false;
+  // Places of sharp splats are known to less than 1e-8 pixels.
+  bool has_fine_places = false;
+  // Few splats are added up at once, so that the roundings of sums do not show.
+  bool adds_small_blocks = false;
   // Some particles have colors of their own.
   bool has_vector_colors = false;
   // Equirectangular pictures: splats are wider than high, and have copies beside the picture.

@@ -162,64 +162,6 @@ INLINED void amplitudes(const Splat splat, const ComponentColors colors,
 }
 #endif
 
-#ifndef EXTENDED_NUMBERS
-// A TileSplat in registers, without its place. One that is put together in memory from single
-// numbers is copied late: a processor cannot forward several stores to one load.
-typedef struct Entry {
-  float8 first;
-  float4 last;
-} Entry;
-
-INLINED Entry entry_of(const Splat splat, const ComponentColors colors, __global const float* knots,
-                       const BinParameters p) {
-  Entry entry;
-#ifdef LIGHT_ORDERED
-  float e[3], a[3];
-  amplitudes(splat, colors, knots, p, e, a);
-#ifdef ELLIPSES
-  entry.first =
-      (float8)(0.0f, 0.0f, splat.sigma, splat.radius, SIGMA_X(splat), RADIUS_X(splat), a[0], a[1]);
-  entry.last = (float4)(a[2], e[0], e[1], e[2]);
-#else
-  entry.first = (float8)(0.0f, 0.0f, splat.sigma, splat.radius, a[0], a[1], a[2], e[0]);
-  entry.last = (float4)(e[1], e[2], 0.0f, 0.0f);
-#endif
-#else
-  float sum[3];
-  sum_amplitude(splat, colors, knots, sum);
-#ifdef ELLIPSES
-  entry.first = (float8)(0.0f, 0.0f, splat.sigma, splat.radius, SIGMA_X(splat), RADIUS_X(splat),
-                         sum[0], sum[1]);
-  entry.last = (float4)(sum[2], 0.0f, 0.0f, 0.0f);
-#else
-  entry.first = (float8)(0.0f, 0.0f, splat.sigma, splat.radius, sum[0], sum[1], sum[2], 0.0f);
-#endif
-#endif
-  return entry;
-}
-
-// As many floats as a TileSplat has.
-INLINED void store_entry(const Entry entry, __global float* to) {
-#ifdef LIGHT_ORDERED
-  vstore8(entry.first, 0, to);
-#ifdef ELLIPSES
-  vstore4(entry.last, 0, to + 8);
-#else
-  vstore2(entry.last.s01, 0, to + 8);
-#endif
-#else
-#ifdef ELLIPSES
-  vstore8(entry.first, 0, to);
-  to[8] = entry.last.s0;
-#else
-  vstore4(entry.first.s0123, 0, to);
-  vstore2(entry.first.s45, 0, to + 4);
-  to[6] = entry.first.s6;
-#endif
-#endif
-}
-#endif
-
 __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const Splat* splats, __global const uint* order,
                           __global const BlockCounts* blocks, __global uint* counts,
@@ -238,33 +180,48 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #endif
     const Grid grid = grids[grid_of(splat)];
     const int4 range = unpack_tiles(tiles[slot - p.first], splat, grid);
+    TileSplat entry;
 #ifdef EXTENDED_NUMBERS
 #ifdef LIGHT_ORDERED
-    const uint extended_slot = order[slot];
+    entry.slot = order[slot];
 #else
-    const uint extended_slot = slot;
+    entry.slot = slot;
 #endif
 #else
     const int bits = place_bits_of(splat, grid);
     const float unit = unit_of(splat, grid);
-    Entry entry = entry_of(splat, component_colors[component_of(splat)], knots, p);
+    entry.sigma = splat.sigma;
+    entry.radius = splat.radius;
+#ifdef ELLIPSES
+    entry.along_x = splat.along_x;
+#endif
+    const ComponentColors colors = component_colors[component_of(splat)];
+#ifdef LIGHT_ORDERED
+    amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
+#else
+    sum_amplitude(splat, colors, knots, entry.summed);
+#endif
 #endif
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
         const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
         // Of the band that lists are made of.
         if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
-        const size_t place = (size_t)starts[tile] + count[tile]++;
-#ifdef EXTENDED_NUMBERS
-        entries[place].slot = extended_slot;
-#else
+#ifndef EXTENDED_NUMBERS
         const int middle_x = tx * TILE_WIDTH + TILE_WIDTH / 2;
         const int middle_y = ty * TILE_HEIGHT + TILE_HEIGHT / 2;
-        entry.first.s0 = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
-        entry.first.s1 = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
-        store_entry(entry, (__global float*)(entries + place));
-        ask_to_write(entries + place + ENTRIES_AHEAD);
+        entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
+        entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
+#ifdef FINE_PLACES
+        entry.x_low =
+            rest_from_pixel(splat.x, fraction_of_x(splat), middle_x, grid.middle_x, bits, unit);
+        entry.y_low =
+            rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
 #endif
+#endif
+        __global TileSplat* to = entries + (size_t)starts[tile] + count[tile]++;
+        *to = entry;
+        ask_to_write(to + ENTRIES_AHEAD);
       }
     }
   }

@@ -13,6 +13,9 @@ struct TileSplat {
 #ifdef ELLIPSES
   struct WidthAlongX along_x;
 #endif
+#ifdef FINE_PLACES
+  float x_low, y_low;   // what x and y do not hold of the place
+#endif
 #ifdef LIGHT_ORDERED
   float absorption[3];  // A w
   float emission[3];    // E w

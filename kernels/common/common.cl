@@ -72,6 +72,24 @@ INLINED float from_pixel(int place, int pixel, int middle, int place_bits, float
   return (float)(place - (from_middle << place_bits)) * unit;
 }
 
+#ifdef FINE_PLACES
+INLINED float fraction_of_x(const Splat splat) {
+  return (float)((int)(splat.place_fractions << 16) >> 16) * 0x1p-16f;
+}
+INLINED float fraction_of_y(const Splat splat) {
+  return (float)((int)splat.place_fractions >> 16) * 0x1p-16f;
+}
+
+// What from_pixel() rounds off, and the fraction of a unit.
+INLINED float rest_from_pixel(int place, float fraction, int pixel, int middle, int place_bits,
+                              float unit) {
+  const int from_middle = pixel - middle;
+  if (place_bits <= 0) return 0.0f;
+  const int units = place - (from_middle << place_bits);
+  return ((float)(units - convert_int_sat((float)units)) + fraction) * unit;
+}
+#endif
+
 // First and last pixel whose center (index + first_center) lies within `radius` of `center`,
 // clamped to [0, size - 1]; first > last where there is none. Clamped before the
 // conversion: a splat close to the camera may lie anywhere.

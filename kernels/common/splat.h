@@ -58,6 +58,11 @@ struct Splat {
 #ifdef VECTOR_COLORS
   struct OwnColor own_color;
 #endif
+#ifdef FINE_PLACES
+  // What x and y do not hold of the place of a sharp splat, in 2^-16 of their unit, signed: that of
+  // x in the lower 16 bits.
+  unsigned int place_fractions;
+#endif
 };
 
 struct ExtendedAlongX {

@@ -104,8 +104,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = 0; k < count; ++k) {
       const TileSplat splat = batch[k];
-      const float dx = (float)x + (0.5f - 0.5f * TILE_WIDTH) - splat.x;
-      const float dy = (float)y + (0.5f - 0.5f * TILE_HEIGHT) - splat.y;
+      const float dx = (float)x + (0.5f - 0.5f * TILE_WIDTH) - splat.x - LOW_X(splat);
+      const float dy = (float)y + (0.5f - 0.5f * TILE_HEIGHT) - splat.y - LOW_Y(splat);
       const float shape = pixel_shape(dx, dy, splat, grid.mean_sigma);
       if (shape > 0.0f) add_splat(pixel, splat, shape, p.phi_series);
       touching += touches_tile(splat);

@@ -75,27 +75,45 @@ inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
 }
 
+// fill_axis() of a bright splat.
+inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 8) {
+    const float8 edge = (first - 0.5f + (float)k + ramp - low) * per_sigma;
+    vstore8(complement_of_erf(fabs(edge)), 0, values + k);
+  }
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 8) {
+    const float8 left = (first - 0.5f + (float)k + ramp - low) * per_sigma;
+    const float8 right = (first + 0.5f + (float)k + ramp - low) * per_sigma;
+    const float8 mean =
+        mean_of_complements(left, vload8(0, values + k), right, vload8(0, values + k + 1));
+    vstore8(mean * (PIXEL_MEAN_SCALE * sigma), 0, values + k);
+  }
+}
+
 // One axis of the separable shape at `count` pixels, the first one's centre at distance
-// `first`. Writes whole eights: `values` has room for 16 more than `count`.
-inline void fill_axis(float* values, float first, int count, float sigma, float mean_sigma) {
+// `first` - `low`. Writes whole eights: `values` has room for 16 more than `count`.
+inline void fill_axis(float* values, float first, float low, int count, float sigma,
+                      float mean_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (sigma < 0.0f) {
-    for (int k = 0; k < count; k += 8) {
-      vstore8(bright_mean(first + (float)k + ramp, -sigma), 0, values + k);
-    }
+    fill_bright_axis(values, first, low, count, -sigma);
     return;
   }
   if (sigma >= mean_sigma) {
     const float inverse = inverse_of(sigma);
     for (int k = 0; k < count; k += 8) {
-      vstore8(gaussian(first + (float)k + ramp, inverse), 0, values + k);
+      vstore8(gaussian(first + (float)k + ramp - low, inverse), 0, values + k);
     }
     return;
   }
   // Neighbouring pixels share an edge.
   const float per_sigma = 1.0f / sigma;
   for (int k = 0; k <= count; k += 8) {
-    vstore8(error_function((first - 0.5f + (float)k + ramp) * per_sigma), 0, values + k);
+    vstore8(error_function((first - 0.5f + (float)k + ramp - low) * per_sigma), 0, values + k);
   }
   // Pixels beyond `count` in its last eight are drawn, too: the very last has no far edge.
   const int end = (count + 7) & ~7;
@@ -106,10 +124,22 @@ inline void fill_axis(float* values, float first, int count, float sigma, float 
   }
 }
 
-// Pixel means of seven pixels, the first one's centre at distance `first`; the eighth is 0.
-inline float8 seven_means(float first, float sigma) {
-  const float8 edges = error_function((first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) / sigma);
-  return ((float8)(edges.s1234, edges.s567, edges.s7) - edges) * (PIXEL_MEAN_SCALE * sigma);
+// Means of pixels between seven neighboring edges, of which `distances` are those from the center;
+// the eighth is 0.
+inline float8 means_between(float8 distances, float sigma) {
+  const float8 edges = distances / fabs(sigma);
+  if (sigma < 0.0f) {
+    const float8 beyond = complement_of_erf(fabs(edges));
+    return mean_of_complements(edges, beyond, edges.s12345677, beyond.s12345677) *
+           (PIXEL_MEAN_SCALE * -sigma);
+  }
+  const float8 within = error_function(edges);
+  return (within.s12345677 - within) * (PIXEL_MEAN_SCALE * sigma);
+}
+
+// Pixel means of seven pixels, the first one's center at distance `first` - `low`; the eighth is 0.
+inline float8 seven_means(float first, float low, float sigma) {
+  return means_between(first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low, sigma);
 }
 
 // Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
@@ -136,9 +166,10 @@ inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 ro
                            float mean_sigma, float deepest, const CompositeParameters* p) {
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
-  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, columns.y - columns.x + 1, sigma_x,
+  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
+            columns.y - columns.x + 1, sigma_x, mean_sigma);
+  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, LOW_Y(*splat), rows.y - rows.x + 1, sigma,
             mean_sigma);
-  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, rows.y - rows.x + 1, sigma, mean_sigma);
   Window window;
   window.x = columns.x;
 #ifdef ROWS_OF_16
@@ -171,18 +202,17 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
-  const int bright = min(sigma, sigma_x) < 0.0f;
 #ifndef ELLIPSES
-  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma && !bright) {
+  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
     // A grain: the edges of its pixels along both axes fit one call.
     window.rows = 3;
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     const float dx = (float)window.x + (FIRST_X - 0.5f) - splat->x;
     const float dy = (float)window.y + (FIRST_Y - 0.5f) - splat->y;
-    const float8 edges = error_function(
-        ((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) / sigma);
-    const float8 means = (edges.s12345677 - edges) * (PIXEL_MEAN_SCALE * sigma);
+    const float8 low = (float8)((float4)(LOW_X(*splat)), (float4)(LOW_Y(*splat)));
+    const float8 means = means_between(
+        (float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3) - low, sigma);
     float along[4];
     vstore4(means.hi, 0, along);
     update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
@@ -190,7 +220,7 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
     return 1;
   }
 #endif
-  if (columns_count <= 7 && rows_count <= 7 && !bright) {
+  if (columns_count <= 7 && rows_count <= 7) {
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
     // Rows beside the splat take its tails, which is no less exact.
     window.rows = rows_count <= 4 ? 4 : 7;
@@ -202,16 +232,16 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
     const float inverse = inverse_of(sigma);
     float8 across;
     if (sigma < mean_sigma) {
-      across = seven_means(dx, sigma);
-      vstore8(seven_means(dy, sigma), 0, along);
+      across = seven_means(dx, LOW_X(*splat), sigma);
+      vstore8(seven_means(dy, LOW_Y(*splat), sigma), 0, along);
     } else {
-      across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse);
-      vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse), 0, along);
+      across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat), inverse);
+      vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_Y(*splat), inverse), 0, along);
     }
 #ifdef ELLIPSES
-    across = sigma_x < mean_sigma
-                 ? seven_means(dx, sigma_x)
-                 : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7), inverse_of(sigma_x));
+    across = sigma_x < mean_sigma ? seven_means(dx, LOW_X(*splat), sigma_x)
+                                  : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat),
+                                             inverse_of(sigma_x));
 #endif
     update_window(tile, &window, across, along, splat, deepest, p);
     return 1;

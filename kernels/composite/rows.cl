@@ -93,8 +93,9 @@ inline void update_window(float* tile, const Window* window, float8 across, cons
                           __global const TileSplat* splat, float deepest,
                           const CompositeParameters* p) {
 #ifdef KERNEL_CUT
-  const float8 dx = (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float dy = (float)window->y + FIRST_Y - splat->y;
+  const float8 dx =
+      (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
+  const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif

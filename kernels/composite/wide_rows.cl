@@ -35,8 +35,9 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
                                                    __global const TileSplat* splat) {
 #ifdef KERNEL_CUT
   const float16 dx = (float)window->x + FIRST_X - splat->x +
-                     (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const float dy = (float)window->y + FIRST_Y - splat->y;
+                     (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15) -
+                     LOW_X(*splat);
+  const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif

@@ -16,6 +16,9 @@ typedef struct SplatArrays {
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
 #endif
+#ifdef FINE_PLACES
+  int place_fractions[LANES];
+#endif
   float sort_field[LANES];
 #ifdef TILES_OF_LANES
   int tiles[LANES];
@@ -48,6 +51,9 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.own_color.y, a->green);
   STORE(s.own_color.z, a->blue);
 #endif
+#ifdef FINE_PLACES
+  STORE(s.place.fractions, a->place_fractions);
+#endif
 #endif
 #endif
 }
@@ -70,6 +76,9 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
   splat.own_color.rgb[0] = a->red[k];
   splat.own_color.rgb[1] = a->green[k];
   splat.own_color.rgb[2] = a->blue[k];
+#endif
+#ifdef FINE_PLACES
+  splat.place_fractions = (uint)a->place_fractions[k];
 #endif
   return splat;
 }

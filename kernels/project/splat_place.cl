@@ -4,17 +4,25 @@
 // In units of 2^coarser of the grid's.
 typedef struct PlaceLanes {
   INTEGER x, y, coarser;
+#ifdef FINE_PLACES
+  INTEGER fractions;  // as in Splat
+#endif
 } PlaceLanes;
 
 // To less than a unit, and to half of one where `low` is known, what the last digit of `high`
-// leaves.
-INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel) {
+// leaves; then `fraction` takes 2^16 of what is left.
+INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
   const VALUE units = high * units_per_pixel;
   const INTEGER whole = TO_INTEGER(units);
+  *fraction = (INTEGER)(0);
   if (!ANY(low != 0.0f)) return whole;
   const VALUE rest = (units - TO_VALUE(whole)) + low * units_per_pixel;
   const VALUE to_nearest = choose((VALUE)(-0.5f), (VALUE)(0.5f), rest > 0.0f);
-  return whole + select((INTEGER)(0), TO_INTEGER(rest + to_nearest), low != 0.0f);
+  const INTEGER nearest = TO_INTEGER(rest + to_nearest);
+#ifdef FINE_PLACES
+  *fraction = select(*fraction, TO_INTEGER((rest - TO_VALUE(nearest)) * 65534.0f), low != 0.0f);
+#endif
+  return whole + select((INTEGER)(0), nearest, low != 0.0f);
 }
 
 // From pixels of the grid from its middle. The units hold `farthest`, within which the splat lies
@@ -26,8 +34,12 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
   PlaceLanes place;
   place.coarser = max(beyond, (INTEGER)(0));
   const VALUE units_per_pixel = AS_VALUE((127 + p.place_bits - place.coarser) << 23);
-  place.x = in_units(x, x_low, units_per_pixel);
-  place.y = in_units(y, y_low, units_per_pixel);
+  INTEGER fraction_x, fraction_y;
+  place.x = in_units(x, x_low, units_per_pixel, &fraction_x);
+  place.y = in_units(y, y_low, units_per_pixel, &fraction_y);
+#ifdef FINE_PLACES
+  place.fractions = (fraction_x & 0xffff) | (fraction_y << 16);
+#endif
   return place;
 }
 

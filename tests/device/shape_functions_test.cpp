@@ -62,6 +62,12 @@ TEST_P(ShapeFunctions, ErrorFunctionErrsBy2e_7) {
   EXPECT_LE(largest(x, evaluate("error_function", "", x), error), 2.3e-7);
 }
 
+TEST_P(ShapeFunctions, ComplementOfTheErrorFunctionErrsByPartsOfItself) {
+  const std::vector<float> x = evenly(0, 9.1, 1 << 16);
+  const auto error = [](double found, double at) { return found / std::erfc(at) - 1; };
+  EXPECT_LE(largest(x, evaluate("complement_of_erf", "", x), error), 5e-7);
+}
+
 TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
   const std::vector<float> x = evenly(-60, 0, 1 << 16);
   const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };

@@ -24,7 +24,8 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       extended_(plan.is_extended()),
       double_numbers_(traits.double_numbers),
       full_precision_(plan.precision != Precision::fast),
-      device_erf_(plan.uses_device_erf),
+      fine_places_(plan.has_fine_places && !extended_),
+      small_blocks_(plan.adds_small_blocks),
       kernel_cut_(frame.kernel.cut.has_value()),
       pixel_means_(frame.kernel.sampling == Sampling::mean),
       vector_colors_(plan.has_vector_colors),
@@ -44,7 +45,7 @@ std::uint32_t Specialization::planes() const {
 
 std::size_t Specialization::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
-         (vector_colors_ ? sizeof(shared::OwnColor) : 0);
+         (vector_colors_ ? sizeof(shared::OwnColor) : 0) + (fine_places_ ? sizeof(cl_uint) : 0);
 }
 
 std::size_t Specialization::extended_splat_bytes() const {
@@ -55,7 +56,8 @@ std::size_t Specialization::extended_splat_bytes() const {
 // TileSplat, bin.h.
 std::size_t Specialization::tile_splat_bytes() const {
   if (extended_) return sizeof(cl_uint);
-  const std::size_t shape = 4 * sizeof(float) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0);
+  const std::size_t shape = 4 * sizeof(float) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
+                            (fine_places_ ? 2 * sizeof(float) : 0);
   return shape + (is_ordered() ? 6 : 3) * sizeof(float);
 }
 
@@ -67,16 +69,17 @@ std::string Specialization::tile_size_defines() const {
 std::string Specialization::tile_defines() const {
   return tile_size_defines() + define("PLANES " + std::to_string(planes())) +
          define_if(is_ordered(), "LIGHT_ORDERED") + define_if(extended_, "EXTENDED_NUMBERS") +
-         define_if(ellipses_, "ELLIPSES");
+         define_if(ellipses_, "ELLIPSES") + define_if(fine_places_, "FINE_PLACES");
 }
 
 std::string Specialization::number_defines() const {
-  return define_if(full_precision_, "FULL_PRECISION") + define_if(device_erf_, "DEVICE_ERF") +
+  return define_if(full_precision_, "FULL_PRECISION") +
          define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE");
 }
 
 ProgramSource Specialization::project(ProjectOutput output) const {
-  std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS");
+  std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS") +
+                        define_if(fine_places_, "FINE_PLACES");
   if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
   if (output == ProjectOutput::splats) defines += define("COUNT_TILES") + tile_size_defines();
@@ -152,7 +155,7 @@ ProgramSource Specialization::composite() const {
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
 // digits need none beside the lists; opacities stand still behind too many layers.
 std::string Specialization::block_defines() const {
-  if (device_erf_ || !rows_) return define("SPLATS_OF_BLOCK 64u");
+  if (small_blocks_ || !rows_) return define("SPLATS_OF_BLOCK 64u");
   if (full_precision_) return define("SPLATS_OF_BLOCK 256u");
   return is_ordered() ? define("SPLATS_OF_BLOCK 1024u") : "";
 }

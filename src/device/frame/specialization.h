@@ -70,7 +70,7 @@ class Specialization {
   bool rows_of_16_;      // wide splats are drawn in sixteen
   bool extended_;        // numbers of 45 bits
   bool double_numbers_;  // as doubles, else pairs of floats
-  bool full_precision_, device_erf_;
+  bool full_precision_, fine_places_, small_blocks_;
   bool kernel_cut_, pixel_means_;
   bool vector_colors_, ellipses_;
   bool keeps_transmittance_;

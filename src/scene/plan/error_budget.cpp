@@ -8,9 +8,11 @@ namespace {
 
 // Smaller tolerances need polynomials of full single precision ...
 constexpr double fast_tolerance = 3e-4;
-// ... and an erf better than the polynomial's 2.3e-7, which grows with sigma / pixel, to 1e-5 of
-// the peak at sigma 6.
-constexpr double polynomial_erf_tolerance = 3e-5;
+// ... and places finer than the integers that hold the picture. Below this one, roundings of
+// distances and widths leave nothing to be had by them.
+constexpr double least_of_fine_places = 2e-6;
+// Roundings of sums show below this one.
+constexpr double small_blocks_tolerance = 3e-5;
 
 constexpr double euler = 2.718281828459045;
 
@@ -63,7 +65,6 @@ ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& 
 ErrorBudget make_extended_budget() {
   ErrorBudget budget;
   budget.precision = Precision::extended;
-  budget.uses_device_erf = true;
   budget.shares = extended_shares();
   return budget;
 }
@@ -73,7 +74,8 @@ ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan li
   ErrorBudget budget;
   if (frame.tolerance == 0) return make_extended_budget();
   budget.precision = drawn_for < fast_tolerance ? Precision::full : Precision::fast;
-  budget.uses_device_erf = drawn_for < polynomial_erf_tolerance;
+  budget.has_fine_places = budget.precision == Precision::full && drawn_for >= least_of_fine_places;
+  budget.adds_small_blocks = drawn_for < small_blocks_tolerance;
   budget.shares = share_out(drawn_for, light, options);
   budget.shares.promise = frame.tolerance;
   return budget;

@@ -9,7 +9,8 @@ namespace splotchcl {
 
 struct ErrorBudget {
   Precision precision = Precision::fast;
-  bool uses_device_erf = false;
+  bool has_fine_places = false;
+  bool adds_small_blocks = false;
   ToleranceShares shares;
 };
 

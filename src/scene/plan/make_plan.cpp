@@ -16,26 +16,30 @@ namespace {
 // Copies of a splat on either side of an equirectangular picture (kernels/project).
 constexpr int splats_with_copies = 7;
 
-// Of the device's own, and of the polynomial (kernels/composite/shape.cl), which is cheap beside
-// everything else that a narrow splat costs.
-double erf_error(const FramePlan& plan) {
-  return plan.uses_device_erf ? 2e-7 : 2.3e-7;
-}
+// Of the polynomial (kernels/composite/shape.cl), which is cheap beside everything else that a
+// narrow splat costs.
+constexpr double erf_error = 2.3e-7;
 
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
-// are drawn again (docs/performance.md). In full precision more of the promise goes to bright
-// splats, which are better not drawn as such.
+// are drawn again (docs/performance.md).
 SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
-  const std::array<double, 5> farther =
-      plan.needs_sort() ? std::array{3.5, 3.0, 2.3, 1.8, 0.6} : std::array{1.9, 1.4, 0.6, 0.0, 0.0};
-  const double in_full = plan.precision == Precision::full ? 0.8 : 0;
+  const std::array<double, 6> farther = plan.needs_sort()
+                                            ? std::array{3.5, 3.0, 2.3, 1.8, 0.6, 0.0}
+                                            : std::array{1.9, 1.4, 0.6, 0.0, 0.0, 0.0};
+  // The smaller the tolerance, the more of it goes to errors of peaks that lie upon one another.
+  const bool is_full = plan.precision == Precision::full, is_finest = plan.adds_small_blocks;
+  const double in_full = is_finest ? 1.2 : is_full ? 0.8 : 0;
   for (std::size_t octave = 0; octave < farther.size(); ++octave) {
     needs.widths[octave].farther =
         std::max(0.0, farther[octave] + in_full + std::log(light_of_errors));
   }
+  if (!plan.needs_sort() && is_full) needs.grid_light = is_finest ? 4 : 3;
+  const std::array<double, 5> light = {100, 100, 100, 6, 6};
+  for (std::size_t octave = 0; is_finest && octave < light.size(); ++octave)
+    needs.widths[octave].light = light[octave];
   return needs;
 }
 
@@ -66,14 +70,14 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;
   plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light,
                                     {of_even_light, response, unchecked});
-  plan.erf_error = erf_error(plan);
+  plan.erf_error = erf_error;
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
   if (plan.is_extended()) {
     plan.places = {};
   } else {
     const double of_places = plan.precision == Precision::full ? unchecked : response;
-    plan.places = choose_place_limits(frame, plan.drawn_for_tolerance, plan.precision, of_places);
+    plan.places = choose_place_limits(frame, plan, of_places);
   }
   plan.layers =
       choose_layer_limits(plan.shares, plan.light, std::max(background, source), unchecked);
@@ -84,7 +88,8 @@ constexpr double first_part_certified = 0.05;
 
 void set_budget(const ErrorBudget& budget, FramePlan& plan) {
   plan.precision = budget.precision;
-  plan.uses_device_erf = budget.uses_device_erf;
+  plan.has_fine_places = budget.has_fine_places;
+  plan.adds_small_blocks = budget.adds_small_blocks;
   plan.shares = budget.shares;
 }
 

@@ -41,6 +41,13 @@ double integer_place_error(const Frame& frame) {
   return largest_unit(frame) + 0x1p-19;
 }
 
+// The same with fractions of these units (kernels/common/splat.h): what the sixteen roundings of
+// numbers of 43 bits at least leave, of places anywhere in the picture.
+double fine_place_error(const Frame& frame) {
+  const double farthest = 0.5 * std::max(frame.width, frame.height) + 64;
+  return 0x1p-17 * largest_unit(frame) + 16 * 0x1p-43 * farthest;
+}
+
 // So many roundings of a width, of the exponent and of exp count with the logarithm of a peak.
 constexpr double roundings_of_fading = 16;
 
@@ -51,19 +58,19 @@ constexpr double part_in_single = 0.02, part_in_extended = 0.5;
 
 }  // namespace
 
-PlaceLimits choose_place_limits(const Frame& frame, double tolerance, Precision precision,
-                                double response) {
+PlaceLimits choose_place_limits(const Frame& frame, const FramePlan& plan, double response) {
   // What one splat may spend by its place; errors were a fifth of their bounds (docs/accuracy.md).
-  const double allowed = tolerance / std::max(1.0, response);
+  const double allowed = plan.drawn_for_tolerance / std::max(1.0, response);
   PlaceLimits limits;
   set_single_errors(frame, limits);
   limits.share = part_in_single * allowed;
   limits.sharp_width = static_cast<float>(rounding / limits.share);
   limits.most_fading = std::numeric_limits<float>::max();
   // At larger tolerances it takes stars far smaller than a pixel, right at a pixel's edge.
-  if (precision != Precision::full) return limits;
+  if (plan.precision != Precision::full) return limits;
   const double share = part_in_extended * allowed;
-  limits.too_sharp_width = static_cast<float>(integer_place_error(frame) / share);
+  const double error = plan.has_fine_places ? fine_place_error(frame) : integer_place_error(frame);
+  limits.too_sharp_width = static_cast<float>(error / share);
   limits.most_fading = static_cast<float>(share / (roundings_of_fading * rounding));
   return limits;
 }

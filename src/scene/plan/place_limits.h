@@ -5,9 +5,8 @@
 
 namespace splotchcl {
 
-// `tolerance`: what the frame is drawn for. `response`: what a relative error of every splat does
-// to the picture (error_budget.h).
-PlaceLimits choose_place_limits(const Frame& frame, double tolerance, Precision precision,
-                                double response);
+// For the precision and the tolerance that the plan has by now. `response`: what a relative error
+// of every splat does to the picture (error_budget.h).
+PlaceLimits choose_place_limits(const Frame& frame, const FramePlan& plan, double response);
 
 }  // namespace splotchcl
