@@ -6,7 +6,7 @@
 // the splat's center.
 struct TileSplat {
 #ifdef EXTENDED_NUMBERS
-  unsigned int slot;  // of the extended splat (composite_extended.cl)
+  unsigned int slot;  // of the extended splat (composite_extended_rows.cl)
 #else
   float x, y;
   float sigma, radius;  // sigma as in Splat

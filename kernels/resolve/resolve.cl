@@ -22,7 +22,7 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
   float8 transmitted = (float8)(0.0f);
   for (int c = 0; c < 3; ++c) {
 #ifdef EXTENDED_NUMBERS
-    // The two parts of a sum (composite_extended.cl); in the ordered plan three more of depths.
+    // The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
     __global const float* parts = pixels + (size_t)(2 * c) * grid.plane_size;
     const float8 sum = vload8(0, parts), low = vload8(0, parts + grid.plane_size);
 #else

@@ -7,7 +7,7 @@ namespace {
 
 // Nanoseconds on two cores.
 struct Rates {
-  double particle;                          // projected
+  double particle, extended_particle;       // projected
   double sorted;                            // splat
   double binned;                            // tile entry
   double entry;                             // composited, besides
@@ -15,8 +15,8 @@ struct Rates {
   double pixel;                             // resolved
 };
 
-constexpr Rates rates_of_sums = {11.6, 0, 24, 20, 2, 4, 50, 7.2};
-constexpr Rates rates_in_order = {18.5, 13, 42, 15, 2.2, 3, 65, 8.3};
+constexpr Rates rates_of_sums = {11.6, 90, 0, 9, 4, 1.1, 2.3, 3, 7.2};
+constexpr Rates rates_in_order = {22, 180, 13, 19, 35, 0.5, 0.9, 6, 8.3};
 
 double row_part(const Rates& rates, Precision precision) {
   switch (precision) {
@@ -38,8 +38,9 @@ double estimate_seconds(const Frame& frame, const FramePlan& plan, const SplatWo
   const double pixels =
       static_cast<double>(frame.crop.width) * static_cast<double>(frame.crop.height);
   const double nanoseconds =
-      rates.particle * static_cast<double>(particle_count(frame)) + rates.sorted * work.splats +
-      (rates.binned + rates.entry) * work.tile_entries +
+      (plan.is_extended() ? rates.extended_particle : rates.particle) *
+          static_cast<double>(particle_count(frame)) +
+      rates.sorted * work.splats + (rates.binned + rates.entry) * work.tile_entries +
       row_part(rates, plan.precision) * work.row_parts + rates.pixel * pixels;
   return 1e-9 * nanoseconds * 2 / std::max(cores, 1);
 }

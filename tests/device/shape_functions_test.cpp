@@ -75,6 +75,44 @@ TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
   EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
 }
 
+// Of kernels/extended/double_lanes.cl.
+class DoubleLanes : public StageTest {
+ protected:
+  // The largest part of itself by which `function` errs at these.
+  double largest_part(const std::string& function, const std::vector<float>& x,
+                      const std::function<double(double)>& exact) {
+    const compute::program program = device().programs.get(
+        {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n",
+         {"double_lanes.cl"},
+         R"(
+__kernel void evaluate(__global const float* x, __global double* results) {
+  const uint i = get_global_id(0);
+  vstore8(FUNCTION(convert_double8(vload8(i, x))), i, results);
+}
+)"});
+    const auto results = device().pool.get<double>(x.size(), "result");
+    Launch(device(), "test", program.create_kernel("evaluate"))
+        .arg(device().pool.upload(x, "argument"))
+        .arg(results)
+        .run_items(x.size() / 8);
+    const std::vector<double> found = device().pool.download(results, x.size());
+    double most = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      most = std::max(most, std::abs(found[i] / exact(static_cast<double>(x[i])) - 1));
+    return most;
+  }
+};
+
+TEST_F(DoubleLanes, ErrByThePartsThatTheirCommentsName) {
+  if (!device().traits.double_numbers) GTEST_SKIP() << "the device has no double precision";
+  EXPECT_LE(
+      largest_part("exp_of_minus", evenly(0, 700, 1 << 16), [](double y) { return std::exp(-y); }),
+      1e-14);
+  EXPECT_LE(largest_part("complement_of_erf", evenly(0, 10, 1 << 16),
+                         [](double x) { return std::erfc(x); }),
+            2e-13);
+}
+
 INSTANTIATE_TEST_SUITE_P(Lanes, ShapeFunctions, testing::Bool(),
                          [](const testing::TestParamInfo<bool>& info) {
                            return info.param ? "eight" : "one";

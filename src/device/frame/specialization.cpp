@@ -33,8 +33,8 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       keeps_transmittance_(plan.layers.keeps_transmittance),
       eye_offset_(frame.camera.eye_offset != 0),
       background_image_(frame.background_image != nullptr) {
-  if (rows_ && !extended_) {
-    tile_width_ = is_ordered() ? 32 : 64;
+  if (has_rows()) {
+    tile_width_ = is_ordered() || extended_ ? 32 : 64;
     tile_height_ = 32;
   }
 }
@@ -136,9 +136,14 @@ ProgramSource Specialization::composite() const {
                         define_if(pixel_means_, "SAMPLING_MEAN");
   if (extended_) {
     defines += define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS");
-    return {defines,
-            {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "precise.cl",
-             "extended.cl", "extended_lanes.cl", "composite_extended.cl"}};
+    std::vector<std::string> files = {
+        "splat.h",    "bin.h",       "composite.h",       "common.cl",         "lanes.cl",
+        "precise.cl", "extended.cl", "extended_lanes.cl", "extended_pixels.cl"};
+    if (has_rows())
+      files.insert(files.end(), {"double_lanes.cl", "composite_extended_rows.cl"});
+    else
+      files.push_back("composite_extended_groups.cl");
+    return {defines, files};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
              define_if(rows_ && rows_of_16_, "ROWS_OF_16") + block_defines();

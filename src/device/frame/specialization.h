@@ -28,7 +28,9 @@ class Specialization {
 
   bool is_ordered() const { return light_ == LightPlan::ordered; }
   bool is_extended() const { return extended_; }
-  bool has_rows() const { return rows_; }
+  // Whether a work-item composites rows of a tile, else a group of them its pixels. Pairs of floats
+  // have no rows.
+  bool has_rows() const { return rows_ && (!extended_ || double_numbers_); }
   bool has_vector_colors() const { return vector_colors_; }
   bool has_background_image() const { return background_image_; }
 

@@ -60,12 +60,12 @@ Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
       .arg(lists.entries)
       .arg(planes.light)
       .arg(partials);
-  if (specialization.is_extended()) {
-    launch.arg(splats.extended).run_groups(lists.segment_count, tile_pixels / 8);
-  } else if (specialization.has_rows()) {
+  if (specialization.is_extended()) launch.arg(splats.extended);
+  if (specialization.has_rows()) {
     launch.run_items(lists.segment_count);
   } else {
-    launch.run_groups(lists.segment_count, tile_pixels);
+    launch.run_groups(lists.segment_count,
+                      specialization.is_extended() ? tile_pixels / 8 : tile_pixels);
   }
   if (lists.partial_count > 0) join(lists, parameters, partials, planes);
   return planes;
