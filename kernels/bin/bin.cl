@@ -12,15 +12,6 @@ inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
 #endif
 }
 
-// Memory that will be needed soon, asked for early, is there when it is. OpenCL's own prefetch()
-// does nothing on PoCL.
-#ifdef __clang__
-#define ask_for(place) __builtin_prefetch((const void*)(size_t)(place))
-#define ask_to_write(place) __builtin_prefetch((const void*)(size_t)(place), 1)
-#else
-#define ask_for(place)
-#define ask_to_write(place)
-#endif
 // Splats in sorted order, and in each list the entries that follow.
 #define SPLATS_AHEAD 16
 #define ENTRIES_AHEAD 2

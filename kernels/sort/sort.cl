@@ -36,6 +36,9 @@ __kernel void sort_scan(const SortParameters p, __global uint* histograms) {
   }
 }
 
+// Pairs of a digit lie side by side, those of different digits all over memory.
+#define PAIRS_AHEAD 16
+
 __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
                            __global const uint* values, __global const uint* histograms,
                            __global uint* sorted_keys, __global uint* sorted_values) {
@@ -50,6 +53,8 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
     const uint place = next[(key >> p.shift) & (SORT_DIGITS - 1)]++;
     sorted_keys[place] = key;
     sorted_values[place] = values[i];
+    ask_to_write(sorted_keys + place + PAIRS_AHEAD);
+    ask_to_write(sorted_values + place + PAIRS_AHEAD);
   }
 }
 

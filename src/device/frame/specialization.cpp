@@ -121,14 +121,15 @@ ProgramSource Specialization::scan_blocks() {
 }
 
 ProgramSource Specialization::sort() {
-  return {"", {"sort.h", "sort.cl"}};
+  return {"", {"prefetch.cl", "sort.h", "sort.cl"}};
 }
 
 ProgramSource Specialization::bin() const {
   const std::string defines =
       tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
       define_if(vector_colors_, "VECTOR_COLORS") + define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
-  return {defines, {"splat.h", "project.h", "bin.h", "common.cl", "tiles.cl", "bin.cl"}};
+  return {defines,
+          {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl", "bin.cl"}};
 }
 
 ProgramSource Specialization::composite() const {
