@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
+#include "parallel/for_blocks.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame_check.h"
 
@@ -161,6 +163,23 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {
   find_inner_cells(frame);
+  if (!is_bound_) find_uneven_peaks(cells.peaks);
+}
+
+void OctaveErrors::find_uneven_peaks(const CellSums& peaks) {
+  constexpr std::size_t rows_at_once = 16;
+  squares_across_ = peaks.columns + 1;
+  squares_along_ = peaks.rows + 1;
+  const auto across = static_cast<std::size_t>(squares_across_);
+  const auto along = static_cast<std::size_t>(squares_along_);
+  uneven_peaks_.resize(across * along);
+  for_blocks(along, rows_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t y = first; y < last; ++y) {
+      for (std::size_t x = 0; x < across; ++x)
+        uneven_peaks_[y * across + x] =
+            peaks_around(static_cast<int>(x) - 1, static_cast<int>(y) - 1);
+    }
+  });
 }
 
 // Splats beyond the picture are collected in the cells at its edge.
@@ -239,15 +258,17 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
   if (most <= negligible) return most;
   double largest = 0;
   const CellRange here = cells_of(block, peak_side_);
+  const CellRange squares = {std::max(range.x0 - 1, -1), std::min(range.x1, squares_across_ - 1),
+                             std::max(range.y0 - 1, -1), std::min(range.y1, squares_along_ - 1)};
   const auto away = [](int square, int first, int end) {
     return std::max({0, first - square - 1, square - end + 1});
   };
-  for (int y = range.y0 - 1; y < range.y1; ++y) {
+  for (int y = squares.y0; y < squares.y1; ++y) {
     const int rows = away(y, here.y0, here.y1);
-    for (int x = range.x0 - 1; x < range.x1; ++x) {
+    const double* const uneven = uneven_peaks_.data() + std::ptrdiff_t{y + 1} * squares_across_ + 1;
+    for (int x = squares.x0; x < squares.x1; ++x) {
       const int cells = std::max(rows, away(x, here.x0, here.x1));
-      largest =
-          std::max(largest, peak_weights_[static_cast<std::size_t>(cells)] * peaks_around(x, y));
+      largest = std::max(largest, peak_weights_[static_cast<std::size_t>(cells)] * uneven[x]);
     }
   }
   return peak_error_ * largest;

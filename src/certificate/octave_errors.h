@@ -55,6 +55,7 @@ class OctaveErrors {
   double even_around(const CellRange& cell) const;
   void find_inner_cells(const Frame& frame);
   double peaks_around(int x, int y) const;
+  void find_uneven_peaks(const CellSums& peaks);
 
   bool is_bound_;
   int octave_, level_;
@@ -68,6 +69,10 @@ class OctaveErrors {
   std::vector<double> peak_weights_;  // of errors so many cells away, as an estimate
   int peak_reach_;  // cells from a pixel to the farthest splat whose errors show there
   BlockSums endings_, peaks_;
+  // peaks_around() of all squares that hold a cell, from (-1, -1) on; none where a bound is asked
+  // for. Blocks look at the same ones many times.
+  std::vector<double> uneven_peaks_;
+  int squares_across_ = 0, squares_along_ = 0;
 };
 
 }  // namespace splotchcl
