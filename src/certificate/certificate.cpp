@@ -1,6 +1,7 @@
 #include "certificate/certificate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "certificate/octave_errors.h"
@@ -55,6 +56,8 @@ class FrameErrors {
         promise_(plan.shares.promise),
         rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0) {
+    for (std::size_t octave = 0; octave < lights_.size(); ++octave)
+      lights_[octave] = plan.needs.widths[octave].light;
     octaves_.reserve(splats.cells.size());
     for (const PeakCells& of_octave : splats.cells)
       octaves_.emplace_back(of_octave, frame, plan);
@@ -103,11 +106,18 @@ class FrameErrors {
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
-        need.light = std::max(need.light, margin * parts[i].peak_light);
+        need.light = std::max(need.light, more_light(octaves_[i].octave(), parts[i].peak_light));
     }
   }
 
  private:
+  // What splats of an octave are to count as: their light, or twice what they counted as where that
+  // was not enough, since several octaves share the promise.
+  double more_light(int octave, double peak_light) const {
+    const double found = margin * peak_light, had = lights_[static_cast<std::size_t>(octave)];
+    return found > 1.01 * had ? found : 2 * had;
+  }
+
   // The block's even light, shared out among the octaves by how much light they have there.
   void share_even_light(const PixelBlock& pixels, double even, std::vector<Part>& parts) const {
     double light = 0;
@@ -123,6 +133,7 @@ class FrameErrors {
   std::vector<OctaveErrors> octaves_;
   bool is_bound_;
   double promise_, rest_, part_of_all_;
+  std::array<double, width_octaves> lights_{};  // that splats counted as
 };
 
 }  // namespace
