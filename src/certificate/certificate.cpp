@@ -53,6 +53,7 @@ class FrameErrors {
               const FramePlan& plan)
       : picture_(measure_light(image, frame, plan)),
         is_bound_(plan.certify),
+        is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
         rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0) {
@@ -103,6 +104,8 @@ class FrameErrors {
     if (peaks <= least_of_peaks) return;
     // All coarse grids are made for what lies on any of them.
     needs.grid_light = std::max(needs.grid_light, margin * on_grids);
+    // Edges of cut splats have no coarse grid that is good enough (make_plan.cpp).
+    if (is_cut_ && on_grids > 0) needs.grid_light = std::max(needs.grid_light, margin);
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
@@ -131,7 +134,7 @@ class FrameErrors {
 
   PictureLight picture_;
   std::vector<OctaveErrors> octaves_;
-  bool is_bound_;
+  bool is_bound_, is_cut_;
   double promise_, rest_, part_of_all_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
 };
