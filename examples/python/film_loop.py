@@ -26,5 +26,6 @@ particles.gas(position=position, mass=1.0, temperature=1e6 * np.exp(-radius / 3)
 
 scene = splotchcl.suggest(particles, size=(400, 300)).decide(particles)
 renderer = splotchcl.Renderer()
+scene = renderer.render(scene, particles).scene  # with the exposure that the first frame finds
 for number, frame in enumerate(scene.orbit(frames)):
     renderer.render(frame, particles).save(folder / f"frame_{number:04}.png")

@@ -8,11 +8,18 @@
 #include "splotchcl/vector.h"
 
 // What is done to a picture after it has been drawn (docs/finish.md). In this order:
-// exposure, saturation, contrast, inset, colour bars, scale bar, texts, cross-fade, fade.
+// exposure, tone, saturation, contrast, inset, colour bars, scale bar, texts, cross-fade, fade.
 namespace splotchcl {
 
 // Red, green, blue from 0 to 1 as the display shows them, whatever image.gamma is.
 using DisplayColor = std::array<double, 3>;
+
+// How light becomes what a display can show. With N a pixel's brightest channel and W the white
+// point, both after exposure, all channels are multiplied by T(N) / N, so that hues hold.
+//   linear  T = N / W
+//   asinh   T = asinh(10 N) / asinh(10 W), at most 1 (Lupton et al. 2004, PASP 116, 133)
+//   filmic  T = f(N) / f(W), at most 1, with a toe in the dark and a shoulder (src/finish/tone.h)
+enum class ToneCurve { linear, asinh, filmic };
 
 // Where in the picture something lies. Things at the same anchor stand below each other.
 enum class Anchor { top_left, top, top_right, left, right, bottom_left, bottom, bottom_right };
@@ -62,7 +69,11 @@ struct CrossFade {
 
 // All of it. Each default leaves the picture as it has been drawn.
 struct FinishSettings {
-  double exposure = 0;          // in stops: light is multiplied by 2^exposure
+  // In stops: light is multiplied by 2^exposure. Unset: found from the picture, for a film once.
+  std::optional<double> exposure = 0;
+  ToneCurve tone = ToneCurve::linear;
+  // Exposed light that becomes the display's white, > 0. Unset: found from the picture, as above.
+  std::optional<double> white = 1;
   double saturation = 1;        // >= 0; 0: gray, by the luminance of Rec. 709, 1: as drawn
   double contrast = 1;          // >= 0: display value v becomes pivot (v / pivot)^contrast
   double contrast_pivot = 0.5;  // a display value, > 0

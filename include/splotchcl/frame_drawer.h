@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "splotchcl/finish.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
@@ -28,6 +29,9 @@ struct FrameDrawerOptions {
 // One frame of a scene, drawn, and what is to be told of it.
 struct DrawnFrame {
   std::vector<Picture> pictures;  // finished, in linear light
+  // The scene's, with the exposure and the white that the pictures decided where the scene leaves
+  // them open. Nothing where no light was drawn that could decide.
+  std::optional<FinishSettings> finish;
   // Of all drawings together that the pictures are made of (eyes, faces, insets): seconds add up,
   // and what is counted is the largest, since they share their particles.
   RenderStats stats;

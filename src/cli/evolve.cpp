@@ -146,7 +146,7 @@ class Evolution {
     if (const auto warning = turning_warning(options_.duration_myr)) console_.note(*warning);
     if (pictures_) scene_.emplace(options_, galaxy);
     check_files(part, *start);
-    if (pictures_) begin_drawing();
+    if (pictures_) begin_drawing(galaxy);
     for (const int frame : part) {
       console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
       const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame, options_));
@@ -191,7 +191,7 @@ class Evolution {
     });
   }
 
-  void begin_drawing() {
+  void begin_drawing(const TurningGalaxy& galaxy) {
     const ImageSettings& image = scene_->scene().image;
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
       check_image_size(pictures_->at(0), size.width, size.height);
@@ -199,6 +199,10 @@ class Evolution {
                     [this](const std::string& note) { console_.note(note); });
     scene_->decide();
     drawer_->tell(scene_->notes());
+    if (!drawer_->lacks_tone(scene_->scene(), scene_->other_scenes())) return;
+    console_.status("finding the exposure");
+    drawer_->decide_tone(scene_->scene(), *scene_->snapshot_at(galaxy.at(0)),
+                         scene_->other_scenes());
   }
 
   const EvolveOptions& options_;

@@ -178,6 +178,7 @@ int run_render(const RenderOptions& options, Console& console) {
   console.status(fmt::format("drawing {} particles", particle_count(report.frame)));
   const DrawnFrame drawn = drawer->draw(source.scene, report.frame, source.snapshot->info());
   report.stats = drawn.stats;
+  report.finish = drawn.finish;
   for (const std::string& note : drawn.all_notes())
     console.note(note);
   report.draw_seconds = drawing.seconds();
@@ -185,8 +186,10 @@ int run_render(const RenderOptions& options, Console& console) {
   if (options.error_map) map = make_error_map(report.stats.check, report.frame.crop);
   const Stopwatch writing;
   console.status("writing " + output->string());
+  Scene drawn_scene = source.scene;
+  if (drawn.finish) drawn_scene.finish = *drawn.finish;
   write_pictures(*output, drawn.pictures,
-                 image_file_options(source.scene, metadata(source.scene, options, drawn.stats)));
+                 image_file_options(source.scene, metadata(drawn_scene, options, drawn.stats)));
   if (map) write_image(*options.error_map, *map, image_file_options(source.scene, {}));
   report.write_seconds = writing.seconds();
   if (options.stats) {

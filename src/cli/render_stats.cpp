@@ -45,6 +45,12 @@ Json stages_to_json(const RenderStats& stats) {
   return stages;
 }
 
+// What a scene may leave to its picture.
+Json finish_to_json(const std::optional<FinishSettings>& finish) {
+  if (!finish || !finish->exposure || !finish->white) return nullptr;
+  return {{"exposure", *finish->exposure}, {"white", *finish->white}};
+}
+
 Json to_json(const RenderReport& report) {
   const Frame& frame = report.frame;
   return {{"version", SPLOTCHCL_VERSION},
@@ -56,6 +62,7 @@ Json to_json(const RenderReport& report) {
           {"crop", {frame.crop.x, frame.crop.y, frame.crop.width, frame.crop.height}},
           {"tolerance", frame.tolerance},
           {"plan", plan_to_json(report.plan)},
+          {"finish", finish_to_json(report.finish)},
           {"check", check_to_json(report.stats.check)},
           {"renderer", report.reference ? "reference" : "device"},
           {"device", report.stats.device},

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "splotchcl/film.h"
+#include "splotchcl/finish.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
@@ -18,6 +20,7 @@ struct RenderReport {
   Frame frame;
   FramePlan plan;
   RenderStats stats;
+  std::optional<FinishSettings> finish;  // as DrawnFrame has it
   double read_seconds = 0, draw_seconds = 0, write_seconds = 0;
 };
 

@@ -5,9 +5,10 @@
 
 namespace splotchcl {
 
-// Exposure, then saturation, then contrast, of linear light; alpha stays. Nothing happens to
-// pixels for settings that change nothing.
+// Exposure, then tone, saturation and contrast, of linear light; alpha stays. Nothing happens to
+// pixels for settings that change nothing. Exposure and white are known (finish/tone_levels.h).
 //   exposure     L' = L 2^exposure
+//   tone         as finish/tone.h has it
 //   saturation   L' = max(0, Y + saturation (L - Y)), Y = 0.2126 R + 0.7152 G + 0.0722 B
 //   contrast     L' = p (L / p)^contrast with p = contrast_pivot^gamma, which is
 //                v' = pivot (v / pivot)^contrast of display values v = L^(1/gamma)

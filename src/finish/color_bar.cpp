@@ -157,7 +157,8 @@ bool is_white(const std::vector<Rgb>& knots) {
 
 // Opaque matter shows brightness * palette / (factor * absorption palette).
 bool keeps_palette(const DrawnComponent& component, const FinishSettings& finish) {
-  const bool is_unchanged = finish.exposure == 0 && finish.saturation == 1 && finish.contrast == 1;
+  const bool is_unchanged = finish.exposure == 0 && finish.tone == ToneCurve::linear &&
+                            finish.white == 1 && finish.saturation == 1 && finish.contrast == 1;
   return is_unchanged && component.particles.color_vector.is_absent() &&
          component.absorption.kind == Absorption::Kind::factor &&
          component.absorption.factor == component.brightness &&

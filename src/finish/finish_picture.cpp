@@ -102,12 +102,12 @@ void PictureFinish::prepare(const Scene& scene, const Frame& frame, const Snapsh
   }
 }
 
-void PictureFinish::apply(Image& image, const DrawFrame& draw) const {
-  adjust_light(image, settings_, gamma_);
+void PictureFinish::apply(Image& image, const FinishSettings& light, const DrawFrame& draw) const {
+  adjust_light(image, light, gamma_);
   Canvas canvas(image, crop_);
   if (inset_) {
     Image picture = draw(inset_->frame);
-    adjust_light(picture, settings_, gamma_);
+    adjust_light(picture, light, gamma_);
     put(canvas, *inset_, picture);
   }
   for (const Overlay& overlay : overlays_)

@@ -29,8 +29,9 @@ class PictureFinish {
   PictureFinish(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                 const ColorBarContent& color_bar);
 
-  // `image` is the frame's, or the eye's, picture; `draw` draws the inset.
-  void apply(Image& image, const DrawFrame& draw) const;
+  // `image` is the frame's, or the eye's, picture; `draw` draws the inset. `light` are the scene's
+  // settings with an exposure and a white, which the pictures may have had to show first.
+  void apply(Image& image, const FinishSettings& light, const DrawFrame& draw) const;
 
  private:
   void prepare(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,

@@ -18,9 +18,8 @@ namespace {
 
 constexpr int gas = 0, halo = 1, disk = 2, bulge = 3, stars = 4;
 
-// Columns of matter span far more than a display does: a bright picture's dark parts need
-// lifting.
-constexpr double gamma = 1.5;
+// What displays expect.
+constexpr double gamma = 2.2;
 
 // Powers of ten, or parts of the unit on a linear scale, that a field must span to give
 // a picture colours.
@@ -87,6 +86,7 @@ Component component_for(const ParticleTypeInfo& type) {
   component.name = particle_type_name(type.type);
   component.types = {type.type};
   component.weight = has_masses(type) ? WeightModel::mass : WeightModel::constant;
+  component.absorption = {Absorption::Kind::none, 0};
   return component;
 }
 
@@ -145,13 +145,11 @@ bool has_one_size(const Snapshot& snapshot, int type) {
                                              [&](float length) { return length == lengths[0]; });
 }
 
-// Light as it is: it adds up.
 void give_own_colors(Component& component, const std::string& field) {
   component.color = FieldMap();
   component.intensity = FieldMap();
   component.color_vector = field;
   component.brightness = 1;
-  component.absorption = {Absorption::Kind::none, 0};
 }
 
 Component type_component(const Snapshot& snapshot, const ParticleTypeInfo& type, bool is_alone) {
@@ -209,6 +207,7 @@ std::vector<Component> choose_components(const Snapshot& snapshot) {
 Component joint_component(const Snapshot& snapshot, const std::vector<int>& types) {
   Component component;
   component.types = types;
+  component.absorption = {Absorption::Kind::none, 0};
   component.color = estimated_density(Scaling::log);
   component.palette = "hot_gas";
   const bool have_masses = std::all_of(types.begin(), types.end(), [&](int type) {
@@ -232,6 +231,14 @@ void show_contrast(const Snapshot& snapshot, Component& component) {
   component.intensity.percentiles = upper_half;
   constexpr double small = 0.25;
   if (has_one_size(snapshot, component.types.front())) component.size_factor = small;
+}
+
+// Matter absorbs nothing, so that light adds up: columns of it span far more than a display does,
+// and what is dense would be as white as what is denser. The tone curve brings it within reach.
+void show_all_light(FinishSettings& finish) {
+  finish.exposure.reset();
+  finish.tone = ToneCurve::filmic;
+  finish.white.reset();
 }
 
 std::vector<int> types_of(const std::vector<Component>& components) {
@@ -275,6 +282,7 @@ Scene suggest_scene(const Snapshot& snapshot) {
   Scene scene;
   scene.snapshot = info.files.front().string();
   scene.image.gamma = gamma;
+  show_all_light(scene.finish);
   scene.components = choose_components(snapshot);
   const Target target =
       suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);

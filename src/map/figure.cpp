@@ -30,6 +30,8 @@ Scene scene_of_figure(const Map& map, const Scene& scene) {
   figure.finish = scene.finish;
   // The colors stand for values: light is not changed.
   figure.finish.exposure = 0;
+  figure.finish.tone = ToneCurve::linear;
+  figure.finish.white = 1;
   figure.finish.saturation = figure.finish.contrast = 1;
   figure.finish.inset.show = false;
   figure.finish.cross_fade = {};
@@ -92,7 +94,7 @@ Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapsh
   for (const double level : figure.levels)
     draw_contours(contour_pieces(map, level),
                   std::max(1.0, std::min(map.width, map.height) / 700.0), image);
-  finish.apply(image, [](const Frame&) { return Image(); });
+  finish.apply(image, finished.finish, [](const Frame&) { return Image(); });
   return image;
 }
 

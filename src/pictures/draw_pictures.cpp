@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "finish/cross_fade.h"
 #include "finish/fade.h"
 #include "finish/finish_picture.h"
+#include "finish/tone_levels.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
@@ -20,37 +22,89 @@ void copy_into(const Image& part, int x, int y, Image& whole) {
   }
 }
 
-// The scene's own pictures, before anything is faded.
-std::vector<Picture> draw_views(const Scene& scene, const Frame& frame,
-                                const SnapshotInfo& snapshot, const DrawFrame& draw) {
-  std::vector<Picture> pictures;
-  for (const PictureSize& size : picture_sizes(scene, frame.crop.width, frame.crop.height)) {
-    pictures.push_back({size.suffix, Image(size.width, size.height)});
+Image cut_out(const Image& whole, const Rectangle& part) {
+  Image image(part.width, part.height);
+  for (int row = 0; row < part.height; ++row) {
+    const float* const first = whole.at(part.x, part.y + row);
+    std::copy(first, first + 4 * static_cast<std::size_t>(part.width), image.at(0, row));
   }
-  for (const ViewPlace& place : view_places(scene)) {
-    ViewPlace between_eyes = place;
-    between_eyes.eye.reset();
-    const PictureFinish finish(scene, frame_of_view(scene, frame, between_eyes), snapshot,
-                               place.eye);
-    Image image = draw(frame_of_view(scene, frame, place));
-    finish.apply(image, draw);
+  return image;
+}
+
+// All views of a scene on the way to its pictures: drawn one after the other, and finished once
+// all of them have shown how much light there is, where that is asked for.
+class Views {
+ public:
+  Views(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot)
+      : scene_(scene), frame_(frame), places_(view_places(scene)) {
+    for (const ViewPlace& place : places_) {
+      ViewPlace between_eyes = place;
+      between_eyes.eye.reset();
+      finishes_.emplace_back(scene, frame_of_view(scene, frame, between_eyes), snapshot, place.eye);
+    }
+  }
+
+  DrawnPictures draw(const DrawFrame& draw) const {
+    DrawnPictures drawn;
+    drawn.finish = scene_.finish;
+    std::vector<Image> images;
+    if (has_open_tone(scene_.finish)) {
+      LightHistogram light;
+      for (const ViewPlace& place : places_)
+        images.push_back(draw_with_light(place, draw, light));
+      drawn.finish = with_any_tone(scene_.finish, light);
+      drawn.is_black = !with_tone_of(scene_.finish, light);
+    }
+    for (const PictureSize& size : picture_sizes(scene_, frame_.crop.width, frame_.crop.height))
+      drawn.pictures.push_back({size.suffix, Image(size.width, size.height)});
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Image image =
+          images.empty() ? draw(frame_of_view(scene_, frame_, places_[i])) : std::move(images[i]);
+      finishes_[i].apply(image, drawn.finish, draw);
+      put(image, places_[i], drawn.pictures);
+    }
+    return drawn;
+  }
+
+ private:
+  // A crop has the whole picture's exposure.
+  Image draw_with_light(const ViewPlace& place, const DrawFrame& draw,
+                        LightHistogram& light) const {
+    Frame view = frame_of_view(scene_, frame_, place);
+    view.crop = {0, 0, view.width, view.height};
+    Image image = draw(view);
+    light.add(image);
+    const bool is_whole = frame_.crop.width == view.width && frame_.crop.height == view.height;
+    return is_whole ? image : cut_out(image, frame_.crop);
+  }
+
+  static void put(const Image& image, const ViewPlace& place, std::vector<Picture>& pictures) {
     const auto picture = std::find_if(pictures.begin(), pictures.end(),
                                       [&](const Picture& p) { return p.suffix == place.suffix; });
     copy_into(image, place.column * image.width, place.row * image.height, picture->image);
   }
-  return pictures;
-}
+
+  const Scene& scene_;
+  const Frame& frame_;
+  std::vector<ViewPlace> places_;
+  std::vector<PictureFinish> finishes_;
+};
 
 }  // namespace
 
-std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
-                                   const SnapshotInfo& snapshot, const DrawFrame& draw,
-                                   std::vector<std::string>& notes, OtherScenes& other_scenes) {
+DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                            const DrawFrame& draw, std::vector<std::string>& notes,
+                            OtherScenes& other_scenes) {
   const std::optional<Scene> other = cross_fade_scene(scene);
   const auto& [file, amount] = scene.finish.cross_fade;
-  std::vector<Picture> pictures = other && amount == 1
-                                      ? other_scenes.draw(file, *other, frame.crop, draw, notes)
-                                      : draw_views(scene, frame, snapshot, draw);
+  DrawnPictures drawn;
+  drawn.finish = scene.finish;
+  if (other && amount == 1) {
+    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, notes);
+  } else {
+    drawn = Views(scene, frame, snapshot).draw(draw);
+  }
+  std::vector<Picture>& pictures = drawn.pictures;
   if (other && amount < 1) {
     const std::vector<Picture> others = other_scenes.draw(file, *other, frame.crop, draw, notes);
     for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -58,14 +112,14 @@ std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
   }
   for (Picture& picture : pictures)
     fade_to_color(picture.image, scene.finish, scene.image.gamma);
-  return pictures;
+  return drawn;
 }
 
 std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
                                    const SnapshotInfo& snapshot, const DrawFrame& draw,
                                    std::vector<std::string>& notes) {
   OtherScenes others;
-  return draw_pictures(scene, frame, snapshot, draw, notes, others);
+  return draw_pictures(scene, frame, snapshot, draw, notes, others).pictures;
 }
 
 std::vector<Picture> draw_pictures(const Scene& scene, const Snapshot& snapshot,

@@ -1,6 +1,9 @@
 #include "pictures/other_scenes.h"
 
+#include <utility>
+
 #include "finish/cross_fade.h"
+#include "finish/tone_levels.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl {
@@ -15,14 +18,26 @@ void OtherScenes::decide(const Scene& scene) {
   other.decided = fixed_scene(splotchcl::decide(open, *other.snapshots.at(open), ignored));
 }
 
+bool OtherScenes::lacks_tone(const Scene& scene) const {
+  const std::optional<Scene> other = cross_fade_scene(scene);
+  if (!other || !has_open_tone(other->finish)) return false;
+  const auto known = by_file_.find(scene.finish.cross_fade.scene);
+  return known == by_file_.end() || !known->second.tone;
+}
+
 std::vector<Picture> OtherScenes::draw(const std::string& file, Scene other, const Rectangle& crop,
                                        const DrawFrame& draw, std::vector<std::string>& notes) {
   OtherScene& known = by_file_[file];
   if (known.decided) other.components = known.decided->components;
+  const bool is_open = has_open_tone(other.finish);
+  if (is_open && known.tone) take_tone(*known.tone, other.finish);
   const std::shared_ptr<const Snapshot> snapshot = known.snapshots.at(other);
   Frame frame = load_frame(other, *snapshot, notes);
+  OtherScenes none;  // it fades to no third
   frame.crop = crop;
-  return draw_pictures(other, frame, snapshot->info(), draw, notes);
+  DrawnPictures drawn = draw_pictures(other, frame, snapshot->info(), draw, notes, none);
+  if (is_open && !known.tone && !drawn.is_black) known.tone = drawn.finish;
+  return std::move(drawn.pictures);
 }
 
 }  // namespace splotchcl

@@ -18,6 +18,10 @@ class OtherScenes {
   // drawn later take that. Nothing where there is none, or it is decided.
   void decide(const Scene& scene);
 
+  // Whether this frame fades to a scene that leaves its exposure or white to pictures, of which
+  // none has been drawn.
+  bool lacks_tone(const Scene& scene) const;
+
   // The other scene's pictures. `other` is cross_fade_scene() of a frame.
   std::vector<Picture> draw(const std::string& file, Scene other, const Rectangle& crop,
                             const DrawFrame& draw, std::vector<std::string>& notes);
@@ -26,13 +30,23 @@ class OtherScenes {
   struct OtherScene {
     FilmSnapshots snapshots;
     std::optional<Scene> decided;
+    std::optional<FinishSettings> tone;  // as the first picture with light showed it
   };
   std::map<std::string, OtherScene> by_file_;
 };
 
+// A scene's pictures, and what they decided.
+struct DrawnPictures {
+  std::vector<Picture> pictures;
+  // The scene's, with the exposure and the white that were found where the scene leaves them to
+  // the picture. Still open where nothing of the scene itself was drawn.
+  FinishSettings finish;
+  bool is_black = false;  // nothing could be found, for lack of light
+};
+
 // draw_pictures() for the frames of a film.
-std::vector<Picture> draw_pictures(const Scene& scene, const Frame& frame,
-                                   const SnapshotInfo& snapshot, const DrawFrame& draw,
-                                   std::vector<std::string>& notes, OtherScenes& other_scenes);
+DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                            const DrawFrame& draw, std::vector<std::string>& notes,
+                            OtherScenes& other_scenes);
 
 }  // namespace splotchcl

@@ -73,16 +73,25 @@ ImageFileOptions file_options(const Scene& scene, const RenderStats& stats) {
       scene, {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:device", stats.device}});
 }
 
-// Pictures by what tells their files apart, notes, statistics.
+bool has_all_levels(const FinishSettings& finish) {
+  return finish.exposure && finish.white;
+}
+
+// Pictures by what tells their files apart, notes, statistics, and the scene with the exposure and
+// the white that the pictures decided, or None where it left none to them.
 py::tuple draw(Drawer& drawer, const Scene& scene, const Source& source, py::object report) {
   const Progress progress(std::move(report));
   DrawnFrame drawn = drawer.draw(scene, source, progress);
+  Scene shown = scene;
+  if (drawn.finish) shown.finish = *drawn.finish;
   py::dict pictures;
   for (Picture& picture : drawn.pictures) {
     pictures[py::str(picture.suffix)] =
-        PictureObject{std::move(picture.image), file_options(scene, drawn.stats)};
+        PictureObject{std::move(picture.image), file_options(shown, drawn.stats)};
   }
-  return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats));
+  const bool is_decided = !has_all_levels(scene.finish) && has_all_levels(shown.finish);
+  return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats),
+                        is_decided ? py::cast(shown) : py::none());
 }
 
 py::dict describe(const DeviceInfo& device) {

@@ -58,11 +58,44 @@ Text where(const std::string& what) {
   return {"Where " + what + ". Things at the same place stand below each other."};
 }
 
+// Unset: found from the picture.
+ValueType<std::optional<double>> number_or_auto(const Range& range) {
+  using Value = std::optional<double>;
+  const ValueType<double> plain = number(range);
+  return {"\"auto\" or " + plain.expected,
+          [plain](const toml::node& node) -> std::optional<Value> {
+            if (node.value_exact<std::string>() == "auto") return Value();
+            const std::optional<double> value = plain.read(node);
+            return value ? std::optional<Value>(value) : std::nullopt;
+          },
+          [](const Value& value) { return value ? write_number(*value) : "\"auto\""; }};
+}
+
+Keys tone_keys() {
+  return {
+      finish_key("exposure", number_or_auto(between(-100, 100)),
+                 [](auto& f) -> auto& { return f.exposure; },
+                 {"Light is multiplied by 2^exposure. `\"auto\"`: by as much as lifts a quarter of "
+                  "the picture above 2 % of white, or what matter fills of it; see finish.md.",
+                  "stops"}),
+      finish_key(
+          "tone",
+          choice<ToneCurve>({{"linear", ToneCurve::linear},
+                             {"asinh", ToneCurve::asinh},
+                             {"filmic", ToneCurve::filmic}}),
+          [](auto& f) -> auto& { return f.tone; },
+          {"How exposed light becomes what a display shows. `linear`: light / white. `asinh` and "
+           "`filmic` keep details in bright and in dark places; hues hold. See finish.md."}),
+      finish_key("white", number_or_auto(between(1e-30, 1e30)),
+                 [](auto& f) -> auto& { return f.white; },
+                 {"Light, after exposure, that becomes the display's white. `\"auto\"`: so "
+                  "much that no more than 0.3 % of what matter fills is white; see finish.md.",
+                  "white is 1"}),
+  };
+}
+
 Keys light_keys() {
   return {
-      finish_key("exposure", number(between(-100, 100)),
-                 [](auto& f) -> auto& { return f.exposure; },
-                 {"Light is multiplied by 2^exposure.", "stops"}),
       finish_key("saturation", number(between(0, 100)),
                  [](auto& f) -> auto& { return f.saturation; },
                  {"0 is gray, 1 as drawn: each channel becomes Y + saturation (channel - Y), at "
@@ -199,7 +232,8 @@ Keys fade_keys() {
 
 Keys finish_keys() {
   Keys keys;
-  for (const Keys& part : {light_keys(), all_text_keys(), bar_keys(), inset_keys(), fade_keys()}) {
+  for (const Keys& part :
+       {tone_keys(), light_keys(), all_text_keys(), bar_keys(), inset_keys(), fade_keys()}) {
     append(keys, part);
   }
   return written_if_set(std::move(keys));

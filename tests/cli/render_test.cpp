@@ -174,7 +174,7 @@ TEST_F(Render, TellsTimesAndCountsAsJson) {
   EXPECT_EQ(json["output"], "a.png");
   EXPECT_EQ(json["particles"]["total"], 4000);
   EXPECT_EQ(json["tolerance"], 1e-3);
-  EXPECT_EQ(json["plan"]["light"], "proportional");
+  EXPECT_EQ(json["plan"]["light"], "emission");
   EXPECT_EQ(json["crop"], nlohmann::json({8, 8, 32, 16}));
   EXPECT_GT(json["seconds"]["draw"], 0);
   EXPECT_FALSE(json["stages"].empty());
@@ -244,8 +244,9 @@ TEST_F(Render, DrawsWithTheReferenceTheSamePictureWithinTheTolerance) {
   for (const std::string absorption : {"emission", "none", "0.5"}) {
     SCOPED_TRACE(absorption);
     const std::string scene = std::string("u") + small +
-                              " --set component.gas.absorption=" + absorption +
-                              " --set component.stars.absorption=" + absorption;
+                              " --set finish.tone=linear --set finish.exposure=0"
+                              " --set finish.white=1 --set component.gas.absorption=" +
+                              absorption + " --set component.stars.absorption=" + absorption;
     ASSERT_EQ(render(scene + " -o device.exr").exit_code, 0);
     ASSERT_EQ(render(scene + " --reference -o reference.exr").exit_code, 0);
     const ProgramResult result =

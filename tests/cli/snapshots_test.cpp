@@ -62,6 +62,7 @@ TEST(RealSnapshots, AreWithinTheToleranceOfTheReference) {
     SCOPED_TRACE(absorption);
     const std::string scene =
         "render \"$data\"/lcdm/fmt2_snapshot_006 --set 'image.size=[256,256]' "
+        "--set finish.tone=linear --set finish.exposure=0 --set finish.white=1 "
         "--set component.gas." +
         absorption;
     ASSERT_EQ(splotchcl_in(folder, scene + " -o device.exr").exit_code, 0);

@@ -61,7 +61,7 @@ struct FinishScene {
   Image finish(const std::array<float, 3>& light = {0, 0, 0},
                const DrawFrame& draw = DrawFrame()) const {
     Image image = plain_image(frame.crop.width, frame.crop.height, light);
-    PictureFinish(scene, frame, snapshot).apply(image, draw);
+    PictureFinish(scene, frame, snapshot).apply(image, scene.finish, draw);
     return image;
   }
 };

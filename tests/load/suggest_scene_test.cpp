@@ -2,14 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <random>
 
 #include "paths.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "splotchcl/picture.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -62,6 +65,15 @@ TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
   ASSERT_EQ(scene.components.size(), 2u);
   EXPECT_EQ(scene.components[0].types, (std::vector<int>{0}));
   EXPECT_EQ(scene.components[1].types, (std::vector<int>{4}));
+}
+
+TEST(SuggestScene, BringsAllLightWithinReachOfTheDisplay) {
+  MemorySnapshot snapshot;
+  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  const Scene scene = suggest_scene(snapshot);
+  EXPECT_EQ(scene.components[0].absorption.kind, Absorption::Kind::none);
+  EXPECT_EQ(scene.finish.tone, ToneCurve::filmic);
+  EXPECT_FALSE(scene.finish.exposure || scene.finish.white);
 }
 
 TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
@@ -324,31 +336,58 @@ std::vector<float> brightness(const Image& image) {
   return values;
 }
 
-class SuggestedPicture : public testing::TestWithParam<const char*> {};
-
-TEST_P(SuggestedPicture, IsNeitherBlackNorBurntOut) {
-  const auto path = test::data_folder() / GetParam();
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const auto snapshot = open_snapshot(path);
-  Scene scene = suggest_scene(*snapshot);
-  scene.image.width = scene.image.height = 48;
+std::vector<float> drawn(const Scene& scene, const Snapshot& snapshot) {
   std::vector<std::string> notes;
-  const std::vector<float> pixels =
-      brightness(reference::render(load_frame(scene, *snapshot, notes)).to_float());
-  // Something is bright, half the picture is not, and hardly anything is white.
-  EXPECT_GT(pixels[pixels.size() * 99 / 100], 0.3f);
-  EXPECT_LT(pixels[pixels.size() / 2], 0.6f);
-  EXPECT_LT(pixels[pixels.size() * 90 / 100], 0.9f);
+  const auto draw = [](const Frame& frame) { return reference::render(frame).to_float(); };
+  return brightness(draw_pictures(scene, snapshot, draw, notes).front().image);
+}
+
+// Of values in increasing order.
+double part_from(double least, const std::vector<float>& values) {
+  const auto first = std::lower_bound(values.begin(), values.end(), static_cast<float>(least));
+  return static_cast<double>(values.end() - first) / static_cast<double>(values.size());
+}
+
+class SuggestedPicture : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto path = test::data_folder() / GetParam();
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    snapshot_ = open_snapshot(path);
+    scene_ = suggest_scene(*snapshot_);
+    scene_.image.width = scene_.image.height = 64;
+  }
+  std::shared_ptr<const Snapshot> snapshot_;
+  Scene scene_;
+};
+
+// 8 bits hold nothing brighter than (1 - 0.5 / 255)^gamma.
+TEST_P(SuggestedPicture, HasHardlyAnyWhitePixels) {
+  const double white = std::pow(1 - 0.5 / 255, scene_.image.gamma);
+  EXPECT_LE(part_from(white, drawn(scene_, *snapshot_)), 0.005);
+}
+
+// Matter fills what has a thousandth of the light of the brightest pixel.
+TEST_P(SuggestedPicture, ShowsAQuarterOfItselfOrAsMuchAsMatterFills) {
+  Scene as_drawn = scene_;
+  as_drawn.finish = {};
+  const std::vector<float> light = drawn(as_drawn, *snapshot_);
+  const double filled = part_from(1e-3 * static_cast<double>(light.back()), light);
+  EXPECT_GE(part_from(0.02, drawn(scene_, *snapshot_)), std::min(0.25, filled));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     RealData, SuggestedPicture,
-    testing::Values("lcdm/fmt2_snapshot_002", "lcdm/fmt2_snapshot_006",
+    testing::Values("lcdm/fmt2_snapshot_002", "lcdm/fmt2_snapshot_004", "lcdm/fmt2_snapshot_005",
+                    "lcdm/fmt2_snapshot_006", "gadget_minimal/snap_002.0",
                     "gassphere/fmt2_snapshot_000", "gassphere/fmt1_snapshot_004",
-                    "gassphere/fmt3_snapshot_008.hdf5", "gadget2_ics/gassphere_bigendian.dat",
-                    "gadget2_ics/galaxy_littleendian.dat", "gadget2_ics/lcdm_gas_littleendian.dat",
-                    "galaxy_collision/snapshot_000.hdf5", "galaxy_collision/snapshot_005.hdf5",
-                    "galaxy_collision/snapshot_010.hdf5"),
+                    "gassphere/fmt3_snapshot_008.hdf5", "gassphere_id64/fmt3_snapshot_001.hdf5",
+                    "gassphere_multifile/fmt2_snapshot_002.0",
+                    "gadget2_ics/gassphere_bigendian.dat", "gadget2_ics/galaxy_littleendian.dat",
+                    "gadget2_ics/lcdm_gas_littleendian.dat", "galaxy_collision/snapshot_000.hdf5",
+                    "galaxy_collision/snapshot_005.hdf5", "galaxy_collision/snapshot_010.hdf5",
+                    "tipsy/tiny.000640", "tipsy/shocktube.std", "tipsy/adiabtophat_glass_28721.bin",
+                    "swift/swift_lcdm_0000.hdf5", "phantom/dustmixture_00000.h5"),
     [](const auto& info) {
       std::string name = info.param;
       for (char& c : name) {

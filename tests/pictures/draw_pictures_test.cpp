@@ -1,6 +1,7 @@
 // How the views of a scene become pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -174,6 +175,44 @@ TEST(Pictures, HaveTheSizesThatAreToldBefore) {
       EXPECT_EQ(sizes[i].height, pictures[i].image.height);
     }
   }
+}
+
+// Light that rises to the right, and doubles from drawing to drawing.
+DrawFrame rising_light() {
+  return [number = 0](const Frame& frame) mutable {
+    Image image(frame.crop.width, frame.crop.height);
+    const auto factor = static_cast<float>(1 << number++);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x)
+        std::fill_n(image.at(x, y), 3, factor * static_cast<float>(1 + frame.crop.x + x));
+    }
+    return image;
+  };
+}
+
+TEST(Pictures, OfTwoEyesShareTheExposureThatTheyDecide) {
+  const Scene scene = scene_with({"stereo.layout=files", "finish.white=\"auto\""});
+  std::vector<std::string> notes;
+  const auto pictures =
+      draw_pictures(scene, frame_of(scene), SnapshotInfo(), rising_light(), notes);
+  for (int x = 0; x < width; ++x)
+    EXPECT_FLOAT_EQ(pictures[1].image.at(x, 0)[0], 2 * pictures[0].image.at(x, 0)[0]);
+  EXPECT_GT(pictures[1].image.at(width - 1, 0)[0], 0.9F);
+  EXPECT_LE(pictures[1].image.at(width - 1, 0)[0], 1);
+}
+
+TEST(Pictures, HaveTheWholePicturesExposureInACrop) {
+  const Scene scene =
+      scene_with({"finish.tone=\"filmic\"", "finish.exposure=\"auto\"", "finish.white=\"auto\""});
+  std::vector<std::string> notes;
+  Frame frame = frame_of(scene);
+  const auto whole = draw_pictures(scene, frame, SnapshotInfo(), rising_light(), notes);
+  frame.crop = {1, 2, 2, 1};
+  const auto part = draw_pictures(scene, frame, SnapshotInfo(), rising_light(), notes);
+  ASSERT_EQ(part[0].image.width, 2);
+  ASSERT_EQ(part[0].image.height, 1);
+  for (int x = 0; x < 2; ++x)
+    EXPECT_EQ(part[0].image.at(x, 0)[1], whole[0].image.at(1 + x, 2)[1]);
 }
 
 TEST(Pictures, HaveTheirSuffixBeforeTheEnding) {

@@ -224,7 +224,9 @@ class RandomScenes {
 
   FinishSettings finish() {
     FinishSettings finish;
-    finish.exposure = 20 * unit() - 10;
+    finish.exposure = maybe(20 * unit() - 10);
+    finish.tone = static_cast<ToneCurve>(integer(0, 2));
+    finish.white = maybe(positive(1e-9, 1e9));
     finish.saturation = coin() ? 1 : 2 * unit();
     finish.contrast = coin() ? 1 : 2 * unit();
     finish.contrast_pivot = 0.001 + unit();

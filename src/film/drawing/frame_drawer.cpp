@@ -105,9 +105,11 @@ struct FrameDrawer::State {
                   OtherScenes& other_scenes, std::vector<std::string> notes) {
     DrawnFrame drawn;
     drawn.notes = std::move(notes);
-    drawn.pictures = draw_pictures(
+    DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
         drawn.notes, other_scenes);
+    drawn.pictures = std::move(pictures.pictures);
+    if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
     drawn.bad_particles = tell_of_bad_particles(drawn.stats);
     return drawn;

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "finish/tone_levels.h"
+#include "pictures/other_scenes.h"
+
 namespace splotchcl {
 
 FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
@@ -11,9 +14,26 @@ FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
 // The future waits for the frame that is being written.
 FilmDrawer::~FilmDrawer() = default;
 
+bool FilmDrawer::lacks_tone(const Scene& scene, const OtherScenes& other_scenes) const {
+  const bool is_black = scene.finish.cross_fade.amount == 1 || scene.finish.fade == 1;
+  return (!tone_ && !is_black && has_open_tone(scene.finish)) || other_scenes.lacks_tone(scene);
+}
+
+void FilmDrawer::decide_tone(const Scene& scene, const Snapshot& snapshot,
+                             OtherScenes& other_scenes) {
+  const DrawnFrame drawn = drawer_.draw(with_known_tone(scene), snapshot, other_scenes);
+  if (tone_ || !has_open_tone(scene.finish) || !drawn.finish) return;
+  if (!has_open_tone(*drawn.finish)) tone_ = drawn.finish;
+}
+
+Scene FilmDrawer::with_known_tone(Scene scene) const {
+  if (tone_) take_tone(*tone_, scene.finish);
+  return scene;
+}
+
 RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes, const std::filesystem::path& output) {
-  DrawnFrame drawn = drawer_.draw(scene, snapshot, other_scenes);
+  DrawnFrame drawn = drawer_.draw(with_known_tone(scene), snapshot, other_scenes);
   tell(drawn.notes);
   tell_of_bad_particles(drawn);
   finish();

@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "splotchcl/frame_drawer.h"
+#include "splotchcl/scene.h"
 
 namespace splotchcl {
 
@@ -22,6 +24,13 @@ class FilmDrawer {
   FilmDrawer(const FilmDrawer&) = delete;
   FilmDrawer& operator=(const FilmDrawer&) = delete;
 
+  // Whether the frame leaves exposure or white to pictures, its own or those of the scene that it
+  // fades to, and none has been drawn that could decide.
+  bool lacks_tone(const Scene& scene, const OtherScenes& other_scenes) const;
+  // Draws the frame for nothing but that. What it decides holds for all frames drawn later, so
+  // that the film does not flicker. Throws as FrameDrawer::draw.
+  void decide_tone(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes);
+
   // The frame of this number as the scene shows it, to picture_path(output, ...). What it took.
   // Throws as FrameDrawer::draw, and what writing an earlier frame has thrown.
   RenderStats draw(int frame, const Scene& scene, const Snapshot& snapshot,
@@ -32,10 +41,12 @@ class FilmDrawer {
   void tell(const std::vector<std::string>& notes);
 
  private:
+  Scene with_known_tone(Scene scene) const;
   void tell_of_bad_particles(const DrawnFrame& drawn);
 
   FrameDrawer drawer_;
   std::function<void(const std::string&)> note_;
+  std::optional<FinishSettings> tone_;
   std::set<std::string> told_;
   bool has_told_bad_ = false;
   std::future<void> writing_;

@@ -12,6 +12,7 @@
 #include "film/movie/encoder.h"
 #include "film/movie/frame_files.h"
 #include "film/movie/frame_range.h"
+#include "pictures/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/image_file.h"
@@ -112,12 +113,32 @@ class Film {
     return result;
   }
 
+  // The first frame that shows light decides what is left to pictures, whichever frames are drawn
+  // here: parts of a film agree. Only so many are tried, over all of the film; where a frame fades
+  // to another scene, it may be any.
+  void decide_tone(FilmDrawer& drawer) {
+    constexpr int most_tries = 16;
+    const int last = scene_.path().frame_count() - 1;
+    const auto decide = [&](int frame) {
+      const Scene scene = scene_.scene_at(frame);
+      if (!drawer.lacks_tone(scene, scene_.other_scenes())) return;
+      status("finding the film's exposure");
+      drawer.decide_tone(scene, *scene_.snapshot_at(scene), scene_.other_scenes());
+    };
+    for (int i = 0; i <= std::min(most_tries, last); ++i)
+      decide(static_cast<int>(std::int64_t{last} * i / std::max(1, std::min(most_tries, last))));
+    for (int frame = 0; frame <= last && !start_.finish.cross_fade.scene.empty(); ++frame) {
+      if (scene_.other_scenes().lacks_tone(scene_.scene_at(frame))) decide(frame);
+    }
+  }
+
   void draw(const std::vector<int>& frames) {
     files_.remove_leftovers(frames);
     if (frames.empty()) return;
     if (!options_.by_reference) status("starting the device");
     FilmDrawer drawer({options_.device, options_.by_reference, {}}, report_.note);
     drawer.tell(scene_.notes());
+    decide_tone(drawer);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (report_.frame) report_.frame(frames[i], i, frames.size());
       const Scene scene = scene_.scene_at(frames[i]);

@@ -44,6 +44,8 @@ class Image:
 
     _picture: _core.Picture = field(repr=False)
     scene: Scene | None = field(default=None, repr=False)
+    """What was drawn, with the numbers that stand for "auto" in `finish`: frames of a film that are
+    drawn with the scene of one of them do not flicker."""
     notes: list[str] = field(default_factory=list)
     """What the user should know, a line each."""
     stats: dict[str, Any] = field(default_factory=dict, repr=False)

@@ -180,9 +180,10 @@ class Renderer:
     def _draw(self, what: Drawable, progress: Progress | None) -> dict[str, Image]:
         with nullcontext() if self._by_reference else using_opencl():
             drawn = self._drawer.draw(what.scene._scene, what.source._source, progress)
-        pictures, notes, stats = drawn
+        pictures, notes, stats, decided = drawn
+        scene = what.scene if decided is None else Scene._of(decided)
         return {
-            suffix: Image(picture, what.scene, what.notes + notes, stats, what.source)
+            suffix: Image(picture, scene, what.notes + notes, stats, what.source)
             for suffix, picture in pictures.items()
         }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/generate.h"
+#include "splotchcl/image_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {
@@ -86,6 +88,46 @@ TEST_F(Films, AreMadeInParts) {
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
   options_.only_join = true;
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete_before);
+}
+
+// A film whose light fades to an eighth, which a new exposure for each frame would make up for.
+class DarkeningFilms : public Films {
+ protected:
+  DarkeningFilms() {
+    std::ofstream(folder_ / "film.toml") << "snapshot = 'halo.gadget'\n"
+                                            "[image]\nsize = [16, 12]\n"
+                                            "[finish]\nexposure = 'auto'\n"
+                                            "[[path.keyframes]]\nframe = 0\n"
+                                            "'component.gas.brightness' = 1\n"
+                                            "[[path.keyframes]]\nframe = 3\n"
+                                            "'component.gas.brightness' = 0.125\n"
+                                            "[[component]]\nname = 'gas'\nabsorption = 'none'\n";
+    options_.output = folder_ / "frame_%d.exr";
+  }
+  float light(int frame) const {
+    const Image image = read_image(folder_ / ("frame_" + std::to_string(frame) + ".exr"));
+    float brightest = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+      brightest = std::max({brightest, image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+    return brightest;
+  }
+};
+
+TEST_F(DarkeningFilms, AreExposedAsTheirFirstFrameIs) {
+  make_film(options_, report_);
+  EXPECT_GT(light(0), 0.9F);
+  EXPECT_NEAR(light(3) / light(0), 0.125, 1e-5);
+}
+
+TEST_F(DarkeningFilms, AreExposedAlikeInAllParts) {
+  make_film(options_, report_);
+  const float whole = light(3);
+  options_.output = folder_ / "part" / "frame_%d.exr";
+  std::filesystem::create_directory(folder_ / "part");
+  options_.part = "2/2";
+  make_film(options_, report_);
+  std::filesystem::rename(folder_ / "part/frame_3.exr", folder_ / "frame_3.exr");
+  EXPECT_EQ(light(3), whole);
 }
 
 TEST_F(Films, AreRefusedBeforeAnythingIsRead) {
