@@ -78,6 +78,11 @@ inline float inverse_of(float sigma) {
 // fill_axis() of a bright splat.
 inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma >= WIDE_MEAN) {
+    for (int k = 0; k < count; k += 8)
+      vstore8(wide_bright_mean(first + (float)k + ramp - low, sigma), 0, values + k);
+    return;
+  }
   const float per_sigma = 1.0f / sigma;
   for (int k = 0; k <= count; k += 8) {
     const float8 edge = (first - 0.5f + (float)k + ramp - low) * per_sigma;

@@ -117,10 +117,26 @@ inline VALUE mean_of_complements(VALUE left, VALUE of_left, VALUE right, VALUE o
   return choose(beside, 2.0f - of_left - of_right, left<0.0f & right> 0.0f);
 }
 
+// The same mean for a splat wider than WIDE_MEAN, where that difference would lose digits: the
+// value at the center times the mean of exp(-(2 d t + t^2) / sigma^2) over -1/2 < t < 1/2, by its
+// series up to the sixth derivative of a Gaussian; the next is (2 d / sigma^2)^8 / 9e7.
+#define WIDE_MEAN 4.0f
+inline VALUE wide_bright_mean(VALUE d, float sigma) {
+  const VALUE x = min(fabs(d) / sigma, (VALUE)(9.19f)), slope = x * (2.0f / sigma);
+  const VALUE s = slope * slope;
+  const float b = -1.0f / (sigma * sigma);
+  const VALUE second = s + 2.0f * b;
+  const VALUE fourth = (s + 12.0f * b) * s + 12.0f * b * b;
+  const VALUE sixth = ((s + 30.0f * b) * s + 180.0f * b * b) * s + 120.0f * b * b * b;
+  return exp_of_minus_square(x) * (1.0f + (second * (1.0f / 24.0f) + fourth * (1.0f / 1920.0f) +
+                                           sixth * (1.0f / 322560.0f)));
+}
+
 // Splats whose light or depth is well above 1 carry their sigma with a minus where they are
 // taken as means. What errors of their peak would show beside them, so that these means are
 // differences of 1 - erf.
 inline VALUE bright_mean(VALUE d, float sigma) {
+  if (sigma >= WIDE_MEAN) return wide_bright_mean(d, sigma);
   const VALUE left = (d - 0.5f) / sigma, right = (d + 0.5f) / sigma;
   return PIXEL_MEAN_SCALE * sigma *
          mean_of_complements(left, complement_of_erf(fabs(left)), right,

@@ -9,21 +9,28 @@ typedef struct PlaceLanes {
 #endif
 } PlaceLanes;
 
-// To less than a unit, and to half of one where `low` is known, what the last digit of `high`
-// leaves; then `fraction` takes 2^16 of what is left.
+#ifdef FINE_PLACES
+// To the nearest unit; `fraction` takes 2^16 of what is left of the sum of `high` and `low`.
 INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
   const VALUE units = high * units_per_pixel;
   const INTEGER whole = TO_INTEGER(units);
-  *fraction = (INTEGER)(0);
+  const VALUE rest = (units - TO_VALUE(whole)) + low * units_per_pixel;
+  const INTEGER nearest = TO_INTEGER(rest + choose((VALUE)(-0.5f), (VALUE)(0.5f), rest > 0.0f));
+  *fraction = TO_INTEGER((rest - TO_VALUE(nearest)) * 65534.0f);
+  return whole + nearest;
+}
+#else
+// To less than a unit, and to half of one where `low` is known, what the last digit of `high`
+// leaves.
+INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
+  const VALUE units = high * units_per_pixel;
+  const INTEGER whole = TO_INTEGER(units);
   if (!ANY(low != 0.0f)) return whole;
   const VALUE rest = (units - TO_VALUE(whole)) + low * units_per_pixel;
   const VALUE to_nearest = choose((VALUE)(-0.5f), (VALUE)(0.5f), rest > 0.0f);
-  const INTEGER nearest = TO_INTEGER(rest + to_nearest);
-#ifdef FINE_PLACES
-  *fraction = select(*fraction, TO_INTEGER((rest - TO_VALUE(nearest)) * 65534.0f), low != 0.0f);
-#endif
-  return whole + select((INTEGER)(0), nearest, low != 0.0f);
+  return whole + select((INTEGER)(0), TO_INTEGER(rest + to_nearest), low != 0.0f);
 }
+#endif
 
 // From pixels of the grid from its middle. The units hold `farthest`, within which the splat lies
 // and all copies of it that are drawn.

@@ -257,6 +257,21 @@ std::vector<HardCase> promise_cases() {
           "9 "
           "x -12 spread 4 sigma 8 width_range 1.2 peak 0.137835",
           {LightPlan::proportional}),
+      found("PlacesOnAxesOfALargePicture",
+            "places that one float holds have digits below the integers of places, too",
+            "light ordered tolerance 1e-5 picture_size 16384 crop_x 0.5 source 0.3 jitter_seed 2 "
+            "group scatter places 200 copies 10 sigma 0.3 peak 20 hue 1",
+            {LightPlan::ordered}),
+      found(
+          "WideBrightMeansInACube", "differences of 1 - erf lose the digits of wide means",
+          "light emission projection cube tolerance 1e-5 width 48 turned 1 jitter_seed 84 group "
+          "point copies 16 x -21.5896 y 3.91496 sigma 15.7503 peak 10 depth 35.9499 hue 0.4 star 1",
+          {LightPlan::emission}),
+      found("EqualThinLayersBeforeABrightBackground",
+            "equal roundings of 64 layers show before light of 4000",
+            "light stars_among_gas tolerance 1e-5 background 4000 source 0.0049 group point copies "
+            "382 x 80 y -0.2 sigma 158.298 peak 0.000361009 hue 0.72456",
+            {LightPlan::ordered}),
       found("SheetAroundAFisheye",
             "where a cloud exactly behind the camera lies on the rim is a matter of roundings",
             "light stars_among_gas projection fisheye field_of_view 150 turned 1 source 40 group "

@@ -161,6 +161,7 @@ ProgramSource Specialization::composite() const {
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
 // digits need none beside the lists; opacities stand still behind too many layers.
 std::string Specialization::block_defines() const {
+  if (small_blocks_ && is_ordered()) return define("SPLATS_OF_BLOCK 32u");
   if (small_blocks_ || !rows_) return define("SPLATS_OF_BLOCK 64u");
   if (full_precision_) return define("SPLATS_OF_BLOCK 256u");
   return is_ordered() ? define("SPLATS_OF_BLOCK 1024u") : "";

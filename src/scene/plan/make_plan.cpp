@@ -40,7 +40,7 @@ SplatNeeds first_needs(const Frame& frame, const FramePlan& plan, double light_o
   // another.
   constexpr double soft_edges_tolerance = 0.03;
   const bool has_hard_edges = frame.kernel.cut && plan.drawn_for_tolerance < soft_edges_tolerance;
-  if (is_full || has_hard_edges) needs.grid_light = is_finest ? 4 : 3;
+  if ((is_full && !is_finest) || has_hard_edges) needs.grid_light = 3;
   const std::array<double, 5> light = {100, 100, 100, 6, 6};
   for (std::size_t octave = 0; is_finest && octave < light.size(); ++octave)
     needs.widths[octave].light = light[octave];
