@@ -24,6 +24,7 @@ struct FrameDrawerOptions {
   // Called with what is being done and the fraction done, where it takes long. May be empty.
   std::function<void(const std::string& what, double fraction)> progress;
   bool certify = false;  // as in RendererOptions
+  CompositeShape shape = CompositeShape::automatic;
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

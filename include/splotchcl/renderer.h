@@ -31,10 +31,12 @@ std::string opencl_loader();
 // What to tell a user whose machine has no OpenCL device.
 std::string no_device_advice();
 
+// The kernels that draw, and the sizes of their blocks, tiles and chunks: those for processors or
+// those for GPUs. Both run on either; pictures of the two differ by roundings.
 enum class CompositeShape {
   automatic,  // groups on a GPU, rows elsewhere
-  rows,       // a work-item per tile, rows of float8
-  groups,     // a work-group per tile, a work-item per pixel
+  rows,       // for processors: a work-item walks a block or a tile, eight lanes at a time
+  groups,     // for GPUs: a work-item per particle, entry or pixel, in work-groups
 };
 
 struct RendererOptions {

@@ -1,6 +1,7 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,10 @@
 
 namespace splotchcl::cli {
 namespace {
+
+const std::map<std::string, CompositeShape> shape_names = {{"automatic", CompositeShape::automatic},
+                                                           {"rows", CompositeShape::rows},
+                                                           {"groups", CompositeShape::groups}};
 
 // What render and movie take alike.
 void add_draw_options(CLI::App& sub, DrawOptions& options) {
@@ -79,6 +84,11 @@ void add_render(CLI::App& app, Run& run, Console& console) {
   sub->add_flag("--certify", options->certify,
                 wrapped("Draw until a bound, not an estimate, says that the picture keeps its "
                         "tolerance"));
+  sub->add_option("--shape", options->shape,
+                  wrapped("Which kernels draw: rows, those for processors, or groups, those for "
+                          "GPUs. Default: automatic, by the device's type"))
+      ->transform(CLI::CheckedTransformer(shape_names, CLI::ignore_case))
+      ->type_name("SHAPE");
   sub->add_option("--error-map", options->error_map,
                   wrapped("Certify, and write the bound of each pixel's error, over its light "
                           "where that is more than 1, as an image: an .exr has the numbers"))

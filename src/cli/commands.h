@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "splotchcl/galaxy.h"
 #include "splotchcl/generate.h"
+#include "splotchcl/renderer.h"
 
 // What a user asks of each command, and what carries it out. A command's answer goes to
 // standard output, everything else through the console. The result is the exit code.
@@ -35,6 +36,7 @@ struct RenderOptions : DrawOptions {
   std::string crop;  // X,Y,W,H
   bool certify = false;
   std::optional<std::filesystem::path> error_map;  // an image
+  CompositeShape shape = CompositeShape::automatic;
 };
 int run_render(const RenderOptions& options, Console& console);
 

@@ -71,10 +71,10 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 struct Renderer::State {
   explicit State(const RendererOptions& options)
       : device(choose_device(options.device)), particles(device) {
-    // The shape decides for all stages: a processor that is asked for groups also projects one
-    // particle at a time, as a GPU does.
+    // The shape decides for all stages: a processor that is asked for groups runs the kernels and
+    // the sizes of a GPU.
     if (options.shape != CompositeShape::automatic) {
-      device.traits.rows = options.shape == CompositeShape::rows;
+      choose_shape(device.traits, options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
     certifies = options.certify;

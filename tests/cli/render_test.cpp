@@ -96,6 +96,20 @@ TEST_F(Render, RefusesADeviceThatDoesNotExist) {
   expect_wrong_call(std::string("u --device abacus") + small, "abacus");
 }
 
+TEST_F(Render, RefusesAShapeThatDoesNotExist) {
+  expect_wrong_call(std::string("u --shape triangles") + small, "rows");
+}
+
+TEST_F(Render, DrawsAlikeInBothShapes) {
+  ASSERT_EQ(render(std::string("u -o rows.exr --shape rows") + small).exit_code, 0);
+  ASSERT_EQ(render(std::string("u -o groups.exr --shape Groups") + small).exit_code, 0);
+  const Image rows = read_image(folder_ / "rows.exr"), groups = read_image(folder_ / "groups.exr");
+  ASSERT_EQ(rows.pixels.size(), groups.pixels.size());
+  EXPECT_NE(rows.pixels, groups.pixels) << "they are different kernels";
+  for (std::size_t i = 0; i < rows.pixels.size(); ++i)
+    ASSERT_NEAR(rows.pixels[i], groups.pixels[i], 2e-3f * std::max(1.0f, std::abs(rows.pixels[i])));
+}
+
 TEST_F(Render, RefusesACropOutsideThePicture) {
   for (const char* crop :
        {"0,0,81,10", "70,0,20,10", "-1,0,5,5", "0,0,0,5", "2147483647,0,2147483647,1"}) {

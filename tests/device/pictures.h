@@ -37,7 +37,7 @@ class PictureTest : public testing::Test {
 
 // Drawn with the frame's first plan, whatever a check of the picture would say.
 inline Image draw_once(DeviceContext& device, const Frame& frame, CompositeShape shape) {
-  device.traits.rows = shape == CompositeShape::rows;
+  choose_shape(device.traits, shape == CompositeShape::rows);
   ParticleStore particles(device);
   particles.begin_frame();
   const FramePlan plan = make_plan(frame);

@@ -79,9 +79,11 @@ class Stages {
   // GPU.
   Stages(DeviceContext& device, const Frame& frame, bool rows = true)
       : frame_(frame), plan_(make_plan(frame_)), device_(device), particles_(device) {
-    device.traits.rows = rows;
+    choose_shape(device.traits, rows);
     pipeline_ = std::make_unique<Pipeline>(device, particles_, frame_, plan_);
   }
+  // Kernels may still read the frame's columns.
+  ~Stages() { device_.queue.finish(); }
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 

@@ -6,12 +6,12 @@
 
 namespace splotchcl {
 
-// What differs between devices, decided by their type alone, so that the same device
-// always does the same sums in the same order.
+// What differs between devices, decided by their type and by the shape of the kernels alone, so
+// that the same device always does the same sums in the same order.
 struct DeviceTraits {
   bool is_gpu = false;
   bool shares_host_memory = false;         // buffers may lie in the caller's own memory
-  bool rows = true;                        // eight lanes, rows of float8; not groups of work-items
+  bool rows = true;                        // the shape: eight lanes, rows; not work-groups
   bool rows_of_16 = false;                 // registers hold sixteen floats: wide splats take them
   bool double_numbers = false;             // extended numbers are double precision, not pairs
   std::uint32_t project_block = 0;         // particles per work-item of a projection
@@ -24,6 +24,10 @@ struct DeviceTraits {
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }
 };
 
+// With the shape that suits the device.
 DeviceTraits traits_of(const compute::device& device);
+
+// Gives the traits the other shape, with all sizes that go with it, if they have not that one.
+void choose_shape(DeviceTraits& traits, bool rows);
 
 }  // namespace splotchcl

@@ -70,6 +70,7 @@ struct FrameDrawer::State {
       RendererOptions of_renderer;
       of_renderer.device = options.device;
       of_renderer.certify = options.certify;
+      of_renderer.shape = options.shape;
       of_renderer.progress = [this](double fraction) {
         if (progress) progress("drawing", fraction);
       };
