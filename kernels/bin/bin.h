@@ -40,6 +40,20 @@ struct BinParameters {
   float widening;
 };
 
+// The tiles of one splat, of the shape for GPUs: so many columns and rows of them from the first
+// on, in a grid of so many in a row.
+struct SplatTiles {
+  unsigned int first, columns, rows, grid_columns;
+};
+// Splats of at most so many tiles are counted tile by tile.
+#define FEW_TILES 4
+
+// Of a band of tiles in this shape.
+struct GroupBinParameters {
+  struct BinParameters bin;
+  unsigned int entry_count;  // of the band
+};
+
 // A stretch of one tile's list, composited by one work-item or work-group.
 struct Segment {
   unsigned int tile, begin, end;
@@ -50,6 +64,8 @@ struct Segment {
 #ifdef __OPENCL_VERSION__
 typedef struct TileSplat TileSplat;
 typedef struct BinParameters BinParameters;
+typedef struct SplatTiles SplatTiles;
+typedef struct GroupBinParameters GroupBinParameters;
 typedef struct Segment Segment;
 #endif
 

@@ -93,17 +93,6 @@ inline int run_is_in_order(__global const ushort* ends, __global const uint* val
   return 1;
 }
 
-inline void sort_short_run(__global const ushort* ends, __global uint* values, uint length) {
-  for (uint i = 1; i < length; ++i) {
-    const uint value = values[i];
-    const ushort key_end = ends[value];
-    uint place = i;
-    for (; place > 0 && ends[values[place - 1]] > key_end; --place)
-      values[place] = values[place - 1];
-    values[place] = value;
-  }
-}
-
 // One pass of a stable radix sort.
 inline void sort_run_by_digit(__global const ushort* ends, __global const uint* from,
                               __global uint* to, uint length, uint shift) {

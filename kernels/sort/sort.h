@@ -21,7 +21,27 @@ struct KeyBits {
   unsigned int some, all;
 };
 
+// Of the shape for GPUs: a group takes so many pairs.
+#define SORT_PAIRS_OF_ITEM 8
+#define SORT_STRETCH (GROUP_ITEMS * SORT_PAIRS_OF_ITEM)
+
+// One pass of it.
+struct GroupSortParameters {
+  unsigned int count;        // pairs
+  unsigned int group_count;  // of SORT_STRETCH pairs, the last one of fewer
+  unsigned int smallest;     // subtracted from all keys
+  unsigned int shift, bits;  // of the digit, at most SORT_DIGIT_BITS
+};
+
+// Of all keys together.
+struct KeyRange {
+  unsigned int smallest, largest;
+  struct KeyBits bits;
+};
+
 #ifdef __OPENCL_VERSION__
+typedef struct GroupSortParameters GroupSortParameters;
+typedef struct KeyRange KeyRange;
 typedef struct SortParameters SortParameters;
 typedef struct KeyBits KeyBits;
 #endif

@@ -38,11 +38,14 @@ class FrameBuffers {
   }
 
   // Which tiles each is listed in.
-  std::uint64_t tiles(std::uint64_t splats) const { return splats * sizeof(std::uint32_t); }
+  std::uint64_t tiles(std::uint64_t splats) const {
+    return splats * (traits_.rows ? sizeof(std::uint32_t)
+                                  : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
+  }
 
-  // Splats that were put in order for their lists.
+  // Splats that were put in order for their lists; only by the shape for processors.
   std::uint64_t splats_in_order(std::uint64_t count) const {
-    return count * specialization_.splat_bytes() + tiles(count);
+    return (traits_.rows ? count * specialization_.splat_bytes() : 0) + tiles(count);
   }
 
   // Counts per tile of each block, and the lists of as many tiles as fit.
@@ -52,8 +55,12 @@ class FrameBuffers {
                            : std::uint64_t{traits_.chunk_length()} * splats_per_particle();
     const std::uint64_t capacity = std::max(traits_.list_capacity, splats);
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
-    return (blocks + 2) * layout_.tile_count * sizeof(std::uint32_t) +
-           segments * sizeof(shared::Segment) + capacity * specialization_.tile_splat_bytes();
+    // Of a GPU: tiles and splats of all entries, from where and to where they are sorted.
+    const std::uint64_t pairs = traits_.rows ? 0 : 4 * sizeof(std::uint32_t);
+    const std::uint64_t counts = traits_.rows ? blocks + 2 : 2;
+    return counts * layout_.tile_count * sizeof(std::uint32_t) +
+           segments * sizeof(shared::Segment) +
+           capacity * (specialization_.tile_splat_bytes() + pairs);
   }
 
   // What a grid's rows are blurred or refined into.

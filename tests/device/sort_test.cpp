@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
-#include "device/opencl/device_context.h"
-#include "device/scenes.h"
+#include "device/stages.h"
+#include "device/stages/group_scan.h"
 #include "device/stages/sorter.h"
+#include "long_tests.h"
 
 namespace splotchcl::test {
 namespace {
@@ -23,15 +25,22 @@ Keys stable_order(const Keys& keys) {
   return order;
 }
 
-Keys device_order(const Keys& keys) {
-  DeviceContext device(choose_device(""));
-  const auto count = static_cast<std::uint32_t>(keys.size());
-  Keys order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const Buffer<std::uint32_t> sorted = Sorter(device).sort(
-      device.pool.upload(keys, "keys"), device.pool.upload(order, "order"), count);
-  return device.pool.download(sorted, count);
-}
+// In both shapes.
+class Sort : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  void SetUp() override { choose_shape(device().traits, GetParam()); }
+
+  static Keys device_order(const Keys& keys) {
+    const auto count = static_cast<std::uint32_t>(keys.size());
+    Keys order(keys.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const Buffer<std::uint32_t> sorted = Sorter(device()).sort(
+        device().pool.upload(keys, "keys"), device().pool.upload(order, "order"), count);
+    return device().pool.download(sorted, count);
+  }
+};
+
+class Scan : public StageTest {};
 
 Keys random_keys(std::size_t count, double low, double high) {
   Random random(7);
@@ -41,31 +50,31 @@ Keys random_keys(std::size_t count, double low, double high) {
   return keys;
 }
 
-TEST(Sort, GivesTheStableOrderIndexForIndex) {
+TEST_P(Sort, GivesTheStableOrderIndexForIndex) {
   for (const std::size_t count : {0ul, 1ul, 2ul, 1000ul, 1024ul, 1025ul, 300007ul}) {
     const Keys keys = random_keys(count, 0, 4294967295.0);
     EXPECT_EQ(device_order(keys), stable_order(keys)) << count;
   }
 }
 
-TEST(Sort, KeepsTheOrderOfEqualKeys) {
+TEST_P(Sort, KeepsTheOrderOfEqualKeys) {
   const Keys keys = random_keys(100000, 0, 10);
   EXPECT_EQ(device_order(keys), stable_order(keys));
 }
 
-TEST(Sort, LeavesSortedInputAlone) {
+TEST_P(Sort, LeavesSortedInputAlone) {
   Keys keys = random_keys(100000, 0, 4294967295.0);
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(device_order(keys), stable_order(keys));
 }
 
-TEST(Sort, TurnsReversedInputRound) {
+TEST_P(Sort, TurnsReversedInputRound) {
   Keys keys = random_keys(100000, 0, 4294967295.0);
   std::sort(keys.rbegin(), keys.rend());
   EXPECT_EQ(device_order(keys), stable_order(keys));
 }
 
-TEST(Sort, ComparesKeysThatDifferInOneDigitOnly) {
+TEST_P(Sort, ComparesKeysThatDifferInOneDigitOnly) {
   for (const double step : {1.0, 256.0, 65536.0, 16777216.0}) {
     Keys keys = random_keys(5000, 0, 256);
     for (std::uint32_t& key : keys)
@@ -75,7 +84,7 @@ TEST(Sort, ComparesKeysThatDifferInOneDigitOnly) {
 }
 
 // A pass is left out for a digit that all keys share, whichever it is.
-TEST(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
+TEST_P(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
   for (const std::uint32_t shared : {0x000000ffu, 0x0000ff00u, 0x00ff0000u, 0xff00ff00u}) {
     Keys keys = random_keys(3000, 0, 4294967295.0);
     for (std::uint32_t& key : keys)
@@ -85,6 +94,73 @@ TEST(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
     EXPECT_EQ(device_order(keys), stable_order(keys)) << "but for one key, " << shared;
   }
   EXPECT_EQ(device_order(Keys(5000, 77u)), stable_order(Keys(5000, 77u)));
+}
+
+// The last group of a sort by work-groups, and the last stretch of its scans, may be full, empty
+// but for one pair, or short of one.
+TEST_P(Sort, TakesAnyNumberOfPairsAroundPowersOfTwo) {
+  const int largest = long_tests() ? 24 : 14;
+  for (int k = 1; k <= largest; ++k) {
+    for (const int beside : {-1, 0, 1}) {
+      const Keys keys =
+          random_keys((std::size_t{1} << k) + static_cast<std::size_t>(beside), 0, 1000);
+      ASSERT_EQ(device_order(keys), stable_order(keys)) << "2^" << k << " + " << beside;
+    }
+  }
+}
+
+TEST_P(Sort, FindsTheOneKeyThatDiffers) {
+  for (const std::uint32_t other : {0u, 76u, 78u, 0xffffffffu}) {
+    for (const std::size_t place : {0ul, 2047ul, 2048ul, 4999ul}) {
+      Keys keys(5000, 77u);
+      keys[place] = other;
+      EXPECT_EQ(device_order(keys), stable_order(keys)) << other << " at " << place;
+    }
+  }
+}
+
+// Keys within a range that begins anywhere have as many digits as the range.
+TEST_P(Sort, DoesWithTheDigitsOfTheirRange) {
+  for (const double range : {2.0, 16.0, 300.0, 70000.0}) {
+    const Keys keys = random_keys(5000, 4000000000.0 - range, 4000000000.0);
+    EXPECT_EQ(device_order(keys), stable_order(keys)) << range;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Sort, testing::Bool(),
+                         [](const auto& info) { return info.param ? "rows" : "groups"; });
+
+TEST(DigitPlan, HasTheFewestDigitsOfEqualLength) {
+  const DigitPlan plan = digits_of_bits(14);
+  ASSERT_EQ(plan.digits.size(), 2u);
+  EXPECT_EQ(plan.digits[0].bits, 7u);
+  EXPECT_EQ(plan.digits[1].shift, 7u);
+  EXPECT_EQ(plan.digits[1].bits, 7u);
+  EXPECT_TRUE(digits_of_bits(0).digits.empty());
+  EXPECT_EQ(digits_of_bits(32).digits.size(), 4u);
+}
+
+TEST(DigitPlan, SubtractsTheSmallestKeyWhereThatSavesADigit) {
+  EXPECT_EQ(digits_of_range({0x01ffff00, 0x02000010, {0x03ffffff, 0}}).digits.size(), 2u);
+  // These differ in one digit only, far above the lowest bit.
+  EXPECT_EQ(digits_of_range({0, 0x7f000000, {0x7f000000, 0}}).digits.size(), 1u);
+}
+
+// Around the lengths at which one more step is needed.
+TEST_F(Scan, GivesExclusiveSumsAndTheirTotal) {
+  for (const std::uint32_t count : {0u, 1u, 255u, 256u, 2047u, 2048u, 2049u, 300000u, 4194305u}) {
+    Random random(11);
+    std::vector<std::uint32_t> values(count + 1);
+    for (std::uint32_t& value : values)
+      value = static_cast<std::uint32_t>(random.uniform(0, 100));
+    const auto buffer = device().pool.upload(values, "values");
+    GroupScan(device()).scan("test", buffer, count);
+    std::uint32_t sum = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+      sum += std::exchange(values[i], sum);
+    values[count] = sum;
+    EXPECT_EQ(device().pool.download(buffer, count + 1), values) << count;
+  }
 }
 
 // Keys of 48 bits: 32 upper ones, and the ends below them.
@@ -98,21 +174,23 @@ Keys stable_order(const LongKeys& keys) {
   return order;
 }
 
-Keys device_order(const LongKeys& keys) {
-  DeviceContext device(choose_device(""));
-  const auto count = static_cast<std::uint32_t>(keys.size());
-  Keys upper(keys.size()), order(keys.size());
-  std::vector<std::uint16_t> ends(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    upper[i] = static_cast<std::uint32_t>(keys[i] >> 16);
-    ends[i] = static_cast<std::uint16_t>(keys[i] & 0xffffu);
+class SortOfLongKeys : public Sort {
+ protected:
+  static Keys device_order(const LongKeys& keys) {
+    const auto count = static_cast<std::uint32_t>(keys.size());
+    Keys upper(keys.size()), order(keys.size());
+    std::vector<std::uint16_t> ends(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      upper[i] = static_cast<std::uint32_t>(keys[i] >> 16);
+      ends[i] = static_cast<std::uint16_t>(keys[i] & 0xffffu);
+    }
+    std::iota(order.begin(), order.end(), 0u);
+    BufferPool& pool = device().pool;
+    const Buffer<std::uint32_t> sorted = Sorter(device()).sort(
+        pool.upload(upper, "keys"), pool.upload(ends, "ends"), pool.upload(order, "order"), count);
+    return pool.download(sorted, count);
   }
-  std::iota(order.begin(), order.end(), 0u);
-  const Buffer<std::uint32_t> sorted =
-      Sorter(device).sort(device.pool.upload(upper, "keys"), device.pool.upload(ends, "ends"),
-                          device.pool.upload(order, "order"), count);
-  return device.pool.download(sorted, count);
-}
+};
 
 // Numbers below 2^bits.
 LongKeys random_long_keys(std::size_t count, int bits) {
@@ -123,7 +201,7 @@ LongKeys random_long_keys(std::size_t count, int bits) {
   return keys;
 }
 
-TEST(SortOfLongKeys, GivesTheStableOrderIndexForIndex) {
+TEST_P(SortOfLongKeys, GivesTheStableOrderIndexForIndex) {
   for (const std::size_t count : {0ul, 1ul, 2ul, 1025ul, 300007ul}) {
     const LongKeys keys = random_long_keys(count, 48);
     EXPECT_EQ(device_order(keys), stable_order(keys)) << count;
@@ -131,7 +209,7 @@ TEST(SortOfLongKeys, GivesTheStableOrderIndexForIndex) {
 }
 
 // The fewer upper bits differ, the more of the ends take their place.
-TEST(SortOfLongKeys, DoesWithAnyUpperBitsThatAllKeysShare) {
+TEST_P(SortOfLongKeys, DoesWithAnyUpperBitsThatAllKeysShare) {
   for (int bits = 1; bits < 48; ++bits) {
     LongKeys keys = random_long_keys(3000, bits);
     for (std::uint64_t& key : keys)
@@ -142,7 +220,7 @@ TEST(SortOfLongKeys, DoesWithAnyUpperBitsThatAllKeysShare) {
 }
 
 // Runs of equal upper bits of any length, some of them across the blocks of the sort.
-TEST(SortOfLongKeys, OrdersRunsOfEqualUpperBits) {
+TEST_P(SortOfLongKeys, OrdersRunsOfEqualUpperBits) {
   for (const double runs : {1.0, 2.0, 50.0, 1000.0, 20000.0}) {
     for (const double ends : {1.0, 3.0, 65536.0}) {
       Random random(9);
@@ -156,6 +234,21 @@ TEST(SortOfLongKeys, OrdersRunsOfEqualUpperBits) {
     }
   }
 }
+
+// Few long runs, in which ends come in any order.
+TEST_P(SortOfLongKeys, OrdersLongRunsAmongOthers) {
+  Random random(10);
+  LongKeys keys(20000);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const double run = i % 4 == 0 ? 5 : random.uniform(0, 4294967295.0);
+    keys[i] = static_cast<std::uint64_t>(run) << 16 |
+              static_cast<std::uint64_t>(random.uniform(0, 65536));
+  }
+  EXPECT_EQ(device_order(keys), stable_order(keys));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SortOfLongKeys, testing::Bool(),
+                         [](const auto& info) { return info.param ? "rows" : "groups"; });
 
 }  // namespace
 }  // namespace splotchcl::test

@@ -7,6 +7,7 @@
 // What a variant of the kernels adds to Splat and TileSplat is not seen here: Specialization
 // knows their sizes.
 namespace splotchcl::shared {
+#include "kernels/common/group.h"
 #include "kernels/common/splat.h"
 // The others use what stands there.
 #include "kernels/bin/bin.h"
@@ -14,6 +15,7 @@ namespace splotchcl::shared {
 #include "kernels/composite/composite.h"
 #include "kernels/project/project.h"
 #include "kernels/resolve/resolve.h"
+#include "kernels/scan/scan.h"
 #include "kernels/sort/sort.h"
 
 // Every member has 4 bytes, so no compiler has a reason to pad.
@@ -37,7 +39,12 @@ static_assert(has_words<BlockCounts, 3>);
 static_assert(has_words<ExtendedParameters, 72>);
 static_assert(has_words<SortParameters, 4>);
 static_assert(has_words<KeyBits, 2>);
+static_assert(has_words<GroupSortParameters, 5>);
+static_assert(has_words<KeyRange, 4>);
+static_assert(has_words<ScanParameters, 1>);
 static_assert(has_words<BinParameters, 13>);
+static_assert(has_words<SplatTiles, 4>);
+static_assert(has_words<GroupBinParameters, 14>);
 static_assert(has_words<Segment, 4>);
 static_assert(has_words<CompositeParameters, 5>);
 static_assert(has_words<OctaveCells, 2>);

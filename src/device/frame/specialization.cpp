@@ -82,7 +82,8 @@ ProgramSource Specialization::project(ProjectOutput output) const {
                         define_if(fine_places_, "FINE_PLACES");
   if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
-  if (output == ProjectOutput::splats) defines += define("COUNT_TILES") + tile_size_defines();
+  if (output == ProjectOutput::splats && rows_)
+    defines += define("COUNT_TILES") + tile_size_defines();
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
   if (extended_) defines += extended_defines();
@@ -93,14 +94,21 @@ std::vector<std::string> Specialization::project_files(ProjectOutput output) con
   const bool wide = is_wide_angle(projection_);
   std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
                                     "lanes.cl", "extended.cl", "load.cl"};
+  if (!rows_) files.insert(files.begin(), "group.h");
   if (wide)
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
   files.insert(files.end(), {"view.cl", "place_extended.cl", "limits.cl", "depth_key.cl"});
   if (!extended_) files.insert(files.end(), {"pair_lanes.cl", "sharp_places.cl"});
   files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
-  if (output == ProjectOutput::splats) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
-  files.push_back("project.cl");
+  if (output == ProjectOutput::splats && rows_)
+    files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
+  files.push_back("splat_arrays.cl");
+  if (rows_) {
+    files.push_back("project.cl");
+  } else {
+    files.insert(files.end(), {"group_sums.cl", "project_groups.cl"});
+  }
   return files;
 }
 
@@ -121,15 +129,31 @@ ProgramSource Specialization::scan_blocks() {
 }
 
 ProgramSource Specialization::sort() {
-  return {"", {"prefetch.cl", "sort.h", "sort.cl"}};
+  return {"", {"prefetch.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
+}
+
+ProgramSource Specialization::sort_groups() {
+  return {"",
+          {"group.h", "splat.h", "sort.h", "common.cl", "group_sums.cl", "short_run.cl",
+           "sort_groups.cl"}};
+}
+
+ProgramSource Specialization::scan() {
+  return {"", {"group.h", "splat.h", "scan.h", "common.cl", "group_sums.cl", "scan_groups.cl"}};
 }
 
 ProgramSource Specialization::bin() const {
   const std::string defines =
       tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
       define_if(vector_colors_, "VECTOR_COLORS") + define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
+  if (rows_) {
+    return {defines,
+            {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl",
+             "amplitudes.cl", "bin.cl"}};
+  }
   return {defines,
-          {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl", "bin.cl"}};
+          {"group.h", "splat.h", "project.h", "bin.h", "common.cl", "tiles.cl", "group_sums.cl",
+           "amplitudes.cl", "bin_groups.cl"}};
 }
 
 ProgramSource Specialization::composite() const {
@@ -169,12 +193,18 @@ std::string Specialization::block_defines() const {
 
 ProgramSource Specialization::join() const {
   return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
-          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "join.cl"}};
+          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl",
+           "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"}};
 }
 
 ProgramSource Specialization::certify() const {
-  return {tile_defines() + define_if(kernel_cut_, "KERNEL_CUT"),
-          {"splat.h", "bin.h", "certify.h", "common.cl", "collect.cl"}};
+  const std::string defines = tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
+  if (rows_) {
+    return {defines, {"splat.h", "bin.h", "certify.h", "common.cl", "collected.cl", "collect.cl"}};
+  }
+  return {defines,
+          {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "collected.cl",
+           "collect_groups.cl"}};
 }
 
 ProgramSource Specialization::coarse_grids() {

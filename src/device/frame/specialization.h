@@ -55,6 +55,8 @@ class Specialization {
   // These are the same for all frames.
   static ProgramSource scan_blocks();
   static ProgramSource sort();
+  static ProgramSource sort_groups();
+  static ProgramSource scan();
   static ProgramSource coarse_grids();
 
  private:

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "device/opencl/buffer_pool.h"
 #include "device/opencl/device_traits.h"
+#include "device/opencl/launch_record.h"
 #include "device/opencl/opencl.h"
 #include "device/opencl/program_cache.h"
 #include "device/opencl/stage_timer.h"
@@ -24,6 +26,7 @@ struct DeviceContext {
   ProgramCache programs;
   BufferPool pool;
   StageTimer timer;
+  std::vector<LaunchRecord>* launches = nullptr;  // takes all launches, where there is one
 };
 
 }  // namespace splotchcl

@@ -10,13 +10,28 @@ std::size_t round_up(std::size_t value, std::size_t step) {
 }  // namespace
 
 void Launch::enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local) {
+  if (device_.launches != nullptr) note(dimensions, global, local);
   device_.timer.add(
       stage_, device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local));
 }
 
+void Launch::note(std::size_t dimensions, const std::size_t* global,
+                  const std::size_t* local) const {
+  LaunchRecord record;
+  record.stage = stage_;
+  record.kernel = kernel_.name();
+  record.items = record.group_items = 1;
+  for (std::size_t d = 0; d < dimensions; ++d) {
+    record.items *= global[d];
+    record.group_items *= local[d];
+  }
+  record.local_bytes =
+      kernel_.get_work_group_info<cl_ulong>(device_.device, CL_KERNEL_LOCAL_MEM_SIZE);
+  device_.launches->push_back(record);
+}
+
 void Launch::run_items(std::size_t items) {
-  // On a processor one item is one thread's work; a GPU wants whole warps, and the
-  // kernels' own bounds end the surplus.
+  // On a processor one item is one thread's work.
   if (items == 0) return;
   const std::size_t local = 1;
   enqueue(1, &items, &local);

@@ -35,6 +35,7 @@ class Launch {
 
  private:
   void enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local);
+  void note(std::size_t dimensions, const std::size_t* global, const std::size_t* local) const;
 
   DeviceContext& device_;
   const char* stage_;

@@ -29,6 +29,7 @@ Binner::Binner(const StageContext& context)
       no_order_(context.device.pool.get<std::uint32_t>(0, "unused")),
       no_blocks_(context.device.pool.get<shared::BlockCounts>(0, "unused")) {
   const DeviceTraits& traits = context.device.traits;
+  if (!traits.rows) groups_.emplace(context);
   // One tile may have all splats of a chunk.
   const std::uint64_t splats_of_chunk =
       context.plan.needs_sort() ? traits.sorted_chunk
@@ -46,45 +47,64 @@ Binner::Binner(const StageContext& context)
   parameters_.widening = context.plan.splats.widening;
 }
 
-CountedSplats Binner::count(SplatBlocks& blocks) const {
+CountedSplats Binner::start(const SplatMemory& splats) const {
   CountedSplats counted;
   counted.parameters = parameters_;
+  counted.splats = &splats;
+  counted.order = &no_order_;
+  counted.blocks = &no_blocks_;
+  return counted;
+}
+
+CountedSplats Binner::count(SplatBlocks& blocks) const {
+  CountedSplats counted = start(blocks.splats);
   counted.parameters.stride = blocks.stride;
   counted.parameters.length = blocks.stride;
   counted.parameters.end = blocks.block_count * blocks.stride;
   counted.parameters.block_count = blocks.block_count;
-  counted.splats = &blocks.splats;
-  counted.order = &no_order_;
   counted.blocks = &blocks.counts;
-  counted.in_order = context_.device.pool.get<std::byte>(0, "unused");
-  counted.tiles = std::move(blocks.tiles);
-  counted.tile_counts = std::move(blocks.tile_counts);
-  scan_blocks(counted);
+  if (groups_) {
+    groups_->count(counted);
+  } else {
+    counted.in_order = context_.device.pool.get<std::byte>(0, "unused");
+    counted.tiles = std::move(blocks.tiles);
+    counted.tile_counts = std::move(blocks.tile_counts);
+    scan_blocks(counted);
+  }
+  counted.bands = cut_in_bands(counted.lengths, entry_capacity_);
   return counted;
 }
 
 CountedSplats Binner::count(const SortedSplats& sorted, const SplatChunk& chunk) const {
-  CountedSplats counted;
-  shared::BinParameters& parameters = counted.parameters;
-  const std::uint32_t wanted = context_.device.traits.bin_blocks;
-  parameters = parameters_;
-  parameters.first = chunk.first;
-  parameters.stride = std::max(1u, chunk.count / wanted + (chunk.count % wanted != 0));
-  parameters.length = parameters.stride;
-  parameters.end = chunk.first + chunk.count;
-  parameters.block_count = chunk.count / parameters.stride + (chunk.count % parameters.stride != 0);
-  counted.splats = &sorted.splats;
+  CountedSplats counted = start(sorted.splats);
+  counted.parameters.first = chunk.first;
+  counted.parameters.end = chunk.first + chunk.count;
   counted.order = &sorted.order;
-  counted.blocks = &no_blocks_;
+  if (groups_) {
+    groups_->count(counted);
+  } else {
+    cut_in_blocks(counted);
+    count_tiles(counted);
+    scan_blocks(counted);
+  }
+  counted.bands = cut_in_bands(counted.lengths, entry_capacity_);
+  return counted;
+}
+
+// What a chunk of sorted splats needs to be counted.
+void Binner::cut_in_blocks(CountedSplats& counted) const {
+  shared::BinParameters& parameters = counted.parameters;
+  const std::uint32_t count = parameters.end - parameters.first;
+  const std::uint32_t wanted = context_.device.traits.bin_blocks;
+  parameters.stride = std::max(1u, count / wanted + (count % wanted != 0));
+  parameters.length = parameters.stride;
+  parameters.block_count = count / parameters.stride + (count % parameters.stride != 0);
   const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
   counted.in_order = context_.device.pool.get<std::byte>(
       slots * context_.specialization.splat_bytes(), "splats in order");
   counted.tiles = context_.device.pool.get<std::uint32_t>(slots, "tiles of splats");
   counted.tile_counts = context_.device.pool.get<std::uint32_t>(
       std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
-  count_tiles(counted);
-  scan_blocks(counted);
-  return counted;
 }
 
 void Binner::count_tiles(CountedSplats& counted) const {
@@ -109,7 +129,6 @@ void Binner::scan_blocks(CountedSplats& counted) const {
       .arg(counted.tile_lengths)
       .run_grid(parameters.tile_count, 1, 1);
   counted.lengths = device.pool.download(counted.tile_lengths, parameters.tile_count);
-  counted.bands = cut_in_bands(counted.lengths, entry_capacity_);
 }
 
 // What the lists of a band will be, without their memory.
@@ -134,9 +153,19 @@ TileLists Binner::measure_lists(const std::vector<std::uint32_t>& lengths,
 }
 
 TileLists Binner::make_lists(const CountedSplats& counted, const TileBand& band) const {
-  DeviceContext& device = context_.device;
   TileLists lists = measure_lists(counted.lengths, band);
   if (lists.entry_count == 0) return lists;
+  if (groups_) {
+    groups_->make_lists(counted, band, lists);
+  } else {
+    fill_lists(counted, band, lists);
+  }
+  return lists;
+}
+
+void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
+                        TileLists& lists) const {
+  DeviceContext& device = context_.device;
   shared::BinParameters parameters = counted.parameters;
   parameters.first_tile = band.first;
   parameters.end_tile = band.end;
@@ -165,7 +194,6 @@ TileLists Binner::make_lists(const CountedSplats& counted, const TileBand& band)
       .arg(context_.colors.knots)
       .arg(lists.entries)
       .run_items(parameters.block_count);
-  return lists;
 }
 
 }  // namespace splotchcl

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
+#include "device/stages/group_binner.h"
 
 namespace splotchcl {
 
@@ -18,9 +20,10 @@ struct CountedSplats {
   const Buffer<shared::BlockCounts>* blocks = nullptr;  // of a projection's
   Buffer<std::byte> in_order;                           // copies of sorted splats
   Buffer<std::uint32_t> tiles;                          // per splat (tiles.cl)
-  Buffer<std::uint32_t> tile_counts;                    // per block and tile
-  Buffer<std::uint32_t> tile_lengths;
-  std::vector<std::uint32_t> lengths;  // the same on the host
+  Buffer<shared::SplatTiles> tiles_of_slots;            // the same in the shape for GPUs
+  Buffer<std::uint32_t> tile_counts;                    // per block and tile; in that, per tile
+  Buffer<std::uint32_t> tile_lengths;                   // not in that
+  std::vector<std::uint32_t> lengths;                   // the same on the host
   // Each band's lists fit into memory. One, where the whole picture's do.
   std::vector<TileBand> bands;
 };
@@ -42,13 +45,17 @@ class Binner {
   TileLists make_lists(const CountedSplats& counted, const TileBand& band) const;
 
  private:
+  CountedSplats start(const SplatMemory& splats) const;
+  void cut_in_blocks(CountedSplats& counted) const;
   void count_tiles(CountedSplats& counted) const;
   void scan_blocks(CountedSplats& counted) const;
+  void fill_lists(const CountedSplats& counted, const TileBand& band, TileLists& lists) const;
   TileLists measure_lists(const std::vector<std::uint32_t>& lengths, const TileBand& band) const;
 
   const StageContext& context_;
   shared::BinParameters parameters_{};
   compute::program program_;
+  std::optional<GroupBinner> groups_;  // does the work in its shape
   std::uint64_t entry_capacity_ = 0;
   Buffer<std::uint32_t> no_order_;         // stand for what a variant of the kernels
   Buffer<shared::BlockCounts> no_blocks_;  // does not read

@@ -128,6 +128,10 @@ void Certifier::collect(const TileLists& lists) {
   if (!has_started_) start();
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;
+  if (!context_.device.traits.rows) {
+    collect_in_groups(lists, parameters);
+    return;
+  }
   Launch(context_.device, "certify", program_.create_kernel("collect"))
       .value(parameters)
       .arg(context_.grids)
@@ -135,6 +139,28 @@ void Certifier::collect(const TileLists& lists) {
       .arg(lists.entries)
       .arg(cells_)
       .run_items(lists.segment_count);
+}
+
+void Certifier::collect_in_groups(const TileLists& lists,
+                                  const shared::CertifyParameters& parameters) const {
+  DeviceContext& device = context_.device;
+  const auto partial_cells = device.pool.get<float>(
+      std::uint64_t{lists.partial_count} * parameters.cells_per_tile, "cells of segments");
+  Launch(device, "certify", program_.create_kernel("collect"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(lists.segments)
+      .arg(lists.entries)
+      .arg(cells_)
+      .arg(partial_cells)
+      .run_groups(lists.segment_count, GROUP_ITEMS);
+  if (lists.partial_count == 0) return;
+  Launch(device, "certify", program_.create_kernel("collect_segments"))
+      .value(parameters)
+      .arg(lists.segments)
+      .arg(cells_)
+      .arg(partial_cells)
+      .run_groups(lists.segment_count, GROUP_ITEMS);
 }
 
 CollectedSplats Certifier::collected() const {

@@ -20,6 +20,7 @@ class Certifier {
 
  private:
   void start();
+  void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
 
   const StageContext& context_;
   shared::CertifyParameters parameters_{};

@@ -84,6 +84,8 @@ void Compositor::join(const TileLists& lists, const shared::CompositeParameters&
   launch.value(parameters).arg(context_.grids).arg(lists.segments).arg(planes.light).arg(partials);
   if (extended) {
     launch.run_groups(lists.segment_count, specialization.tile_pixels() / 8);
+  } else if (!specialization.has_rows()) {
+    launch.run_groups(lists.segment_count, specialization.tile_pixels());
   } else {
     launch.run_rows(specialization.tile_height(), lists.segment_count);
   }

@@ -16,6 +16,15 @@ std::uint32_t block_count(const shared::ProjectParameters& parameters) {
                      parameters.block_particles);
 }
 
+// Of all groups, added up on the device.
+Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
+  Buffer<shared::BlockCounts> counts = device.pool.get<shared::BlockCounts>(1, "counts of splats");
+  const cl_uint zero = 0;
+  device.timer.add("project", device.queue.enqueue_fill_buffer(counts.memory(), &zero, sizeof(zero),
+                                                               0, sizeof(shared::BlockCounts)));
+  return counts;
+}
+
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   ParticleCounts sum;
   for (const shared::BlockCounts& block : blocks) {
@@ -47,8 +56,11 @@ Projector::Projector(const StageContext& context)
       unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
   // Compiled, or found compiled, before the device has work to do.
   ProgramCache& programs = context.device.programs;
-  if (context.plan.needs_sort()) {
+  const bool rows = context.device.traits.rows;
+  if (!rows) scan_.emplace(context.device);
+  if (!rows || context.plan.needs_sort())
     programs.get(context.specialization.project(ProjectOutput::counts));
+  if (context.plan.needs_sort()) {
     programs.get(context.specialization.project(ProjectOutput::splats_and_keys));
   } else {
     programs.get(context.specialization.project(ProjectOutput::splats));
@@ -60,7 +72,7 @@ shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
   shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
   p.first_particle = chunk.first;
   p.end_particle = chunk.end;
-  p.block_particles = context_.device.traits.project_block;
+  p.block_particles = scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
   p.smoothing_length_stride = particles.smoothing_length_stride;
   p.weight_stride = particles.weight_stride;
   p.color_stride = particles.color_stride;
@@ -117,10 +129,39 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
   if (targets.blocks) {
     launch.arg(context_.grids).arg(targets.blocks->tile_counts).arg(targets.blocks->tiles);
   }
-  launch.run_items(block_count(parameters));
+  if (scan_) {
+    launch.run_groups(block_count(parameters), GROUP_ITEMS);
+  } else {
+    launch.run_items(block_count(parameters));
+  }
 }
 
 SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers& particles) const {
+  return scan_ ? project_in_groups(chunk, particles) : project_in_blocks(chunk, particles);
+}
+
+// One block of all the chunk's splats, without gaps.
+SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
+                                         const ParticleBuffers& particles) const {
+  BufferPool& pool = context_.device.pool;
+  const shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  const std::uint32_t groups = block_count(parameters);
+  SplatBlocks blocks;
+  blocks.block_count = 1;
+  blocks.stride =
+      (chunk.end - chunk.first) * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  blocks.counts = no_counts(context_.device);
+  blocks.splats = splat_memory(blocks.stride);
+  const auto offsets = pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
+  const Targets targets = {offsets, blocks.counts, blocks.splats, unused_, unused_ends_, unused_};
+  launch(ProjectOutput::counts, parameters, particles, targets);
+  scan_->scan("project", offsets, groups);
+  launch(ProjectOutput::splats, parameters, particles, targets);
+  return blocks;
+}
+
+SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
+                                         const ParticleBuffers& particles) const {
   BufferPool& pool = context_.device.pool;
   const shared::ProjectParameters parameters = parameters_for(chunk, particles);
   SplatBlocks blocks;
@@ -158,20 +199,17 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   }
   KeyedSplats keyed;
   if (blocks == 0) return keyed;
-  const auto counts = device.pool.get<shared::BlockCounts>(blocks, "block counts");
+  const auto counts =
+      scan_ ? no_counts(device) : device.pool.get<shared::BlockCounts>(blocks, "block counts");
   const auto offsets = device.pool.get<std::uint32_t>(blocks + 1, "block offsets");
   const auto pass = [&](ProjectOutput output, const Targets& targets) {
     for (std::size_t c = 0; c < components.size(); ++c)
       launch(output, components[c], particles[c], targets);
   };
   pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
-  Launch(device, "project",
-         device.programs.get(Specialization::scan_blocks()).create_kernel("scan_blocks"))
-      .value(blocks)
-      .arg(counts)
-      .arg(offsets)
-      .run_items(1);
-  keyed.count = device.pool.download(offsets, blocks + 1).back();
+  scan_counts(blocks, counts, offsets);
+  keyed.particles = sum_of(device.pool.download(counts, scan_ ? 1 : blocks));
+  keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
   keyed.splats = splat_memory(keyed.count);
   keyed.keys = device.pool.get<std::uint32_t>(keyed.count, "sort keys");
   const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
@@ -179,8 +217,23 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   keyed.order = device.pool.get<std::uint32_t>(keyed.count, "order");
   pass(ProjectOutput::splats_and_keys,
        {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
-  keyed.particles = sum_of(device.pool.download(counts, blocks));
   return keyed;
+}
+
+// Where the splats of each block begin, from how many it has.
+void Projector::scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
+                            const Buffer<std::uint32_t>& offsets) const {
+  if (scan_) {
+    scan_->scan("project", offsets, blocks);
+    return;
+  }
+  DeviceContext& device = context_.device;
+  Launch(device, "project",
+         device.programs.get(Specialization::scan_blocks()).create_kernel("scan_blocks"))
+      .value(blocks)
+      .arg(counts)
+      .arg(offsets)
+      .run_items(1);
 }
 
 }  // namespace splotchcl

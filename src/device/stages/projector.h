@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
+#include "device/stages/group_scan.h"
 
 namespace splotchcl {
 
@@ -27,6 +29,10 @@ class Projector {
   struct Targets;
   shared::ProjectParameters parameters_for(const ParticleChunk& chunk,
                                            const ParticleBuffers& particles) const;
+  SplatBlocks project_in_blocks(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
+  SplatBlocks project_in_groups(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
+  void scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
+                   const Buffer<std::uint32_t>& offsets) const;
   SplatMemory splat_memory(std::uint64_t splats) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;
@@ -35,6 +41,7 @@ class Projector {
 
   const StageContext& context_;
   const Buffer<shared::WidthNeeds> width_needs_;
+  std::optional<GroupScan> scan_;  // in the shape for GPUs
   // Stand for what a variant of the kernel does not write.
   Buffer<std::uint32_t> unused_;
   Buffer<std::uint16_t> unused_ends_;

@@ -30,6 +30,10 @@ shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted
 
 }  // namespace
 
+Sorter::Sorter(DeviceContext& device) : device_(device) {
+  if (!device.traits.rows) groups_.emplace(device);
+}
+
 Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                                  std::uint32_t count) const {
   BufferPool& pool = device_.pool;
@@ -76,6 +80,7 @@ Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                                    std::uint32_t count) const {
   if (count < 2) return values;
+  if (groups_) return groups_->sort(std::move(keys), std::move(values), count);
   return sort_pairs(std::move(keys), std::move(values), count).values;
 }
 
@@ -109,6 +114,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                                    Buffer<std::uint32_t> values, std::uint32_t count) const {
   if (count < 2) return values;
+  if (groups_) return groups_->sort(std::move(keys), ends, std::move(values), count);
   const std::uint32_t bits_left = take_in_ends(keys, ends, count);
   Pairs sorted = sort_pairs(std::move(keys), std::move(values), count);
   if (bits_left == 0) return std::move(sorted.values);

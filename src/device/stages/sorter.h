@@ -1,16 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "device/frame/records.h"
 #include "device/opencl/device_context.h"
+#include "device/stages/group_sorter.h"
 
 namespace splotchcl {
 
 // Stable radix sort of (key, value) pairs on the device: the stage `sort`.
 class Sorter {
  public:
-  explicit Sorter(DeviceContext& device) : device_(device) {}
+  explicit Sorter(DeviceContext& device);
 
   // The splats in the order of ascending keys.
   SortedSplats sort(KeyedSplats keyed) const;
@@ -33,6 +35,7 @@ class Sorter {
                              std::uint32_t count) const;
 
   DeviceContext& device_;
+  std::optional<GroupSorter> groups_;  // does the work in its shape
 };
 
 }  // namespace splotchcl

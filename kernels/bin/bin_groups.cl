@@ -1,0 +1,186 @@
+// Splats to lists per tile for GPUs: a work-item per splat finds its tiles, one per entry writes
+// the entry's tile and splat in the splats' order, the stable sort of the stage `sort` puts these
+// in the order of tiles, and a work-item per entry makes it.
+
+// The slots of a chunk: all of the sorted ones, or as many as the projection has filled.
+INLINED uint slot_count(const BinParameters p, __global const BlockCounts* blocks) {
+#ifdef BLOCKS_OF_PROJECTION
+  return min(p.end - p.first, blocks->visible);
+#else
+  return p.end - p.first;
+#endif
+}
+
+INLINED uint splat_of_slot(const BinParameters p, __global const uint* order, uint slot) {
+#ifdef BLOCKS_OF_PROJECTION
+  return p.first + slot;
+#else
+  return order[p.first + slot];
+#endif
+}
+
+INLINED SplatTiles tiles_of_splat(const Splat splat, const Grid grid) {
+  const int4 range = tile_range(splat, grid);
+  SplatTiles tiles;
+  tiles.first = grid.corner_tile + (uint)(range.z * grid.tiles_x + range.x);
+  tiles.columns = (uint)(range.y - range.x + 1);
+  tiles.rows = (uint)(range.w - range.z + 1);
+  tiles.grid_columns = (uint)grid.tiles_x;
+  return tiles;
+}
+
+// Counts a splat in its tiles: in each of a few, else in `corners`, from whose sums over columns
+// and rows the host finds the counts.
+INLINED void count_in_groups(const SplatTiles tiles, const Grid grid, __global uint* counts,
+                             __global uint* corners) {
+  const uint columns = tiles.columns, rows = tiles.rows;
+  if (columns * rows <= FEW_TILES) {
+    for (uint k = 0; k < columns * rows; ++k)
+      atomic_inc(&counts[tiles.first + k / columns * tiles.grid_columns + k % columns]);
+    return;
+  }
+  const uint in_grid = tiles.first - grid.first_tile;
+  const int ends_right = in_grid % tiles.grid_columns + columns == (uint)grid.tiles_x;
+  const int ends_below = in_grid / tiles.grid_columns + rows == (uint)grid.tiles_y;
+  __global uint* first = corners + tiles.first;
+  __global uint* below = first + rows * tiles.grid_columns;
+  atomic_inc(first);
+  if (!ends_right) atomic_dec(first + columns);
+  if (!ends_below) atomic_dec(below);
+  if (!ends_right && !ends_below) atomic_inc(below + columns);
+}
+
+// `counts` has room for all tiles twice, and is 0 at first.
+__kernel OF_GROUPS void bin_find_tiles(const GroupBinParameters p, __global const Grid* grids,
+                                       __global const Splat* splats, __global const uint* order,
+                                       __global const BlockCounts* blocks,
+                                       __global SplatTiles* tiles, __global uint* counts) {
+  const uint slot = get_global_id(0);
+  if (slot >= slot_count(p.bin, blocks)) return;
+  const Splat splat = splats[splat_of_slot(p.bin, order, slot)];
+  const Grid grid = grids[grid_of(splat)];
+  const SplatTiles found = tiles_of_splat(splat, grid);
+  tiles[slot] = found;
+  count_in_groups(found, grid, counts, counts + p.bin.tile_count);
+}
+
+// Of the splat's tiles, row by row, those before this one.
+INLINED uint tiles_before(const SplatTiles tiles, uint tile) {
+  if (tile <= tiles.first) return 0;
+  const uint row = (tile - tiles.first) / tiles.grid_columns;
+  const uint column = (tile - tiles.first) % tiles.grid_columns;
+  return row < tiles.rows ? row * tiles.columns + min(column, tiles.columns)
+                          : tiles.rows * tiles.columns;
+}
+
+// How many entries each slot has in the band; slots beyond the last splat have none.
+__kernel OF_GROUPS void bin_count_entries(const GroupBinParameters p,
+                                          __global const BlockCounts* blocks,
+                                          __global const SplatTiles* tiles,
+                                          __global uint* entry_counts) {
+  const uint slot = get_global_id(0);
+  if (slot >= p.bin.end - p.bin.first) return;
+  uint count = 0;
+  if (slot < slot_count(p.bin, blocks)) {
+    const SplatTiles own = tiles[slot];
+    count = tiles_before(own, p.bin.end_tile) - tiles_before(own, p.bin.first_tile);
+  }
+  entry_counts[slot] = count;
+}
+
+// The last slot whose entries begin at this one or before: it has it.
+INLINED uint slot_of_entry(__global const uint* first_entries, uint slots, uint entry) {
+  uint low = 0, high = slots;
+  while (high - low > 1) {
+    const uint middle = low + (high - low) / 2;
+    if (first_entries[middle] <= entry) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+// Entries in the order of slots, and of each slot in that of tiles.
+__kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint* order,
+                                 __global const SplatTiles* tiles,
+                                 __global const uint* first_entries,
+                                 __global uint* tiles_of_entries,
+                                 __global uint* splats_of_entries) {
+  const uint entry = get_global_id(0);
+  if (entry >= p.entry_count) return;
+  const uint slot = slot_of_entry(first_entries, p.bin.end - p.bin.first, entry);
+  const SplatTiles own = tiles[slot];
+  const uint k = entry - first_entries[slot] + tiles_before(own, p.bin.first_tile);
+  const uint tile = own.first + k / own.columns * own.grid_columns + k % own.columns;
+  tiles_of_entries[entry] = tile - p.bin.first_tile;
+  splats_of_entries[entry] = splat_of_slot(p.bin, order, slot);
+}
+
+#ifdef EXTENDED_NUMBERS
+INLINED TileSplat entry_of(const BinParameters p, uint splat) {
+  TileSplat entry;
+  entry.slot = splat;
+  return entry;
+}
+#else
+INLINED TileSplat entry_of(const BinParameters p, const Splat splat, const Grid grid, uint tile,
+                           __global const ComponentColors* component_colors,
+                           __global const float* knots) {
+  const uint in_grid = tile - grid.first_tile;
+  const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
+  const int middle_x = grid.first_x + column * TILE_WIDTH + TILE_WIDTH / 2;
+  const int middle_y = grid.first_y + row * TILE_HEIGHT + TILE_HEIGHT / 2;
+  const int bits = place_bits_of(splat, grid);
+  const float unit = unit_of(splat, grid);
+  TileSplat entry;
+  entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
+  entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
+#ifdef FINE_PLACES
+  entry.x_low = rest_from_pixel(splat.x, fraction_of_x(splat), middle_x, grid.middle_x, bits, unit);
+  entry.y_low = rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
+#endif
+  entry.sigma = splat.sigma;
+  entry.radius = splat.radius;
+#ifdef ELLIPSES
+  entry.along_x = splat.along_x;
+#endif
+  const ComponentColors colors = component_colors[component_of(splat)];
+#ifdef LIGHT_ORDERED
+  amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
+#else
+  sum_amplitude(splat, colors, knots, entry.summed);
+#endif
+  return entry;
+}
+#endif
+
+// A group writes its entries together, word by word.
+#define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
+
+__kernel OF_GROUPS void bin_make_entries(const GroupBinParameters p, __global const Grid* grids,
+                                         __global const Splat* splats,
+                                         __global const uint* tiles_of_entries,
+                                         __global const uint* splats_of_entries,
+                                         __global const ComponentColors* component_colors,
+                                         __global const float* knots, __global uint* entries) {
+  __local TileSplat own[GROUP_ITEMS];
+  const uint item = get_local_id(0), first = get_group_id(0) * GROUP_ITEMS;
+  const uint count = min((uint)GROUP_ITEMS, p.entry_count - first);
+  if (item < count) {
+    const uint splat = splats_of_entries[first + item];
+#ifdef EXTENDED_NUMBERS
+    own[item] = entry_of(p.bin, splat);
+#else
+    const Splat found = splats[splat];
+    own[item] =
+        entry_of(p.bin, found, grids[grid_of(found)],
+                 tiles_of_entries[first + item] + p.bin.first_tile, component_colors, knots);
+#endif
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  __local const uint* words = (__local const uint*)own;
+  for (uint w = item; w < count * ENTRY_WORDS; w += GROUP_ITEMS)
+    entries[(size_t)first * ENTRY_WORDS + w] = words[w];
+}

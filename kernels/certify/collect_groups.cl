@@ -1,0 +1,78 @@
+// The sums of collected.cl for GPUs: a work-group takes a segment of a tile's list. For a batch of
+// splats at a time each work-item works out what one of them adds, then each adds up one cell, in
+// the order of the list. Segments of cut lists have cells of their own, which are joined in order.
+
+#define NO_CELL 0xffffffffu
+
+// What splats add to cells of peaks, and to cells of endings.
+typedef struct Contributions {
+  uint cells[2][GROUP_ITEMS];
+  float values[2][GROUP_ITEMS];
+} Contributions;
+
+INLINED Contribution contribution_of(__global const TileSplat* splat, const CertifyParameters* p,
+                                     __global const Grid* grids, uint g, uint tile) {
+  const Grid grid = grids[g];
+  const uint in_grid = tile - grid.first_tile;
+  const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
+  const GridOfCells of_grid = grid_of_cells(p, g, grid);
+  if (splat->radius < 0.0f) {
+    const Collected listed = measured(splat, p, of_grid);
+    return contribution_of_listed(splat, &listed, p, grids + g, column, row);
+  }
+  if (counts_here(splat, reach_of(grid, column, row))) {
+    return contribution_of_drawn(splat, measured(splat, p, of_grid), p, of_grid.level,
+                                 of_grid.most_peak);
+  }
+  Contribution none;
+  none.peak_cell = none.ending_cell = NO_CELL;
+  none.peak = none.ending = 0.0f;
+  return none;
+}
+
+// Cells of peaks come first, then those of endings, then the one that counts the list.
+__kernel OF_GROUPS void collect(const CertifyParameters p, __global const Grid* grids,
+                                __global const Segment* segments, __global const TileSplat* entries,
+                                __global float* cells, __global float* partial_cells) {
+  __local Contributions batch;
+  const uint item = get_local_id(0);
+  const Segment segment = segments[get_group_id(0)];
+  const uint g = grid_of_tile(grids, p.grid_count, segment.tile);
+  const int has_cell = item < p.cells_per_tile, is_cut = segment.partial != NO_PARTIAL;
+  __global float* own = is_cut ? partial_cells + (size_t)segment.partial * p.cells_per_tile
+                               : cells + (size_t)segment.tile * p.cells_per_tile;
+  const uint kind = item < p.endings[0].first ? 0 : 1;
+  float sum = has_cell && !is_cut ? own[item] : 0.0f;
+  if (item == p.listed) sum += (float)(segment.end - segment.begin);
+  for (uint first = segment.begin; first < segment.end; first += GROUP_ITEMS) {
+    const uint count = min((uint)GROUP_ITEMS, segment.end - first);
+    if (item < count) {
+      const Contribution added =
+          contribution_of(entries + first + item, &p, grids, g, segment.tile);
+      batch.cells[0][item] = added.peak_cell;
+      batch.values[0][item] = added.peak;
+      batch.cells[1][item] = added.ending_cell;
+      batch.values[1][item] = added.ending;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint k = 0; k < count; ++k) {
+      if (batch.cells[kind][k] == item) sum += batch.values[kind][k];
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  if (has_cell) own[item] = sum;
+}
+
+__kernel OF_GROUPS void collect_segments(const CertifyParameters p,
+                                         __global const Segment* segments, __global float* cells,
+                                         __global const float* partial_cells) {
+  const uint id = get_group_id(0), cell = get_local_id(0);
+  const Segment first = segments[id];
+  if (cell >= p.cells_per_tile || first.partial == NO_PARTIAL) return;
+  if (id > 0 && segments[id - 1].tile == first.tile) return;
+  __global float* own = cells + (size_t)first.tile * p.cells_per_tile + cell;
+  float sum = *own;
+  for (uint s = id; s < p.segment_count && segments[s].tile == first.tile; ++s)
+    sum += partial_cells[(size_t)segments[s].partial * p.cells_per_tile + cell];
+  *own = sum;
+}

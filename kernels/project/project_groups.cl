@@ -1,0 +1,105 @@
+// Particles to splats for GPUs: a work-item per particle. A first pass counts the splats of each
+// group, and when these counts have been scanned a second one writes the splats without gaps, in
+// the order of the file.
+
+// As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
+// that counts, and counts[0] those of all groups.
+__kernel OF_GROUPS void project(
+    const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
+    __global const float* smoothing_lengths, __global const float* weights,
+    __global const float* colors, __global const float* intensities,
+    __global const float* sort_fields, __global uint* offsets, __global BlockCounts* counts,
+    __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
+    __global const WidthNeeds* width_needs OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
+  __local uint sums[GROUP_ITEMS];
+  __local BlockCounts of_group;
+  const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+  if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = 0;
+  Columns columns;
+  columns.positions = positions;
+  columns.smoothing_lengths = smoothing_lengths;
+  columns.weights = weights;
+  columns.colors = colors;
+  columns.intensities = intensities;
+  columns.sort_fields = sort_fields;
+#ifdef VECTOR_COLORS
+  columns.own_colors = own_colors;
+#endif
+  // Items beyond the last particle look at it once more: all of them meet every barrier.
+  const uint wanted = p.first_particle + get_global_id(0);
+  const uint i = min(wanted, p.end_particle - 1u);
+  const int exists = wanted < p.end_particle;
+  SplatLanes lanes = project_lanes(i, p.end_particle, p, width_needs, e, columns);
+  lanes.visible &= exists;
+  lanes.too_sharp &= exists;
+  const int unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
+  if (unclear) {
+    const int within = are_within_limits(i, p.end_particle, unclear, columns, p);
+    lanes.visible &= within;
+    lanes.too_sharp &= within;
+  }
+  uint count = lanes.visible != 0;
+#ifdef EXTENDED_NUMBERS
+  Splat splat;
+  ExtendedSplat extended;
+  count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
+#elif defined(OUTPUT_SPLATS) || defined(ELLIPSES)
+  SplatArrays found;
+  if (count) spread(lanes, &found);
+#ifdef OUTPUT_SPLATS
+  Splat splat;
+  if (count) splat = splat_of(&found, 0);
+#endif
+#endif
+#ifdef ELLIPSES
+  int2 copies = (int2)(0, -1);
+  if (count) {
+#ifdef EXTENDED_NUMBERS
+    copies = copies_in_picture(pixels_from_middle(splat.x, splat, p), splat.along_x.radius, p);
+#else
+    copies = copies_in_picture(found.pixel_x[0], found.radius_x[0], p);
+#endif
+    count = (uint)max(copies.y - copies.x + 1, 0);
+  }
+#endif
+  uint total;
+#ifdef OUTPUT_SPLATS
+  uint slot = offsets[group] + group_scan(count, sums, &total);
+  for (uint k = 0; k < count; ++k, ++slot) {
+    Splat listed = splat;
+#ifdef ELLIPSES
+    const int copy = copies.x + (int)k;
+    listed.x += steps_to_copy(splat, copy, p);
+#endif
+    splats[slot] = listed;
+#ifdef EXTENDED_NUMBERS
+    extended_splats[slot] = extended;
+#ifdef ELLIPSES
+    extended_splats[slot].x = pair_of(copy_of(copy, extended, e));
+#endif
+#endif
+#ifdef OUTPUT_KEYS
+    const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
+    if (p.sort_by_field) {
+      keys[slot] = field_key(lanes.sort_field) ^ keys_turned_round;
+    } else {
+      const ulong key = depth_of(positions + (size_t)i * 3, p.depth_key).key;
+      keys[slot] = (uint)(key >> 16) ^ keys_turned_round;
+      key_ends[slot] = (ushort)((uint)key ^ keys_turned_round);
+    }
+    order[slot] = slot;
+#endif
+  }
+#else
+  group_scan(count, sums, &total);
+  if (lanes.bad & exists) atomic_inc(&of_group.bad);
+  if (lanes.too_sharp) atomic_inc(&of_group.too_sharp);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item == 0) {
+    offsets[group] = total;
+    if (total > 0) atomic_add(&counts->visible, total);
+    if (of_group.bad > 0) atomic_add(&counts->bad, of_group.bad);
+    if (of_group.too_sharp > 0) atomic_add(&counts->too_sharp, of_group.too_sharp);
+  }
+#endif
+}

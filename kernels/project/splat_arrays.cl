@@ -1,0 +1,123 @@
+// LANES splats, to be written one by one, and what kernels that write them take.
+
+#if defined(COUNT_TILES) && !defined(ELLIPSES) && !defined(EXTENDED_NUMBERS)
+#define TILES_OF_LANES
+#endif
+
+// SplatLanes as arrays, to be written one by one.
+typedef struct SplatArrays {
+  int visible[LANES];
+  int x[LANES], y[LANES], component_and_grid[LANES];
+  float sigma[LANES], radius[LANES], weight[LANES], color[LANES];
+#ifdef ELLIPSES
+  float pixel_x[LANES], sigma_x[LANES], radius_x[LANES];
+#endif
+#ifdef VECTOR_COLORS
+  float red[LANES], green[LANES], blue[LANES];
+#endif
+#ifdef FINE_PLACES
+  int place_fractions[LANES];
+#endif
+  float sort_field[LANES];
+#ifdef TILES_OF_LANES
+  int tiles[LANES];
+#endif
+} SplatArrays;
+
+INLINED void spread(const SplatLanes s, SplatArrays* a) {
+  STORE(s.visible, a->visible);
+#ifdef OUTPUT_KEYS
+  STORE(s.sort_field, a->sort_field);
+#endif
+#ifndef EXTENDED_NUMBERS
+#ifdef ELLIPSES
+  STORE(s.x, a->pixel_x);
+  STORE(s.radius_x, a->radius_x);
+#endif
+#ifdef OUTPUT_SPLATS
+  STORE(s.place.x, a->x);
+  STORE(s.place.y, a->y);
+  STORE(s.component_and_grid, a->component_and_grid);
+  STORE(s.sigma, a->sigma);
+  STORE(s.radius, a->radius);
+  STORE(s.weight, a->weight);
+  STORE(s.color, a->color);
+#ifdef ELLIPSES
+  STORE(s.sigma_x, a->sigma_x);
+#endif
+#ifdef VECTOR_COLORS
+  STORE(s.own_color.x, a->red);
+  STORE(s.own_color.y, a->green);
+  STORE(s.own_color.z, a->blue);
+#endif
+#ifdef FINE_PLACES
+  STORE(s.place.fractions, a->place_fractions);
+#endif
+#endif
+#endif
+}
+
+#if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
+INLINED Splat splat_of(const SplatArrays* a, uint k) {
+  Splat splat;
+  splat.x = a->x[k];
+  splat.y = a->y[k];
+  splat.component_and_grid = (uint)a->component_and_grid[k];
+  splat.sigma = a->sigma[k];
+  splat.radius = a->radius[k];
+  splat.weight = a->weight[k];
+  splat.color = a->color[k];
+#ifdef ELLIPSES
+  splat.along_x.sigma = a->sigma_x[k];
+  splat.along_x.radius = a->radius_x[k];
+#endif
+#ifdef VECTOR_COLORS
+  splat.own_color.rgb[0] = a->red[k];
+  splat.own_color.rgb[1] = a->green[k];
+  splat.own_color.rgb[2] = a->blue[k];
+#endif
+#ifdef FINE_PLACES
+  splat.place_fractions = (uint)a->place_fractions[k];
+#endif
+  return splat;
+}
+#endif
+
+inline uint count_true(INTEGER mask) {
+  int lanes[LANES];
+  STORE(mask, lanes);
+  uint count = 0;
+  for (uint k = 0; k < LANES; ++k)
+    count += lanes[k] != 0;
+  return count;
+}
+
+#ifdef OUTPUT_KEYS
+// Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
+inline uint field_key(float value) {
+  const uint bits = as_uint(value == 0.0f ? 0.0f : value);
+  return bits ^ ((bits >> 31) ? 0xffffffffu : 0x80000000u);
+}
+#endif
+
+#ifdef VECTOR_COLORS
+#define OWN_COLORS_PARAMETER , __global const float* own_colors
+#else
+#define OWN_COLORS_PARAMETER
+#endif
+// What extended precision needs beyond that (project_extended.cl).
+#ifdef EXTENDED_NUMBERS
+#define EXTENDED_PARAMETERS                                                        \
+  , __global const ComponentColors *component_colors, __global const float *knots, \
+      __global ExtendedSplat *extended_splats
+#else
+#define EXTENDED_PARAMETERS
+#endif
+
+// Where splats are binned as they come.
+#ifdef COUNT_TILES
+#define TILE_PARAMETERS \
+  , __global const Grid *grids, __global uint *tile_counts, __global uint *tiles
+#else
+#define TILE_PARAMETERS
+#endif

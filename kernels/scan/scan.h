@@ -1,0 +1,16 @@
+// What host and kernels share of scans over long lists.
+#ifndef SPLOTCHCL_SCAN_H
+#define SPLOTCHCL_SCAN_H
+
+#define SCAN_VALUES_OF_ITEM 8
+#define SCAN_STRETCH (GROUP_ITEMS * SCAN_VALUES_OF_ITEM)
+
+struct ScanParameters {
+  unsigned int count;  // values
+};
+
+#ifdef __OPENCL_VERSION__
+typedef struct ScanParameters ScanParameters;
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+// Exclusive sums over long lists: every group adds up a stretch of SCAN_STRETCH values, these sums
+// are scanned likewise, and every group goes through its stretch again from what lies before it.
+
+INLINED uint value_or_0(__global const uint* values, uint i, const ScanParameters p) {
+  return i < p.count ? values[i] : 0u;
+}
+
+__kernel OF_GROUPS void scan_reduce(const ScanParameters p, __global const uint* values,
+                                    __global uint* sums_of_groups) {
+  __local uint sums[GROUP_ITEMS];
+  const uint item = get_local_id(0), group = get_group_id(0);
+  uint sum = 0, total;
+  for (uint k = 0; k < SCAN_VALUES_OF_ITEM; ++k)
+    sum += value_or_0(values, group * SCAN_STRETCH + k * GROUP_ITEMS + item, p);
+  group_scan(sum, sums, &total);
+  if (item == 0) sums_of_groups[group] = total;
+}
+
+// In place; the place behind the last value takes the sum of all.
+__kernel OF_GROUPS void scan_stretches(const ScanParameters p, __global uint* values,
+                                       __global const uint* before_groups) {
+  __local uint sums[GROUP_ITEMS];
+  const uint item = get_local_id(0), group = get_group_id(0);
+  const uint first = group * SCAN_STRETCH + item * SCAN_VALUES_OF_ITEM;
+  uint own[SCAN_VALUES_OF_ITEM];
+  uint sum = 0, total;
+  for (uint k = 0; k < SCAN_VALUES_OF_ITEM; ++k) {
+    own[k] = value_or_0(values, first + k, p);
+    sum += own[k];
+  }
+  uint running = before_groups[group] + group_scan(sum, sums, &total);
+  for (uint k = 0; k < SCAN_VALUES_OF_ITEM; ++k) {
+    if (first + k < p.count) values[first + k] = running;
+    running += own[k];
+    if (first + k + 1 == p.count) values[p.count] = running;
+  }
+  if (p.count == 0 && item == 0) values[0] = 0;
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace splotchcl {
+
+// One launch of a kernel, for tests and models that ask how the device was used.
+struct LaunchRecord {
+  std::string stage, kernel;
+  std::size_t items = 0, group_items = 0;  // work-items in all, and in a work-group
+  std::uint64_t local_bytes = 0;           // local memory of a group
+};
+
+}  // namespace splotchcl

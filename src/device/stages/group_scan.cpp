@@ -1,0 +1,43 @@
+#include "device/stages/group_scan.h"
+
+#include <vector>
+
+#include "device/frame/shared.h"
+#include "device/frame/specialization.h"
+#include "device/opencl/launch.h"
+
+namespace splotchcl {
+
+GroupScan::GroupScan(DeviceContext& device)
+    : device_(device),
+      program_(device.programs.get(Specialization::scan())),
+      nothing_(device.pool.upload(std::vector<std::uint32_t>{0}, "start of a scan")) {}
+
+void GroupScan::scan(const char* stage, const Buffer<std::uint32_t>& values,
+                     std::uint32_t count) const {
+  const shared::ScanParameters parameters{count};
+  const std::uint32_t groups = count / SCAN_STRETCH + (count % SCAN_STRETCH != 0 ? 1 : 0);
+  // An empty list has a sum, too.
+  if (groups <= 1) {
+    Launch(device_, stage, program_.create_kernel("scan_stretches"))
+        .value(parameters)
+        .arg(values)
+        .arg(nothing_)
+        .run_groups(1, GROUP_ITEMS);
+    return;
+  }
+  const auto sums = device_.pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "sums of stretches");
+  Launch(device_, stage, program_.create_kernel("scan_reduce"))
+      .value(parameters)
+      .arg(values)
+      .arg(sums)
+      .run_groups(groups, GROUP_ITEMS);
+  scan(stage, sums, groups);
+  Launch(device_, stage, program_.create_kernel("scan_stretches"))
+      .value(parameters)
+      .arg(values)
+      .arg(sums)
+      .run_groups(groups, GROUP_ITEMS);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/shared.h"
+#include "device/opencl/device_context.h"
+#include "device/stages/group_scan.h"
+
+namespace splotchcl {
+
+// Pairs of keys and values on the device, as many of both.
+struct KeyedValues {
+  Buffer<std::uint32_t> keys, values;
+};
+
+// The passes of a radix sort: `smallest` is subtracted first, and bits that are in no digit are
+// the same in all keys.
+struct DigitPlan {
+  struct Digit {
+    std::uint32_t shift = 0, bits = 0;
+  };
+  std::uint32_t smallest = 0;
+  std::vector<Digit> digits;
+};
+
+// The fewest digits of at most 8 bits for keys below 2^bits.
+DigitPlan digits_of_bits(std::uint32_t bits);
+// The fewest for keys in this range: those in which keys differ, or those of what they are above
+// the smallest.
+DigitPlan digits_of_range(const shared::KeyRange& range);
+
+// Sorter's work in the shape for GPUs: by work-groups, each of which sorts a stretch in local
+// memory.
+class GroupSorter {
+ public:
+  explicit GroupSorter(DeviceContext& device);
+
+  // As in Sorter.
+  Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
+                             std::uint32_t count) const;
+  Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
+                             Buffer<std::uint32_t> values, std::uint32_t count) const;
+  // Stable, by the keys' digits; keys come back less the smallest. `stage` as in Launch.
+  KeyedValues sort(const char* stage, KeyedValues pairs, std::uint32_t count,
+                   const DigitPlan& plan) const;
+
+ private:
+  shared::KeyRange find_range(const Buffer<std::uint32_t>& keys, std::uint32_t count) const;
+  // How many bits of the ends are in the keys then, of which those in use are returned.
+  std::uint32_t join_ends(const Buffer<std::uint32_t>& keys, const Buffer<std::uint16_t>& ends,
+                          std::uint32_t count, std::uint32_t& bits) const;
+  bool sort_short_runs(const KeyedValues& pairs, const Buffer<std::uint16_t>& ends,
+                       std::uint32_t count) const;
+  KeyedValues order_by_ends(const KeyedValues& pairs, const Buffer<std::uint16_t>& ends,
+                            std::uint32_t count) const;
+
+  DeviceContext& device_;
+  GroupScan scan_;
+  compute::program program_;
+};
+
+}  // namespace splotchcl
