@@ -1,0 +1,108 @@
+// Predicts what a frame would take on GPUs that are not at hand: draws it with the kernels and the
+// sizes for GPUs on any device, counts bytes, operations and chains of steps, and divides by what
+// vendors say of their devices.
+#include <cmath>
+#include <iostream>
+
+#include "arguments.h"
+#include "gpu_model/count_work.h"
+#include "gpu_model/prediction.h"
+#include "splotchcl/error.h"
+#include "synthetic.h"
+#include "table.h"
+
+namespace splotchcl::bench {
+namespace {
+
+LightPlan light_of(const std::string& name) {
+  for (const LightPlan light : {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
+    if (name == splotchcl::name(light)) return light;
+  }
+  throw UsageError("--light: found '" + name + "', expected emission, proportional or ordered");
+}
+
+void print_work(const CountedWork& counted, const std::vector<KernelWork>& kernels) {
+  const FrameWork& work = counted.work;
+  if (work.particles > 0) {
+    std::cout << std::fixed << "particles " << work.particles / 1e6 << " M, splats "
+              << work.splats / 1e6 << " M, entries " << work.entries / 1e6 << " M, pixel updates "
+              << 32 * work.drawn_parts / 1e9 << " G at most, longest list of a chunk "
+              << work.longest_list << "\n\n";
+  }
+  Table table({"stage", "kernel", "launches", "M items", "least", "MB read", "MB written", "G ops",
+               "chain", "KiB local", "barriers"});
+  for (const KernelWork& k : kernels) {
+    table.add({k.stage, k.kernel, fixed(k.launches, 0), fixed(k.items / 1e6, 2),
+               fixed(k.least_items, 0), fixed(k.cost.bytes_read / 1e6, 1),
+               fixed(k.cost.bytes_written / 1e6, 1), fixed(k.cost.operations / 1e9, 2),
+               fixed(k.cost.chain, 0), fixed(static_cast<double>(k.local_bytes) / 1024, 1),
+               std::to_string(k.cost.barriers)});
+  }
+  std::cout << table.text() << "\n";
+}
+
+// Milliseconds of each stage, and of the kernel that takes most of it what it waits for.
+void print_prediction(const std::vector<KernelWork>& kernels) {
+  std::vector<std::string> columns = {"stage"};
+  for (const DeviceSheet& device : device_sheets())
+    columns.emplace_back(device.name);
+  Table table(columns);
+  std::vector<double> totals(device_sheets().size());
+  std::vector<std::string> stages;
+  for (const KernelWork& kernel : kernels) {
+    if (stages.empty() || std::find(stages.begin(), stages.end(), kernel.stage) == stages.end())
+      stages.push_back(kernel.stage);
+  }
+  for (const std::string& stage : stages) {
+    std::vector<std::string> cells = {stage};
+    for (std::size_t d = 0; d < device_sheets().size(); ++d) {
+      double sum = 0, most = 0;
+      std::string bound;
+      for (const KernelWork& kernel : kernels) {
+        if (kernel.stage != stage) continue;
+        const RooflineTime time = roofline(kernel, device_sheets()[d]);
+        sum += time.total();
+        if (time.total() > most) bound = time.bound_by();
+        most = std::max(most, time.total());
+      }
+      totals[d] += sum;
+      cells.push_back(fixed(1e3 * sum, 2) + " (" + bound + ")");
+    }
+    table.add(cells);
+  }
+  std::vector<std::string> cells = {"all"};
+  for (const double total : totals)
+    cells.push_back(fixed(1e3 * total, 2));
+  table.add(cells);
+  std::cout << "Predicted milliseconds, no device of these at hand:\n\n" << table.text();
+}
+
+void predict(const Arguments& arguments) {
+  DeviceContext device(choose_device(arguments.text("device", "")));
+  CountedWork counted;
+  if (arguments.has("sort")) {
+    counted = count_sort(device, static_cast<std::uint32_t>(arguments.number("sort", 0)));
+  } else {
+    UniverseSetup setup;
+    setup.particles = static_cast<std::size_t>(arguments.number("particles", 1000000));
+    Frame frame = universe_frame(make_universe(setup), arguments.number("width", 1400),
+                                 arguments.number("height", 1050));
+    set_light(frame, light_of(arguments.text("light", "ordered")));
+    counted = count_frame(device, frame);
+  }
+  const std::vector<KernelWork> kernels = add_up(counted.launches, counted.work);
+  print_work(counted, kernels);
+  print_prediction(kernels);
+}
+
+}  // namespace
+}  // namespace splotchcl::bench
+
+int main(int count, char** words) {
+  return splotchcl::bench::run_main(
+      count, words,
+      {"particles=N: of the made-up universe, 1000000", "width=N: pixels, 1400",
+       "height=N: pixels, 1050", "light=PLAN: emission, proportional or ordered, which is meant",
+       "sort=N: only sorts so many pairs", "device=NAME: part of a device's name"},
+      splotchcl::bench::predict);
+}
