@@ -101,6 +101,8 @@ def test_what_is_no_snapshot_is_a_data_error(tmp_path):
 def test_a_film_has_the_pictures_of_its_frames(renderer, universe, tmp_path):
     scene = splotchcl.suggest(universe, size=(32, 32))
     scene.update({"path.orbit.degrees": 360, "movie.frames": 3})
+    # A film finds these once, from its first frame.
+    scene.update({"finish.exposure": -2, "finish.white": 1.5})
     told = []
     film = splotchcl.movie(
         scene, tmp_path / "f_%02d.png", progress=lambda what, fraction: told.append(fraction)
@@ -117,6 +119,8 @@ def test_a_film_has_the_pictures_of_its_frames(renderer, universe, tmp_path):
 def test_what_progress_raises_ends_a_film_and_keeps_its_frames(universe, tmp_path):
     scene = splotchcl.suggest(universe, size=(32, 32))
     scene.update({"path.orbit.degrees": 360, "movie.frames": 3})
+    # A film finds these once, from its first frame.
+    scene.update({"finish.exposure": -2, "finish.white": 1.5})
 
     def stop(what, fraction):
         if fraction > 0.5:
