@@ -94,8 +94,8 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #endif
     const Grid grid = grids[grid_of(splat)];
     const int4 range = unpack_tiles(tiles[slot - p.first], splat, grid);
-    TileSplat entry;
 #ifdef EXTENDED_NUMBERS
+    TileSplat entry;
 #ifdef LIGHT_ORDERED
     entry.slot = order[slot];
 #else
@@ -104,17 +104,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #else
     const int bits = place_bits_of(splat, grid);
     const float unit = unit_of(splat, grid);
-    entry.sigma = splat.sigma;
-    entry.radius = splat.radius;
-#ifdef ELLIPSES
-    entry.along_x = splat.along_x;
-#endif
-    const ComponentColors colors = component_colors[component_of(splat)];
-#ifdef LIGHT_ORDERED
-    amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
-#else
-    sum_amplitude(splat, colors, knots, entry.summed);
-#endif
+    TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
 #endif
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
@@ -122,16 +112,8 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
         // Of the band that lists are made of.
         if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
 #ifndef EXTENDED_NUMBERS
-        const int middle_x = tx * TILE_WIDTH + TILE_WIDTH / 2;
-        const int middle_y = ty * TILE_HEIGHT + TILE_HEIGHT / 2;
-        entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
-        entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
-#ifdef FINE_PLACES
-        entry.x_low =
-            rest_from_pixel(splat.x, fraction_of_x(splat), middle_x, grid.middle_x, bits, unit);
-        entry.y_low =
-            rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
-#endif
+        set_place(&entry, splat, grid, tx * TILE_WIDTH + TILE_WIDTH / 2,
+                  ty * TILE_HEIGHT + TILE_HEIGHT / 2, bits, unit);
 #endif
         __global TileSplat* to = entries + (size_t)starts[tile] + count[tile]++;
         *to = entry;

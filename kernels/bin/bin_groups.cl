@@ -132,26 +132,9 @@ INLINED TileSplat entry_of(const BinParameters p, const Splat splat, const Grid 
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const int middle_x = grid.first_x + column * TILE_WIDTH + TILE_WIDTH / 2;
   const int middle_y = grid.first_y + row * TILE_HEIGHT + TILE_HEIGHT / 2;
-  const int bits = place_bits_of(splat, grid);
-  const float unit = unit_of(splat, grid);
-  TileSplat entry;
-  entry.x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
-  entry.y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
-#ifdef FINE_PLACES
-  entry.x_low = rest_from_pixel(splat.x, fraction_of_x(splat), middle_x, grid.middle_x, bits, unit);
-  entry.y_low = rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
-#endif
-  entry.sigma = splat.sigma;
-  entry.radius = splat.radius;
-#ifdef ELLIPSES
-  entry.along_x = splat.along_x;
-#endif
-  const ComponentColors colors = component_colors[component_of(splat)];
-#ifdef LIGHT_ORDERED
-  amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
-#else
-  sum_amplitude(splat, colors, knots, entry.summed);
-#endif
+  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
+  set_place(&entry, splat, grid, middle_x, middle_y, place_bits_of(splat, grid),
+            unit_of(splat, grid));
   return entry;
 }
 #endif

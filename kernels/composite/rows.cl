@@ -19,19 +19,24 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #endif
 
 #ifdef KERNEL_CUT
-// `shape` of eight pixels of a row, zero outside the cut.
-inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squeeze) {
+// `shape` of the pixels of a row, zero outside the cut; with means the pixel that holds the center
+// keeps its light.
 #ifdef ELLIPSES
-  int8 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
+#define SQUEEZED(dx) (dx * squeeze)
 #else
-  int8 outside = dx * dx + dy * dy > cut2;
+#define SQUEEZED(dx) (dx)
 #endif
 #ifdef SAMPLING_MEAN
-  // The pixel that holds the centre keeps its light.
-  outside &= dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
+#define BESIDE_CENTER(INTS) (dx <= -0.5f | dx > 0.5f | (INTS)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
+#else
+#define BESIDE_CENTER(INTS) (INTS)(-1)
 #endif
-  return select(shape, (float8)(0.0f), outside);
-}
+#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                         \
+  inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float cut2, float squeeze) { \
+    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) + dy * dy > cut2;               \
+    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));             \
+  }
+DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #else
 #define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
 #endif
@@ -54,16 +59,21 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 
 // The same with two terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2, and
 // every line is one multiplication and addition.
-#define THIN_CHANNEL(c)                                                      \
+#define THIN_CHANNEL(c, FLOATS, LOAD_ROW, STORE_ROW)                         \
   {                                                                          \
     float* const source = pixel + c * TILE_PIXELS;                           \
     float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
-    const float8 o = load_eight(opacity);                                    \
-    const float8 covered = shape - (shape * shape) * (0.5f * absorption##c); \
-    const float8 u = covered - o * covered;                                  \
-    store_eight(load_eight(source) + u * emission##c, source);               \
-    store_eight(o + u * absorption##c, opacity);                             \
+    const FLOATS o = LOAD_ROW(opacity);                                      \
+    const FLOATS covered = shape - (shape * shape) * (0.5f * absorption##c); \
+    const FLOATS u = covered - o * covered;                                  \
+    STORE_ROW(LOAD_ROW(source) + u * emission##c, source);                   \
+    STORE_ROW(o + u * absorption##c, opacity);                               \
   }
+
+#define THIN_LAYER(FLOATS, LOAD_ROW, STORE_ROW) \
+  THIN_CHANNEL(0, FLOATS, LOAD_ROW, STORE_ROW)  \
+  THIN_CHANNEL(1, FLOATS, LOAD_ROW, STORE_ROW)  \
+  THIN_CHANNEL(2, FLOATS, LOAD_ROW, STORE_ROW)
 
 #define LAYER_ROWS(CHANNELS)                                                             \
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                 \
@@ -79,7 +89,7 @@ inline float8 cut_shape(float8 shape, float8 dx, float dy, float cut2, float squ
 #ifdef KEEP_TRANSMITTANCE
 #define THIN_CHANNELS LAYER_CHANNELS(phi_short, passed_by_series)
 #else
-#define THIN_CHANNELS THIN_CHANNEL(0) THIN_CHANNEL(1) THIN_CHANNEL(2)
+#define THIN_CHANNELS THIN_LAYER(float8, load_eight, store_eight)
 #endif
 #endif
 

@@ -12,18 +12,7 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #endif
 
 #ifdef KERNEL_CUT
-inline float16 cut_shape_of_16(float16 shape, float16 dx, float dy, float cut2, float squeeze) {
-#ifdef ELLIPSES
-  int16 outside = (dx * squeeze) * (dx * squeeze) + dy * dy > cut2;
-#else
-  int16 outside = dx * dx + dy * dy > cut2;
-#endif
-#ifdef SAMPLING_MEAN
-  // The pixel that holds the center keeps its light.
-  outside &= dx <= -0.5f | dx > 0.5f | (int16)(dy <= -0.5f || dy > 0.5f ? -1 : 0);
-#endif
-  return select(shape, (float16)(0.0f), outside);
-}
+DEFINE_CUT_SHAPE(cut_shape_of_16, float16, int16)
 #else
 #define cut_shape_of_16(shape, dx, dy, cut2, squeeze) (shape)
 #endif
@@ -44,26 +33,13 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
   const int rows = window->rows;
   float* pixel = tile + window->y * ROW + window->x;
 #ifdef LIGHT_ORDERED
-#define THIN_CHANNEL_OF_16(c)                                                 \
-  {                                                                           \
-    float* const source = pixel + c * TILE_PIXELS;                            \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                     \
-    const float16 o = load_sixteen(opacity);                                  \
-    const float16 covered = shape - (shape * shape) * (0.5f * absorption##c); \
-    const float16 u = covered - o * covered;                                  \
-    store_sixteen(load_sixteen(source) + u * emission##c, source);            \
-    store_sixteen(o + u * absorption##c, opacity);                            \
-  }
   const float16 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float16 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float16 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
   for (int k = 0; k < rows; ++k, pixel += ROW) {
     const float16 shape = cut_shape_of_16(across * along[k], dx, dy + (float)k, cut2, squeeze);
-    THIN_CHANNEL_OF_16(0)
-    THIN_CHANNEL_OF_16(1)
-    THIN_CHANNEL_OF_16(2)
+    THIN_LAYER(float16, load_sixteen, store_sixteen)
   }
-#undef THIN_CHANNEL_OF_16
 #else
   const float16 summed0 = across * splat->summed[0];
   const float16 summed1 = across * splat->summed[1];

@@ -15,16 +15,8 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
                       __global uint* order,
                       __global const WidthNeeds* width_needs OWN_COLORS_PARAMETER
                           EXTENDED_PARAMETERS TILE_PARAMETERS) {
-  Columns columns;
-  columns.positions = positions;
-  columns.smoothing_lengths = smoothing_lengths;
-  columns.weights = weights;
-  columns.colors = colors;
-  columns.intensities = intensities;
-  columns.sort_fields = sort_fields;
-#ifdef VECTOR_COLORS
-  columns.own_colors = own_colors;
-#endif
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields OWN_COLORS_ARGUMENT);
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);

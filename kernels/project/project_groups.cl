@@ -15,16 +15,8 @@ __kernel OF_GROUPS void project(
   __local BlockCounts of_group;
   const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
   if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = 0;
-  Columns columns;
-  columns.positions = positions;
-  columns.smoothing_lengths = smoothing_lengths;
-  columns.weights = weights;
-  columns.colors = colors;
-  columns.intensities = intensities;
-  columns.sort_fields = sort_fields;
-#ifdef VECTOR_COLORS
-  columns.own_colors = own_colors;
-#endif
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields OWN_COLORS_ARGUMENT);
   // Items beyond the last particle look at it once more: all of them meet every barrier.
   const uint wanted = p.first_particle + get_global_id(0);
   const uint i = min(wanted, p.end_particle - 1u);

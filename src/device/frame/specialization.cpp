@@ -149,11 +149,11 @@ ProgramSource Specialization::bin() const {
   if (rows_) {
     return {defines,
             {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl",
-             "amplitudes.cl", "bin.cl"}};
+             "amplitudes.cl", "entries.cl", "bin.cl"}};
   }
   return {defines,
           {"group.h", "splat.h", "project.h", "bin.h", "common.cl", "tiles.cl", "group_sums.cl",
-           "amplitudes.cl", "bin_groups.cl"}};
+           "amplitudes.cl", "entries.cl", "bin_groups.cl"}};
 }
 
 ProgramSource Specialization::composite() const {
@@ -185,6 +185,7 @@ ProgramSource Specialization::composite() const {
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
 // digits need none beside the lists; opacities stand still behind too many layers.
 std::string Specialization::block_defines() const {
+  // Behind many equal layers of opacity a bright background shows half as many roundings.
   if (small_blocks_ && is_ordered()) return define("SPLATS_OF_BLOCK 32u");
   if (small_blocks_ || !rows_) return define("SPLATS_OF_BLOCK 64u");
   if (full_precision_) return define("SPLATS_OF_BLOCK 256u");

@@ -23,7 +23,7 @@ constexpr double erf_error = 2.3e-7;
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
 // are drawn again (docs/performance.md).
-SplatNeeds first_needs(const Frame& frame, const FramePlan& plan, double light_of_errors) {
+SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
   const std::array<double, 6> farther = plan.needs_sort()
@@ -36,11 +36,7 @@ SplatNeeds first_needs(const Frame& frame, const FramePlan& plan, double light_o
     needs.widths[octave].farther =
         std::max(0.0, farther[octave] + in_full + std::log(light_of_errors));
   }
-  // Coarse grids soften the edges of cut splats, which shows where many of them lie upon one
-  // another.
-  constexpr double soft_edges_tolerance = 0.03;
-  const bool has_hard_edges = frame.kernel.cut && plan.drawn_for_tolerance < soft_edges_tolerance;
-  if ((is_full && !is_finest) || has_hard_edges) needs.grid_light = 3;
+  if (is_full && !is_finest) needs.grid_light = 3;
   const std::array<double, 5> light = {100, 100, 100, 6, 6};
   for (std::size_t octave = 0; is_finest && octave < light.size(); ++octave)
     needs.widths[octave].light = light[octave];
@@ -48,9 +44,14 @@ SplatNeeds first_needs(const Frame& frame, const FramePlan& plan, double light_o
 }
 
 GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
-  // Coarse grids are for round splats. Where cut ones lie upon one another, so do their edges.
-  const bool has_coarse_grids = plan.shares.coarse_grids > 0 && !plan.has_ellipses &&
-                                !(frame.kernel.cut && plan.needs.grid_light > 1);
+  // Coarse grids are for round splats. They soften the edges of cut ones, which shows where many
+  // lie upon one another.
+  constexpr double soft_edges_tolerance = 0.03;
+  const bool has_hard_edges =
+      frame.kernel.cut &&
+      (plan.drawn_for_tolerance < soft_edges_tolerance || plan.needs.grid_light > 1);
+  const bool has_coarse_grids =
+      plan.shares.coarse_grids > 0 && !plan.has_ellipses && !has_hard_edges;
   if (!has_coarse_grids) return make_single_grid(frame);
   return make_pyramid(frame, plan.splats.mean_sigma, plan.grid_peak_error / plan.needs.grid_light);
 }
@@ -117,7 +118,7 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   plan.drawn_for_tolerance = frame.tolerance * (options.certify ? first_part_certified : 1);
   set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, options), plan);
   if (plan.needs_sort() && !plan.is_extended()) plan.light_behind = guess_light_behind(frame);
-  plan.needs = first_needs(frame, plan, light_of_uneven_ends(frame, plan));
+  plan.needs = first_needs(plan, light_of_uneven_ends(frame, plan));
   set_limits(frame, plan);
   return plan;
 }
