@@ -137,7 +137,8 @@ INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
   if (p.has_bright_octaves) {
     const VALUE light = value_of_octave(needs->light, p.octaves_in_need, octave);
     b.crowd_peak = max(b.own_peak, light);
-    b.bright |= light > b.own_peak;
+    // All of the octave, the ones that are brighter still as well: the check takes it for granted.
+    b.bright |= light > 0.0f;
   }
   return b;
 }

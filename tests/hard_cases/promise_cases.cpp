@@ -267,6 +267,12 @@ std::vector<HardCase> promise_cases() {
           "light emission projection cube tolerance 1e-5 width 48 turned 1 jitter_seed 84 group "
           "point copies 16 x -21.5896 y 3.91496 sigma 15.7503 peak 10 depth 35.9499 hue 0.4 star 1",
           {LightPlan::emission}),
+      found("CloudsBrighterThanTheirWidthCountsAs",
+            "only the fainter ones of a width were drawn as bright splats",
+            "light factor projection fisheye tolerance 1e-5 turned 1 source 4 group point group "
+            "scatter places 2 y -13.6443 sigma 7.21602 width_range 1.01214 peak 7.3 depth 39.5714 "
+            "star 1",
+            {LightPlan::proportional}),
       found("EqualThinLayersBeforeABrightBackground",
             "equal roundings of 64 layers show before light of 4000",
             "light stars_among_gas tolerance 1e-5 background 4000 source 0.0049 group point copies "
