@@ -10,9 +10,10 @@ struct ErrorParts {
   double ends = 0;   // of splats, in uneven light
   double even = 0;   // of splats, in even light
   double peaks = 0;  // errors that are parts of splats' peaks
+  double slabs = 0;  // wide splats that are not in order, ordered
   double rest = 0;   // layers and early stop, ordered
 
-  double sum() const { return ends + even + peaks + rest; }
+  double sum() const { return ends + even + peaks + slabs + rest; }
 };
 
 // The largest |frame - reference| / max(1, |reference|) in each square block of pixels of a drawn

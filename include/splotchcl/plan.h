@@ -31,10 +31,11 @@ constexpr double extended_tolerance = 1e-6;
 struct ToleranceShares {
   double promise = 0;       // Frame::tolerance, or extended_tolerance
   double truncation = 0;    // light left out by ending a splat
-  double coarse_grids = 0;  // wide splats on grids of larger pixels (sums only)
+  double coarse_grids = 0;  // wide splats on grids of larger pixels (sums, or slabs of them)
   double pixel_mean = 0;    // center values in place of means over pixels
   double phi = 0;           // exp and (1 - exp(-y)) / y
   double early_stop = 0;    // what lies behind an opaque tile (ordered only)
+  double slabs = 0;         // wide splats that are not in order (ordered only)
   double arithmetic() const { return pixel_mean + phi + early_stop; }
 };
 
@@ -53,6 +54,7 @@ constexpr int width_octaves = 16;
 struct SplatNeeds {
   std::array<WidthNeed, width_octaves> widths;
   double grid_light = 1;  // of all that lies in one place on a coarse grid
+  int slabs = 0;          // at least, of an ordered frame that is drawn in slabs
 };
 
 // Where a splat ends and how its pixels are sampled. Widths in pixels.
@@ -143,6 +145,10 @@ struct FramePlan {
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   PlaceLimits places;
   GridPyramid pyramid;
+  // Ordered: splats are drawn in so many slabs of depth, each of as many of them. The wide ones of
+  // a slab are added up on coarse grids and laid among its narrow ones, which are in order
+  // (docs/accuracy.md, "Slabs"). 0: all splats are in order.
+  int slabs = 0;
   LayerLimits layers;
 
   bool needs_sort() const { return light == LightPlan::ordered; }
@@ -152,6 +158,8 @@ struct FramePlan {
 // Variations that measurements ask for; pictures are drawn with the default.
 struct PlanOptions {
   bool coarse_grids = true;
+  // FramePlan::slabs of an ordered frame that can be drawn so; below 0: as many as seem to pay.
+  int slabs = -1;
   // What is found after drawing is a bound, not an estimate (docs/accuracy.md).
   bool certify = false;
 };
@@ -163,6 +171,8 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options = {});
 FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeeds& needs);
 // The same for all splats alike: errors become this many times smaller.
 FramePlan tighten_plan(const Frame& frame, const FramePlan& plan, double times);
+// The plan without slabs.
+FramePlan in_order_plan(const Frame& frame, const FramePlan& plan);
 // The plan of the highest precision.
 FramePlan extend_plan(const Frame& frame, const FramePlan& plan);
 

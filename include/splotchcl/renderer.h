@@ -48,6 +48,7 @@ struct RendererOptions {
   // Frames are drawn again until a bound, not an estimate, says that they keep their tolerance:
   // FrameCheck.
   bool certify = false;
+  int slabs = -1;  // PlanOptions, for tests
   // Told from part to part of a frame how much of it is drawn, from 0 to 1, once for each time that
   // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
   // is drawn as if nothing had been. Must not use the renderer.

@@ -37,6 +37,25 @@ inline void sum_amplitude(const Splat splat, const ComponentColors colors,
 #endif
 }
 #else
+// A cloud's own amplitude over that of its splat, which is widened where center values are taken,
+// and narrower on a coarse grid that is blurred afterwards.
+INLINED float own_part(const Splat splat, const BinParameters p) {
+  const float drawn2 = splat.sigma * splat.sigma;
+#ifdef ELLIPSES
+  const float across2 = splat.along_x.sigma * splat.along_x.sigma;
+  float restored = splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
+  restored *= splat.along_x.sigma < p.mean_sigma ? 1.0f : across2 / (across2 - p.widening);
+  return sqrt(restored);
+#else
+  const uint grid = grid_of(splat);
+  if (grid == 0) return splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
+  const uint level = p.blur[0] > 0.0f ? (grid + 1) >> 1 : grid;
+  const float wide2 = drawn2 + p.blur[(grid & 1) == 0];
+  const float in_picture2 = wide2 * as_float((127u + 2u * level) << 23);
+  return drawn2 / wide2 * (in_picture2 / (in_picture2 - p.widening));
+#endif
+}
+
 // E w and A w at the cloud's centre (scene.h, Absorption). As a call it would leave its results
 // in memory in pieces, which a processor cannot forward to the copy of the whole entry.
 INLINED void amplitudes(const Splat splat, const ComponentColors colors,
@@ -61,15 +80,7 @@ INLINED void amplitudes(const Splat splat, const ComponentColors colors,
       absorption[c] = splat.weight * colors.absorption_factor * a[c];
     }
     if (colors.absorption_kind == ABSORPTION_GRAY) {
-      // The source depends on the cloud's own amplitude, before it was widened.
-      const float widened2 = splat.sigma * splat.sigma;
-      float restored = splat.sigma < p.mean_sigma ? 1.0f : widened2 / (widened2 - p.widening);
-#ifdef ELLIPSES
-      const float across2 = splat.along_x.sigma * splat.along_x.sigma;
-      restored *= splat.along_x.sigma < p.mean_sigma ? 1.0f : across2 / (across2 - p.widening);
-      restored = sqrt(restored);
-#endif
-      const float own = emission[c] * restored;
+      const float own = emission[c] * own_part(splat, p);
       absorption[c] = emission[c];
       emission[c] *= own > 0.0f ? own / (own + colors.absorption_factor) : 0.0f;
     }

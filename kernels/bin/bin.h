@@ -2,6 +2,12 @@
 #ifndef SPLOTCHCL_BIN_H
 #define SPLOTCHCL_BIN_H
 
+// What sums add up of a splat: A w, or E w where nothing absorbs; in slabs of an ordered plan six,
+// A w and E w (composite_rows.cl).
+#ifndef SUMMED
+#define SUMMED 3
+#endif
+
 // A splat in the list of one tile, positions relative to the tile's middle, amplitudes at
 // the splat's center.
 struct TileSplat {
@@ -20,7 +26,7 @@ struct TileSplat {
   float absorption[3];  // A w
   float emission[3];    // E w
 #else
-  float summed[3];  // A w, or E w where nothing absorbs
+  float summed[SUMMED];
 #endif
 #endif
 };
@@ -38,6 +44,7 @@ struct BinParameters {
   unsigned int first_tile, end_tile;  // lists are made of these only
   float mean_sigma;
   float widening;
+  float blur[2];  // as in ProjectParameters; 0 where nothing is blurred
 };
 
 // The tiles of one splat, of the shape for GPUs: so many columns and rows of them from the first

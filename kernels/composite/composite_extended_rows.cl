@@ -196,7 +196,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global float* planes, __global float* partials,
                         __global const ExtendedSplat* splats) {
   const uint id = get_global_id(0);
-  if (id >= p.segment_count) return;
+  if (id >= p.end_segment) return;
   const Segment segment = segments[id];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;

@@ -146,29 +146,30 @@ INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, u
 #ifdef KERNEL_CUT
     if (!is_inside_cut(splat, x, y)) continue;
 #endif
-    for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
+    for (int c = 0; c < 3; ++c)
       add_channel(pixel, c, splat->emission[c], splat->absorption[c], shape, batch->deepest[k], p);
 #else
+    for (int c = 0; c < SUMMED; ++c)
       pixel[c] += shape * splat->summed[c];
 #endif
-    }
   }
 }
 
 // A block of splats behind what is in front of it (composite_rows.cl, SPLATS_OF_BLOCK).
 inline void add_block(float* block, float* front) {
-  for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
+  for (int c = 0; c < 3; ++c) {
     const float t = transmittance_of(front[c + 3]);
     front[c] += t * block[c];
     front[c + 3] = carry_behind(front[c + 3], t, block[c + 3]);
-    block[c + 3] = 0.0f;
+  }
 #else
+  for (int c = 0; c < PLANES; ++c)
     front[c] += block[c];
 #endif
+  for (int c = 0; c < PLANES; ++c)
     block[c] = 0.0f;
-  }
 }
 
 // Whether a pixel lets anything through from behind: of a tile in which none does, the rest of the
@@ -197,7 +198,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   __local Batch batch;
   const uint item = get_local_id(0), part = item / PART_ITEMS;
   // The launch has as many groups as there are segments.
-  const Segment segment = segments[get_group_id(0)];
+  const Segment segment = segments[p.first_segment + get_group_id(0)];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
   const uint x = part % PARTS_ACROSS * PART_WIDTH + item % PART_WIDTH;

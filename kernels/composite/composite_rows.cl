@@ -4,7 +4,11 @@
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
 // is there when they are stored: however many splats there are, those of one list only are added to
 // a sum that is much larger than they are.
+#ifdef LIGHT_ORDERED
 #define SUMS 3
+#else
+#define SUMS PLANES
+#endif
 
 inline void clear_planes(float* tile) {
   for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
@@ -278,8 +282,8 @@ inline int is_opaque(const float* front, const float* block, float stop) {
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
                         __global float* planes, __global float* partials) {
-  const uint id = get_global_id(0);
-  if (id >= p.segment_count) return;
+  const uint id = p.first_segment + get_global_id(0);
+  if (id >= p.end_segment) return;
   const Segment segment = segments[id];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;

@@ -73,7 +73,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join_extended(
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, first.tile)];
   __global float* own = own_planes(planes, grid, first.tile, item);
   Pixels pixels = load_pixels(own, grid.plane_size);
-  for (uint s = id; s < p.segment_count && segments[s].tile == first.tile; ++s) {
+  for (uint s = id; s < p.end_segment && segments[s].tile == first.tile; ++s) {
     const Pixels behind = load_pixels(
         partials + (size_t)segments[s].partial * PLANES * TILE_PIXELS + item * 8, TILE_PIXELS);
     for (int c = 0; c < 3; ++c) {

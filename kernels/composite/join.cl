@@ -4,9 +4,9 @@
 __kernel void join(const CompositeParameters p, __global const Grid* grids,
                    __global const Segment* segments, __global float* planes,
                    __global const float* partials) {
-  const uint id = get_global_id(1);
+  const uint id = p.first_segment + get_global_id(1);
   const uint row = get_global_id(0);
-  if (id >= p.segment_count) return;
+  if (id >= p.end_segment) return;
   const Segment first = segments[id];
   if (first.partial == NO_PARTIAL || (id > 0 && segments[id - 1].tile == first.tile)) return;
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, first.tile)];
@@ -15,7 +15,7 @@ __kernel void join(const CompositeParameters p, __global const Grid* grids,
       planes + first_float(grid) +
       ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + row) * grid.stride +
       (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
-  for (uint s = id; s < p.segment_count && segments[s].tile == first.tile; ++s) {
+  for (uint s = id; s < p.end_segment && segments[s].tile == first.tile; ++s) {
     __global const float* partial =
         partials + (size_t)segments[s].partial * PLANES * TILE_WIDTH * TILE_HEIGHT;
     for (uint x = 0; x < TILE_WIDTH; ++x) {

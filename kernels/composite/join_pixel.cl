@@ -11,7 +11,7 @@ inline void join_pixel(__global float* planes, size_t plane, __global const floa
     *opacity = carry_behind(*opacity, transmittance, behind);
   }
 #else
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < PLANES; ++c) {
     planes[(size_t)c * plane] += partial[(size_t)c * TILE_WIDTH * TILE_HEIGHT + pixel];
   }
 #endif

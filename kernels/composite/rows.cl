@@ -93,6 +93,31 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #endif
 #endif
 
+#ifndef LIGHT_ORDERED
+// A row of a splat added to the sums, written out for each of them, as layers are.
+#define SUMMED_CHANNEL(c, FLOATS) const FLOATS summed##c = across * splat->summed[c];
+#define ADD_CHANNEL(c, LOAD_ROW, STORE_ROW) \
+  STORE_ROW(LOAD_ROW(pixel + c * TILE_PIXELS) + shape * summed##c, pixel + c * TILE_PIXELS);
+#define SUMMED_LIGHT(FLOATS) \
+  SUMMED_CHANNEL(0, FLOATS) SUMMED_CHANNEL(1, FLOATS) SUMMED_CHANNEL(2, FLOATS)
+#define ADD_LIGHT(LOAD_ROW, STORE_ROW) \
+  ADD_CHANNEL(0, LOAD_ROW, STORE_ROW)  \
+  ADD_CHANNEL(1, LOAD_ROW, STORE_ROW)  \
+  ADD_CHANNEL(2, LOAD_ROW, STORE_ROW)
+#if SUMMED == 6
+#define SUMMED_CHANNELS(FLOATS) \
+  SUMMED_LIGHT(FLOATS) SUMMED_CHANNEL(3, FLOATS) SUMMED_CHANNEL(4, FLOATS) SUMMED_CHANNEL(5, FLOATS)
+#define ADD_CHANNELS(LOAD_ROW, STORE_ROW) \
+  ADD_LIGHT(LOAD_ROW, STORE_ROW)          \
+  ADD_CHANNEL(3, LOAD_ROW, STORE_ROW)     \
+  ADD_CHANNEL(4, LOAD_ROW, STORE_ROW)     \
+  ADD_CHANNEL(5, LOAD_ROW, STORE_ROW)
+#else
+#define SUMMED_CHANNELS(FLOATS) SUMMED_LIGHT(FLOATS)
+#define ADD_CHANNELS(LOAD_ROW, STORE_ROW) ADD_LIGHT(LOAD_ROW, STORE_ROW)
+#endif
+#endif
+
 // The window that one splat updates: `count` rows of eight pixels from (x, y) on.
 typedef struct Window {
   int x, y, rows;
@@ -122,14 +147,10 @@ inline void update_window(float* tile, const Window* window, float8 across, cons
     LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
   }
 #else
-  const float8 summed0 = across * splat->summed[0];
-  const float8 summed1 = across * splat->summed[1];
-  const float8 summed2 = across * splat->summed[2];
+  SUMMED_CHANNELS(float8)
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
     const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
-    store_eight(load_eight(pixel) + shape * summed0, pixel);
-    store_eight(load_eight(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
-    store_eight(load_eight(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
+    ADD_CHANNELS(load_eight, store_eight)
   }
 #endif
 }

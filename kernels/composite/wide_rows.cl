@@ -41,14 +41,10 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
     THIN_LAYER(float16, load_sixteen, store_sixteen)
   }
 #else
-  const float16 summed0 = across * splat->summed[0];
-  const float16 summed1 = across * splat->summed[1];
-  const float16 summed2 = across * splat->summed[2];
+  SUMMED_CHANNELS(float16)
   for (int k = 0; k < rows; ++k, pixel += ROW) {
     const float16 shape = cut_shape_of_16((float16)(along[k]), dx, dy + (float)k, cut2, squeeze);
-    store_sixteen(load_sixteen(pixel) + shape * summed0, pixel);
-    store_sixteen(load_sixteen(pixel + TILE_PIXELS) + shape * summed1, pixel + TILE_PIXELS);
-    store_sixteen(load_sixteen(pixel + 2 * TILE_PIXELS) + shape * summed2, pixel + 2 * TILE_PIXELS);
+    ADD_CHANNELS(load_sixteen, store_sixteen)
   }
 #endif
 }

@@ -17,6 +17,8 @@ constexpr double negligible_part = 0.02;
 constexpr double least_part = 0.03;
 // as bright splats, which take several times as long, only where all of them do this much;
 constexpr double least_of_peaks = 0.3;
+// as more slabs, of which each takes a part of a frame;
+constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
 
@@ -56,7 +58,9 @@ class FrameErrors {
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
         rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0)),
-        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0) {
+        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
+        slabs_(plan.slabs),
+        of_slabs_(splats.of_slabs) {
     for (std::size_t octave = 0; octave < lights_.size(); ++octave)
       lights_[octave] = plan.needs.widths[octave].light;
     octaves_.reserve(splats.cells.size());
@@ -76,6 +80,7 @@ class FrameErrors {
     const PixelBlock pixels = pixels_of(picture_, block);
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
+    if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
     sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
@@ -92,7 +97,13 @@ class FrameErrors {
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
 
-  void add_needs(const std::vector<Part>& parts, double error, SplatNeeds& needs) const {
+  void add_needs(const std::vector<Part>& parts, const ErrorParts& sums, SplatNeeds& needs) const {
+    const double error = sums.sum();
+    // What changes of order do falls a little more slowly than slabs are more.
+    if (sums.slabs > least_of_slabs) {
+      const double more = std::min(2 * margin * std::max(1.0, error), most_times_slabs);
+      needs.slabs = std::max(needs.slabs, static_cast<int>(std::ceil(more * slabs_)));
+    }
     double peaks = 0, on_grids = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       peaks += parts[i].peaks;
@@ -136,6 +147,8 @@ class FrameErrors {
   std::vector<OctaveErrors> octaves_;
   bool is_bound_, is_cut_;
   double promise_, rest_, part_of_all_;
+  int slabs_;
+  const std::vector<float>& of_slabs_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
 };
 
@@ -163,8 +176,8 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
       certificate.worst = blocks[b];
     }
     if (error <= 1) continue;
-    errors.in_block(b, parts);
-    errors.add_needs(parts, error, certificate.needs);
+    const ErrorParts sums = errors.in_block(b, parts);
+    errors.add_needs(parts, sums, certificate.needs);
   }
   return certificate;
 }

@@ -24,6 +24,9 @@ struct Certificate {
 struct CollectedSplats {
   std::vector<PeakCells> cells;
   double longest_list = 0;  // splats of one tile
+  // What any order within slabs could change of the picture's blocks (BlockErrors) at most; none
+  // where there are no slabs.
+  std::vector<float> of_slabs;
 };
 
 // docs/accuracy.md ("Checked after drawing") derives it and says what is a bound.

@@ -27,7 +27,8 @@ Json plan_to_json(const FramePlan& plan) {
 Json check_to_json(const FrameCheck& check) {
   return {{"is_bound", check.is_bound}, {"errors_of_promise", check.errors_of_promise},
           {"ends", check.worst.ends},   {"even", check.worst.even},
-          {"peaks", check.worst.peaks}, {"rest", check.worst.rest}};
+          {"peaks", check.worst.peaks}, {"slabs", check.worst.slabs},
+          {"rest", check.worst.rest}};
 }
 
 Json seconds_to_json(const RenderReport& report) {

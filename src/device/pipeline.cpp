@@ -25,6 +25,12 @@ Image Pipeline::draw() {
   return resolver_.resolve(std::move(planes));
 }
 
+CollectedSplats Pipeline::collected() const {
+  CollectedSplats collected = certifier_.collected();
+  if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
+  return collected;
+}
+
 std::vector<ParticleChunk> Pipeline::particle_chunks() const {
   return splotchcl::particle_chunks(context_.frame, context_.device.traits);
 }
@@ -71,10 +77,13 @@ Planes Pipeline::draw_ordered(Planes planes) {
   counts_.too_sharp = keyed.particles.too_sharp;
   if (counts_.too_sharp > 0) return planes;
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
-  const std::vector<SplatChunk> chunks = splat_chunks(sorted.count, context_.device.traits);
+  const std::vector<SplatChunk> chunks =
+      splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
+  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     tell(i, chunks.size());
     planes = draw_lists(binner_.count(sorted, chunks[i]), std::move(planes));
+    if (chunks[i].ends_slab) planes = resolver_.lay_slab(std::move(planes), slab_light_);
   }
   return planes;
 }

@@ -40,7 +40,7 @@ class Pipeline {
   // Of no use where counts() tells of particles that are too sharp: it ends early then.
   Image draw();
   // Of all splats that have been drawn.
-  CollectedSplats collected() const { return certifier_.collected(); }
+  CollectedSplats collected() const;
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn
 
   const StageContext& context() const { return context_; }
@@ -68,6 +68,7 @@ class Pipeline {
   const Compositor compositor_;
   const Resolver resolver_;
   Certifier certifier_;
+  SlabLight slab_light_;
   DrawCounts counts_;
   std::function<void(double)> progress_;
 };

@@ -4,9 +4,12 @@
 #include <chrono>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/certificate.h"
 #include "certificate/picture_light.h"
+#include "device/failing_parts.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
@@ -52,8 +55,31 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
 // What is known of splats once they are drawn.
 struct DrawnSplats {
   CollectedSplats collected;
-  bool are_too_sharp = false;  // some, for the plan's precision
+  DrawCounts counts;
 };
+
+// A picture and how well it keeps its promise.
+struct DrawnPicture {
+  Image image;
+  Certificate certificate;
+};
+
+void paste(const DrawnPicture& part, const Rectangle& at, DrawnPicture& whole) {
+  constexpr int side = BlockErrors::block_pixels;
+  for (int y = 0; y < at.height; ++y) {
+    std::copy_n(part.image.at(0, y), 4 * static_cast<std::ptrdiff_t>(at.width),
+                whole.image.at(at.x, at.y + y));
+  }
+  BlockErrors& blocks = whole.certificate.blocks;
+  const BlockErrors& drawn = part.certificate.blocks;
+  for (int y = 0; y < drawn.rows; ++y) {
+    for (int x = 0; x < drawn.columns; ++x) {
+      blocks
+          .errors[static_cast<std::size_t>((at.y / side + y) * blocks.columns + at.x / side + x)] =
+          drawn.at(x * side, y * side);
+    }
+  }
+}
 
 // The plan of the next drawing of a frame that did not keep its promise in `drawings` of them.
 FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate& certificate,
@@ -77,18 +103,24 @@ struct Renderer::State {
       choose_shape(device.traits, options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
-    certifies = options.certify;
+    plan_options.certify = options.certify;
+    plan_options.slabs = options.slabs;
     progress = options.progress;
   }
 
   Image render(const Frame& frame, const FramePlan& plan);
+  // Draws until the promise is kept.
+  DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan);
+  // Draws those parts of the picture in order that slabs did not suffice for, where they are small.
+  bool mend_in_order(const Frame& frame, const FramePlan& plan, DrawnPicture& picture);
   // Draws, and what was drawn.
   Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
+  void note(const DrawCounts& counts);
 
   DeviceContext device;
   ParticleStore particles;
   RenderStats stats;
-  bool certifies = false;
+  PlanOptions plan_options;
   std::function<void(double)> progress;
 };
 
@@ -104,23 +136,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   particles.begin_frame();
 
   stats.check.is_bound = plan.certify;
-  FramePlan drawn = plan;
-  Image image;
-  while (true) {
-    DrawnSplats splats;
-    image = draw(frame, drawn, splats);
-    if (splats.are_too_sharp) {
-      stats.drawn_most_exactly = true;
-      drawn = extend_plan(frame, drawn);
-      continue;
-    }
-    const Certificate certificate = drawn.is_extended()
-                                        ? certify_extended(image, frame)
-                                        : certify(splats.collected, image, frame, drawn);
-    note_check(certificate, stats.check);
-    if (drawn.is_extended() || certificate.keeps_promise()) break;
-    drawn = next_plan(frame, drawn, certificate, stats.check.errors_of_promise.size());
-  }
+  Image image = draw_until_kept(frame, plan).image;
   particles.end_frame();
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
   stats.stages = device.timer.times();
@@ -131,17 +147,74 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   return image;
 }
 
+DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePlan& plan) {
+  FramePlan drawn = plan;
+  for (std::size_t drawings = 1;; ++drawings) {
+    DrawnSplats splats;
+    DrawnPicture picture;
+    picture.image = draw(frame, drawn, splats);
+    note(splats.counts);
+    if (splats.counts.too_sharp > 0) {
+      stats.drawn_most_exactly = true;
+      drawn = extend_plan(frame, drawn);
+      continue;
+    }
+    picture.certificate = drawn.is_extended()
+                              ? certify_extended(picture.image, frame)
+                              : certify(splats.collected, picture.image, frame, drawn);
+    note_check(picture.certificate, stats.check);
+    if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
+    if (drawn.slabs > 0 && mend_in_order(frame, drawn, picture)) {
+      note(splats.counts);
+      note_check(picture.certificate, stats.check);
+      return picture;
+    }
+    drawn = next_plan(frame, drawn, picture.certificate, drawings);
+  }
+}
+
+bool Renderer::State::mend_in_order(const Frame& frame, const FramePlan& plan,
+                                    DrawnPicture& picture) {
+  // All particles are projected again for each part.
+  constexpr double most_pixels = 0.25;
+  const Image& image = picture.image;
+  Certificate& certificate = picture.certificate;
+  const std::vector<Rectangle> parts =
+      failing_parts(certificate.blocks, plan.shares.promise, image.width, image.height);
+  double pixels = 0;
+  for (const Rectangle& part : parts)
+    pixels += static_cast<double>(part.width) * part.height;
+  if (parts.empty() || pixels > most_pixels * image.width * image.height) return false;
+  const FramePlan in_order = in_order_plan(frame, plan);
+  FrameCheck check = std::move(stats.check);
+  for (const Rectangle& part : parts) {
+    Frame frame_of_part = frame;
+    frame_of_part.crop = {frame.crop.x + part.x, frame.crop.y + part.y, part.width, part.height};
+    stats.check = {};
+    paste(draw_until_kept(frame_of_part, in_order), part, picture);
+    certificate.worst = stats.check.worst;
+  }
+  stats.check = std::move(check);
+  const std::vector<float>& errors = certificate.blocks.errors;
+  certificate.error_of_promise =
+      static_cast<double>(*std::max_element(errors.begin(), errors.end())) / plan.shares.promise;
+  return true;
+}
+
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
   Pipeline pipeline(device, particles, frame, plan, progress);
   Image image = pipeline.draw();
-  splats.are_too_sharp = pipeline.counts().too_sharp > 0;
-  if (!splats.are_too_sharp) splats.collected = pipeline.collected();
+  splats.counts = pipeline.counts();
+  if (splats.counts.too_sharp == 0) splats.collected = pipeline.collected();
   device.queue.finish();
-  stats.particles = pipeline.counts().particles;
-  stats.drawn_particles = pipeline.counts().visible;
-  stats.bad_particles = pipeline.counts().bad;
-  stats.tile_entries = pipeline.counts().tile_entries;
   return image;
+}
+
+void Renderer::State::note(const DrawCounts& counts) {
+  stats.particles = counts.particles;
+  stats.drawn_particles = counts.visible;
+  stats.bad_particles = counts.bad;
+  stats.tile_entries = counts.tile_entries;
 }
 
 Renderer::Renderer(const RendererOptions& options) {
@@ -159,9 +232,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::render(const Frame& frame) {
   check_frame(frame);
-  PlanOptions options;
-  options.certify = state_->certifies;
-  return render(frame, make_plan(frame, options));
+  return render(frame, make_plan(frame, state_->plan_options));
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {

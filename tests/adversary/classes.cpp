@@ -44,6 +44,26 @@ CloudGroup even_sheet(Random& random, double light_low, double light_high) {
   return sheet;
 }
 
+// Wide and narrow clouds behind one another, so dim that their order shows little.
+Trial slabs(Random& random) {
+  std::vector<CloudGroup> groups;
+  const int count = static_cast<int>(whole(random, 2, 5));
+  for (int i = 0; i < count; ++i) {
+    const Arrangement arrangement = random.uniform() < 0.5   ? Arrangement::point
+                                    : random.uniform() < 0.5 ? Arrangement::scatter
+                                                             : Arrangement::sheet;
+    const bool is_wide = random.uniform() < 0.6;
+    CloudGroup group =
+        group_of(arrangement, random, is_wide ? 4 : 0.5, is_wide ? 30 : 4, 1e-4, 0.1);
+    group.places = whole(random, 1, 20);
+    group.copies = whole(random, 1, 50);
+    groups.push_back(group);
+  }
+  Trial trial = with(groups);
+  trial.slabs = whole(random, 1, 8);
+  return trial;
+}
+
 Trial few_bright(Random& random) {
   CloudGroup group = group_of(Arrangement::point, random, 3, 45, 0.5, 20);
   group.copies = whole(random, 1, 23);
@@ -340,6 +360,11 @@ const std::vector<TrialClass>& all_classes() {
        cut_kernel},
       {"center_values", "clouds below a pixel are drawn as they are at its centre", all_lights,
        usual, center_values},
+      {"slabs",
+       "wide clouds are laid among narrow ones in no order",
+       {Light::ordered, Light::gray, Light::stars_among_gas},
+       {1e-3, 1e-2},
+       slabs},
       {"min_radius", "widths and weights change together", all_lights, usual, smallest_radius},
       {"crop", "what is drawn lies anywhere in its picture", all_lights, usual, crop_of_a_picture},
       {"perspective", "places are quotients", all_lights, usual, seen_in(Projection::perspective)},

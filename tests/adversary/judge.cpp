@@ -64,7 +64,9 @@ Measurement Judge::measure(const Trial& trial) {
   const Frame frame = make_frame(trial);
   const Frame merged = make_merged_frame(trial);
   Renderer& renderer = this->renderer(trial.shape);
-  const Image image = renderer.render(frame);
+  PlanOptions options;
+  if (trial.slabs > 0) options.slabs = static_cast<int>(trial.slabs);
+  const Image image = renderer.render(frame, make_plan(frame, options));
   Measurement measurement;
   measurement.plan = choose_light(frame);
   measurement.promise = trial.tolerance > 0 ? trial.tolerance : extended_tolerance;

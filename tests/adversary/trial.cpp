@@ -112,6 +112,7 @@ const std::vector<Gene<Trial>>& trial_genes() {
       {"source", &Trial::source, Scale::logarithmic, 1e-3, 1e3},
       {"cut", &Trial::cut, Scale::logarithmic, 1.1, 4},
       {"min_radius", &Trial::min_radius, Scale::logarithmic, 0.1, 3},
+      {"slabs", &Trial::slabs, Scale::whole, 0, 12},
       {"own_colors", &Trial::own_colors, Scale::fixed, 0, 1},
       {"filler", &Trial::filler, Scale::fixed, 0, 0},
       {"period", &Trial::period, Scale::fixed, 0, 0},

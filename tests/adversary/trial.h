@@ -68,6 +68,7 @@ struct Trial {
   double source = 1;               // E / A where the light leaves that open
   double cut = 0;                  // kernel.cut; 0: none
   double min_radius = 0;           // kernel.min_radius, in pixels
+  double slabs = 0;                // of an ordered plan: at least so many; 0: as it is planned
   double own_colors = 0;           // 1: particles have colors of their own
   double filler = 0;               // faint particles that lie outside, as most of a file may
   double period = 0;  // the groups' clouds are each so-many-th of the file; 0: the first ones

@@ -47,7 +47,7 @@ class CertificateTest : public testing::Test {
   }
 
   Certificate certify_cells(const PeakCells& cells) const {
-    return certify({{cells}, 1}, dark_picture(), frame_, plan_);
+    return certify({{cells}, 1, {}}, dark_picture(), frame_, plan_);
   }
   // Of a splat of sigma from 1 to 2, where it ends.
   double ending() const {
@@ -141,7 +141,7 @@ TEST_F(CertificateTest, TakesNothingForEvenInAPictureOfFewCells) {
   Image image = dark_picture();
   image.height = 16;
   image.pixels.resize(static_cast<std::size_t>(4) * size * 16);
-  EXPECT_FALSE(certify({{cells}, 1}, image, frame_, plan_).keeps_promise());
+  EXPECT_FALSE(certify({{cells}, 1, {}}, image, frame_, plan_).keeps_promise());
 }
 
 TEST_F(CertificateTest, AsksForMoreOfTheOctaveThatErrs) {
@@ -186,7 +186,8 @@ TEST_F(CertificateTest, CountsLayersBeforeALightPixelForAsMuchAsItHas) {
     Image image = dark_picture();
     std::fill(image.pixels.begin(), image.pixels.end(), static_cast<float>(light));
     const double expected = 0.5 * std::max(1.0, light / plan_.light_behind);
-    EXPECT_NEAR(certify({{cells}, 1}, image, frame_, plan_).worst.ends, expected, 0.01) << light;
+    EXPECT_NEAR(certify({{cells}, 1, {}}, image, frame_, plan_).worst.ends, expected, 0.01)
+        << light;
   }
 }
 

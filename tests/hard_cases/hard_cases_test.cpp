@@ -34,8 +34,8 @@ const std::vector<HardCase>& all_cases() {
 
 // How the device draws: either shape of compositing at the case's own tolerance, or the most
 // exact mode, whose numbers are doubles or pairs of floats; or in rows, until a bound says that the
-// tolerance is kept.
-enum class Way { rows, groups, exact, pairs, certified };
+// tolerance is kept, or in slabs where the plan sorts.
+enum class Way { rows, groups, exact, pairs, certified, slabs };
 
 struct CaseRun {
   std::size_t index;
@@ -55,6 +55,7 @@ std::vector<CaseRun> all_runs() {
       const bool exact = is_drawn(all_cases()[i].most_exactly);
       runs.push_back({i, plan, Way::rows});
       runs.push_back({i, plan, Way::certified});
+      if (plan == LightPlan::ordered) runs.push_back({i, plan, Way::slabs});
       if (groups) runs.push_back({i, plan, Way::groups});
       if (exact) runs.push_back({i, plan, Way::exact});
       if (groups && exact) runs.push_back({i, plan, Way::pairs});
@@ -75,6 +76,8 @@ const char* way_name(const CaseRun& run) {
       return "pairs";
     case Way::certified:
       return "certified";
+    case Way::slabs:
+      return "slabs";
   }
   return "";
 }
@@ -97,6 +100,7 @@ class Bench : public testing::Environment {
       options.shape = way == Way::groups ? CompositeShape::groups : CompositeShape::rows;
       options.use_double = way != Way::pairs;
       options.certify = way == Way::certified;
+      if (way == Way::slabs) options.slabs = 3;
       renderer = std::make_unique<Renderer>(options);
     }
     return *renderer;
@@ -121,7 +125,7 @@ class Bench : public testing::Environment {
   }
 
  private:
-  std::unique_ptr<Renderer> renderers_[5];
+  std::unique_ptr<Renderer> renderers_[6];
   ReferenceImage exact_;
   std::string exact_key_;
   ErrorTable table_;

@@ -21,7 +21,10 @@ std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTrait
 // Splats [first, first + count) of the sorted order: a step of an ordered frame.
 struct SplatChunk {
   std::uint32_t first = 0, count = 0;
+  bool ends_slab = false;  // FramePlan::slabs
 };
 std::vector<SplatChunk> splat_chunks(std::uint32_t count, const DeviceTraits& traits);
+// The same in slabs of as many splats each, which chunks do not cross.
+std::vector<SplatChunk> splat_chunks(std::uint32_t count, int slabs, const DeviceTraits& traits);
 
 }  // namespace splotchcl

@@ -65,14 +65,22 @@ struct TileLists {
   Buffer<shared::Segment> segments;
   std::uint64_t entry_count = 0;
   std::uint32_t segment_count = 0;
-  std::uint32_t partial_count = 0;  // segments of tiles that were cut
-  std::uint32_t used_grids = 0;     // bit g: grid g has entries
+  std::uint32_t picture_segments = 0;  // the first ones, of the picture's own grid
+  std::uint32_t partial_count = 0;     // segments of tiles that were cut
+  std::uint32_t used_grids = 0;        // bit g: grid g has entries
 };
 
 // The light of all grids, as PictureLayout places it.
 struct Planes {
   Buffer<float> light;
   std::uint32_t used_grids = 0;  // bit g: grid g has light; the planes of others are undefined
+};
+
+// What slabs of an ordered frame add to its planes.
+struct SlabLight {
+  Buffer<float> before;  // the picture's own planes as they were before this slab
+  // Of eight pixels of a row each: what any order of the slabs' splats could change at most.
+  Buffer<float> errors;
 };
 
 }  // namespace splotchcl

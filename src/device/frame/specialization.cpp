@@ -72,6 +72,11 @@ std::string Specialization::tile_defines() const {
          define_if(ellipses_, "ELLIPSES") + define_if(fine_places_, "FINE_PLACES");
 }
 
+std::string Specialization::slab_defines() const {
+  return tile_size_defines() + define("PLANES 6") + define("SUMMED 6") +
+         define_if(fine_places_, "FINE_PLACES");
+}
+
 std::string Specialization::number_defines() const {
   return define_if(full_precision_, "FULL_PRECISION") +
          define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE");
@@ -196,6 +201,33 @@ ProgramSource Specialization::join() const {
   return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
           {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl",
            "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"}};
+}
+
+// Coarse grids are for round splats that are not cut, and take center values.
+ProgramSource Specialization::composite_slab() const {
+  std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
+                                    "lanes.cl", "shape.cl", "opacity.cl"};
+  if (rows_)
+    files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
+  else
+    files.push_back("composite_groups.cl");
+  const std::string blocks = small_blocks_ || !rows_ ? define("SPLATS_OF_BLOCK 64u")
+                             : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
+                                                     : std::string();
+  return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
+              define_if(rows_, "LANES_8") + define_if(rows_ && rows_of_16_, "ROWS_OF_16") + blocks,
+          files};
+}
+
+ProgramSource Specialization::join_slab() const {
+  return {slab_defines(),
+          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl",
+           "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"}};
+}
+
+ProgramSource Specialization::lay_slab() {
+  return {define("LANES_8"),
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "shape.cl", "refine.cl", "slab.cl"}};
 }
 
 ProgramSource Specialization::certify() const {

@@ -50,6 +50,11 @@ class Specialization {
   ProgramSource bin() const;
   ProgramSource composite() const;
   ProgramSource join() const;
+  // The same of wide splats in slabs of an ordered plan, which are added up.
+  ProgramSource composite_slab() const;
+  ProgramSource join_slab() const;
+  // A slab's wide splats laid among its narrow ones.
+  static ProgramSource lay_slab();
   ProgramSource certify() const;
   ProgramSource resolve() const;
   // These are the same for all frames.
@@ -65,6 +70,7 @@ class Specialization {
   std::vector<std::string> project_files(ProjectOutput output) const;
   std::string tile_size_defines() const;
   std::string tile_defines() const;
+  std::string slab_defines() const;
   std::string number_defines() const;
   std::string block_defines() const;
 

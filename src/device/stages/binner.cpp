@@ -45,6 +45,9 @@ Binner::Binner(const StageContext& context)
   parameters_.end_tile = layout.tile_count;
   parameters_.mean_sigma = context.plan.splats.mean_sigma;
   parameters_.widening = context.plan.splats.widening;
+  const GridPyramid& pyramid = context.plan.pyramid;
+  for (int i = 0; i < 2; ++i)
+    parameters_.blur[i] = pyramid.is_blurred ? static_cast<float>(pyramid.blur[i]) : 0.0f;
 }
 
 CountedSplats Binner::start(const SplatMemory& splats) const {
@@ -146,6 +149,7 @@ TileLists Binner::measure_lists(const std::vector<std::uint32_t>& lengths,
     const std::uint32_t segments = length / by + (length % by != 0);
     lists.entry_count += length;
     lists.segment_count += segments;
+    if (grid == 0) lists.picture_segments += segments;
     if (segments > 1) lists.partial_count += segments;
     lists.used_grids |= 1u << grid;
   }

@@ -12,8 +12,11 @@ constexpr std::uint64_t padding = 16;
 
 }  // namespace
 
-Compositor::Compositor(const StageContext& context)
-    : context_(context), program_(context.device.programs.get(context.specialization.composite())) {
+Compositor::Compositor(const StageContext& context) : context_(context) {
+  ProgramCache& programs = context.device.programs;
+  const Specialization& specialization = context.specialization;
+  layers_.composite = programs.get(specialization.composite());
+  if (context.plan.slabs > 0) slabs_.composite = programs.get(specialization.composite_slab());
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
   parameters_.phi_short = context.plan.layers.phi_short;
   parameters_.phi_series = context.plan.layers.phi_series;
@@ -48,13 +51,32 @@ Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
     if ((lists.used_grids & bit) && !(planes.used_grids & bit)) clear_grid(g, planes);
   }
   const Specialization& specialization = context_.specialization;
-  const std::size_t tile_pixels = specialization.tile_pixels();
   const auto partials = context_.device.pool.get<float>(
-      std::uint64_t{specialization.planes()} * tile_pixels * lists.partial_count, "partial layers");
+      std::uint64_t{specialization.planes()} * specialization.tile_pixels() * lists.partial_count,
+      "partial layers");
+  // Of an ordered plan the picture's own grid has layers, coarse ones have sums.
+  const std::uint32_t end_of_layers =
+      context_.plan.slabs > 0 ? lists.picture_segments : lists.segment_count;
+  draw({0, end_of_layers}, layers_, lists, splats, partials, planes);
+  draw({end_of_layers, lists.segment_count}, slabs_, lists, splats, partials, planes);
+  return planes;
+}
+
+shared::CompositeParameters Compositor::parameters_of(const Part& part) const {
   shared::CompositeParameters parameters = parameters_;
-  parameters.segment_count = lists.segment_count;
-  Launch launch(context_.device, "composite", program_.create_kernel("composite"));
-  launch.value(parameters)
+  parameters.first_segment = part.first;
+  parameters.end_segment = part.end;
+  return parameters;
+}
+
+void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists& lists,
+                      const SplatMemory& splats, const Buffer<float>& partials,
+                      const Planes& planes) const {
+  if (part.first == part.end) return;
+  const Specialization& specialization = context_.specialization;
+  const std::size_t count = part.end - part.first, tile_pixels = specialization.tile_pixels();
+  Launch launch(context_.device, "composite", kernels.composite.create_kernel("composite"));
+  launch.value(parameters_of(part))
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(lists.entries)
@@ -62,32 +84,37 @@ Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
       .arg(partials);
   if (specialization.is_extended()) launch.arg(splats.extended);
   if (specialization.has_rows()) {
-    launch.run_items(lists.segment_count);
+    launch.run_items(count);
   } else {
-    launch.run_groups(lists.segment_count,
-                      specialization.is_extended() ? tile_pixels / 8 : tile_pixels);
+    launch.run_groups(count, specialization.is_extended() ? tile_pixels / 8 : tile_pixels);
   }
-  if (lists.partial_count > 0) join(lists, parameters, partials, planes);
-  return planes;
+  if (lists.partial_count > 0) join(part, kernels, lists, partials, planes);
 }
 
 // Layers of tiles that were cut in segments.
-void Compositor::join(const TileLists& lists, const shared::CompositeParameters& parameters,
+void Compositor::join(const Part& part, const Kernels& kernels, const TileLists& lists,
                       const Buffer<float>& partials, const Planes& planes) const {
   DeviceContext& device = context_.device;
   const Specialization& specialization = context_.specialization;
   const bool extended = specialization.is_extended();
+  const std::size_t count = part.end - part.first;
   const compute::kernel kernel =
-      extended ? program_.create_kernel("join_extended")
-               : device.programs.get(specialization.join()).create_kernel("join");
+      extended ? kernels.composite.create_kernel("join_extended")
+               : device.programs
+                     .get(&kernels == &slabs_ ? specialization.join_slab() : specialization.join())
+                     .create_kernel("join");
   Launch launch(device, "composite", kernel);
-  launch.value(parameters).arg(context_.grids).arg(lists.segments).arg(planes.light).arg(partials);
+  launch.value(parameters_of(part))
+      .arg(context_.grids)
+      .arg(lists.segments)
+      .arg(planes.light)
+      .arg(partials);
   if (extended) {
-    launch.run_groups(lists.segment_count, specialization.tile_pixels() / 8);
+    launch.run_groups(count, specialization.tile_pixels() / 8);
   } else if (!specialization.has_rows()) {
-    launch.run_groups(lists.segment_count, specialization.tile_pixels());
+    launch.run_groups(count, specialization.tile_pixels());
   } else {
-    launch.run_rows(specialization.tile_height(), lists.segment_count);
+    launch.run_rows(specialization.tile_height(), count);
   }
 }
 

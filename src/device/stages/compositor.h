@@ -17,13 +17,24 @@ class Compositor {
   Planes composite(const TileLists& lists, const SplatMemory& splats, Planes planes) const;
 
  private:
+  // The kernels for some of the segments: of an ordered plan's coarse grids they add up.
+  struct Kernels {
+    compute::program composite;
+  };
+  // The segments from `first` on.
+  struct Part {
+    std::uint32_t first = 0, end = 0;
+  };
   void clear_grid(std::size_t grid, Planes& planes) const;
-  void join(const TileLists& lists, const shared::CompositeParameters& parameters,
+  void draw(const Part& part, const Kernels& kernels, const TileLists& lists,
+            const SplatMemory& splats, const Buffer<float>& partials, const Planes& planes) const;
+  void join(const Part& part, const Kernels& kernels, const TileLists& lists,
             const Buffer<float>& partials, const Planes& planes) const;
+  shared::CompositeParameters parameters_of(const Part& part) const;
 
   const StageContext& context_;
   shared::CompositeParameters parameters_{};
-  compute::program program_;
+  Kernels layers_, slabs_;
 };
 
 }  // namespace splotchcl

@@ -7,6 +7,7 @@
 
 #include "device/opencl/launch.h"
 #include "scene/plan/blur_filter.h"
+#include "splotchcl/frame_check.h"
 
 namespace splotchcl {
 namespace {
@@ -34,11 +35,13 @@ Resolver::Resolver(const StageContext& context)
   if (context.layout.grids.size() > 1) {
     grids_program_ = context.device.programs.get(Specialization::coarse_grids());
   }
+  if (context.plan.slabs > 0)
+    slab_program_ = context.device.programs.get(Specialization::lay_slab());
 }
 
 // What every grid holds, brought to the picture's own: blurred level by level, then refined
 // from the coarsest on. Grids without light are left out.
-Planes Resolver::collect(Planes planes) const {
+Planes Resolver::collect(Planes planes, std::size_t finest) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
   const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
   const auto grid_of = [&pyramid](std::size_t level) {
@@ -57,7 +60,7 @@ Planes Resolver::collect(Planes planes) const {
     }
     if (is_used(narrow)) blur(planes, narrow, narrow, wanted[level], pyramid.blur[0], false);
   }
-  for (std::size_t level = levels - 1; level > 0; --level) {
+  for (std::size_t level = levels - 1; level > finest; --level) {
     const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);
     if (!is_used(coarse)) continue;
     refine(planes, coarse, fine, wanted[level - 1], is_used(fine));
@@ -99,37 +102,109 @@ void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t ta
       .run_grid(width_strips, height, plane_count);
 }
 
-// The same from one level to the next.
-void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
-                      const shared::GridPart& part, bool add) const {
+shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::uint32_t fine,
+                                                     const shared::GridPart& part) const {
   shared::RefineParameters parameters{};
   parameters.coarse = coarse;
   parameters.fine = fine;
   parameters.part = part;
-  parameters.add = add;
   const std::array<double, 10>& weights = context_.plan.pyramid.refinement.weights;
   std::transform(weights.begin(), weights.end(), parameters.weights,
                  [](double weight) { return static_cast<float>(weight); });
+  return parameters;
+}
 
+// The first axis.
+Buffer<float> Resolver::refine_columns(const Planes& planes,
+                                       const shared::RefineParameters& parameters) const {
+  const shared::GridPart& part = parameters.part;
   const auto width = static_cast<std::size_t>(part.right_end - part.left);
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   // The temporary begins with an even column, and has the rows that ten taps look at.
   const std::size_t column_strips = strips(width + 1, 16), most_rows = height / 2 + 12;
   const std::size_t plane_count = context_.specialization.planes();
-  const auto columns = context_.device.pool.get<float>(plane_count * most_rows * 16 * column_strips,
-                                                       "refined columns");
+  auto columns = context_.device.pool.get<float>(plane_count * most_rows * 16 * column_strips,
+                                                 "refined columns");
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
       .run_grid(column_strips, most_rows, plane_count);
+  return columns;
+}
+
+// The same from one level to the next.
+void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
+                      const shared::GridPart& part, bool add) const {
+  shared::RefineParameters parameters = refine_parameters(coarse, fine, part);
+  parameters.add = add;
+  const Buffer<float> columns = refine_columns(planes, parameters);
+  const auto width = static_cast<std::size_t>(part.right_end - part.left);
+  const auto height = static_cast<std::size_t>(part.bottom - part.top);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(width, 8), height, plane_count);
+      .run_grid(strips(width, 8), height, context_.specialization.planes());
+}
+
+SlabLight Resolver::start_slabs() const {
+  const shared::Grid& grid = context_.layout.grids.front();
+  const shared::GridPart& part = context_.layout.wanted.front();
+  const std::uint64_t floats = std::uint64_t{context_.specialization.planes()} * grid.plane_size;
+  const std::size_t eights = strips(static_cast<std::size_t>(part.right_end - part.left), 8) *
+                             static_cast<std::size_t>(part.bottom - part.top);
+  SlabLight slab;
+  // Rows of eight may reach beyond the last plane.
+  slab.before = context_.device.pool.get<float>(floats + 8, "planes before a slab");
+  slab.errors = context_.device.pool.get<float>(eights, "errors of slabs");
+  const cl_float zero = 0;
+  for (const Buffer<float>* buffer : {&slab.before, &slab.errors}) {
+    context_.device.timer.add(
+        "resolve", context_.device.queue.enqueue_fill_buffer(buffer->memory(), &zero, sizeof(zero),
+                                                             0, buffer->size() * sizeof(float)));
+  }
+  return slab;
+}
+
+Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
+  constexpr std::uint32_t picture = 1;
+  if (light.used_grids == picture) return light;
+  Planes planes = collect(std::move(light), 1);
+  const auto coarse = static_cast<std::uint32_t>(context_.plan.pyramid.level_grids[1]);
+  const shared::GridPart& part = context_.layout.wanted.front();
+  const shared::RefineParameters parameters = refine_parameters(coarse, 0, part);
+  const Buffer<float> columns = refine_columns(planes, parameters);
+  Launch(context_.device, "resolve", slab_program_.create_kernel("lay_slab"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(columns)
+      .arg(slab.before)
+      .arg(slab.errors)
+      .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8),
+                static_cast<std::size_t>(part.bottom - part.top), 1);
+  planes.used_grids = picture;
+  return planes;
+}
+
+std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
+  const auto eights = strips(static_cast<std::size_t>(parameters_.width), 8);
+  const auto rows = static_cast<std::size_t>(parameters_.height);
+  const std::vector<float> of_eights = context_.device.pool.download(slab.errors, eights * rows);
+  constexpr std::size_t side = BlockErrors::block_pixels;
+  const auto columns = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.width));
+  std::vector<float> blocks(
+      columns * static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height)));
+  for (std::size_t y = 0; y < rows; ++y) {
+    for (std::size_t x = 0; x < eights; ++x) {
+      float& block = blocks[y / side * columns + x * 8 / side];
+      block = std::max(block, of_eights[y * eights + x]);
+    }
+  }
+  return blocks;
 }
 
 // The crop's part of the background's picture, a plane per channel, in rows of `stride`.
@@ -149,7 +224,7 @@ Buffer<float> Resolver::upload_background(std::size_t stride) const {
 }
 
 Image Resolver::resolve(Planes light) const {
-  const Planes planes = collect(std::move(light));
+  const Planes planes = collect(std::move(light), 0);
   Image image(parameters_.width, parameters_.height);
   if (context_.device.traits.shares_host_memory) {
     resolve_in_place(planes, image);

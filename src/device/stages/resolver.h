@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
@@ -15,8 +16,21 @@ class Resolver {
 
   Image resolve(Planes planes) const;
 
+  // An ordered plan's planes before its first slab.
+  SlabLight start_slabs() const;
+  // What coarse grids hold of a slab's wide splats, laid among the narrow ones; they are empty
+  // then.
+  Planes lay_slab(Planes planes, SlabLight& slab) const;
+  // The largest of all slabs together in each of the picture's blocks (BlockErrors).
+  std::vector<float> errors_of_slabs(const SlabLight& slab) const;
+
  private:
-  Planes collect(Planes planes) const;
+  // Down to grids of this level.
+  Planes collect(Planes planes, std::size_t finest) const;
+  Buffer<float> refine_columns(const Planes& planes,
+                               const shared::RefineParameters& parameters) const;
+  shared::RefineParameters refine_parameters(std::uint32_t coarse, std::uint32_t fine,
+                                             const shared::GridPart& part) const;
   void blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
             const shared::GridPart& part, double sigma2, bool add) const;
   void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
@@ -27,7 +41,7 @@ class Resolver {
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
-  compute::program program_, grids_program_;
+  compute::program program_, grids_program_, slab_program_;
 };
 
 }  // namespace splotchcl

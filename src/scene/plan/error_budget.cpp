@@ -46,14 +46,15 @@ ToleranceShares extended_shares() {
   return shares;
 }
 
-ToleranceShares share_out(double tolerance, LightPlan light, const PlanOptions& options) {
+ToleranceShares share_out(double tolerance, LightPlan light, bool coarse_grids) {
   const bool ordered = light == LightPlan::ordered;
   ToleranceShares shares;
   shares.promise = tolerance;
-  shares.truncation = 0.5 * tolerance;
-  const double coarse_grids = ordered ? 0 : 0.25 * tolerance;
-  shares.coarse_grids = options.coarse_grids ? coarse_grids : 0;
-  const double arithmetic = tolerance - shares.truncation - coarse_grids;
+  const bool slabs = ordered && coarse_grids;
+  shares.slabs = slabs ? 0.1 * tolerance : 0;
+  shares.truncation = 0.5 * tolerance - shares.slabs;
+  shares.coarse_grids = coarse_grids ? 0.25 * tolerance : 0;
+  const double arithmetic = (ordered && !slabs ? 0.5 : 0.25) * tolerance;
   shares.early_stop = ordered ? 0.1 * arithmetic : 0;
   shares.phi = (ordered ? 0.2 : 0.25) * arithmetic;
   shares.pixel_mean = arithmetic - shares.phi - shares.early_stop;
@@ -70,13 +71,13 @@ ErrorBudget make_extended_budget() {
 }
 
 ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
-                              const PlanOptions& options) {
+                              bool coarse_grids) {
   ErrorBudget budget;
   if (frame.tolerance == 0) return make_extended_budget();
   budget.precision = drawn_for < fast_tolerance ? Precision::full : Precision::fast;
   budget.has_fine_places = budget.precision == Precision::full && drawn_for >= least_of_fine_places;
   budget.adds_small_blocks = drawn_for < small_blocks_tolerance;
-  budget.shares = share_out(drawn_for, light, options);
+  budget.shares = share_out(drawn_for, light, coarse_grids);
   budget.shares.promise = frame.tolerance;
   return budget;
 }

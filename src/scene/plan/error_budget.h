@@ -15,8 +15,9 @@ struct ErrorBudget {
 };
 
 // `drawn_for`: the tolerance that is shared out, at most the frame's, which is promised.
+// `coarse_grids`: whether there may be some; in an ordered frame they hold slabs.
 ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
-                              const PlanOptions& options);
+                              bool coarse_grids);
 
 // Of the highest precision, which promises extended_tolerance.
 ErrorBudget make_extended_budget();

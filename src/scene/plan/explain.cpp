@@ -20,6 +20,10 @@ void explain_light(const FramePlan& plan, const Frame& frame, std::ostream& out)
       out << "  emission and absorption differ: sort by "
           << (frame.sort.by == SortOrder::By::depth ? "depth" : frame.sort.field)
           << ", nearer layers over farther ones\n";
+      if (plan.slabs > 0) {
+        out << "  wide splats in " << plan.slabs
+            << " slabs, added up on coarse grids and laid among the narrow ones of their slab\n";
+      }
       break;
   }
 }
@@ -34,8 +38,9 @@ void explain_extended(const FramePlan& plan, std::ostream& out) {
 
 void explain_shares(const FramePlan& plan, std::ostream& out) {
   const ToleranceShares& shares = plan.shares;
-  out << "\n  ends of the splats " << shares.truncation << ", coarse grids " << shares.coarse_grids
-      << ", arithmetic " << shares.arithmetic() << ":\n"
+  out << "\n  ends of the splats " << shares.truncation << ", coarse grids " << shares.coarse_grids;
+  if (plan.slabs > 0) out << ", order within slabs " << shares.slabs;
+  out << ", arithmetic " << shares.arithmetic() << ":\n"
       << "    center values for pixel means " << shares.pixel_mean << ", exp and phi " << shares.phi
       << ", early stop " << shares.early_stop << "\n"
       << "  checked from all splats when it is drawn, and drawn again where that is not enough\n";

@@ -23,12 +23,17 @@ constexpr double erf_error = 2.3e-7;
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
 // are drawn again (docs/performance.md).
+std::array<double, 6> first_farther(const FramePlan& plan) {
+  if (!plan.needs_sort()) return {1.9, 1.4, 0.6, 0.0, 0.0, 0.0};
+  // On coarse grids, which have few pixels, as far as in sums (choose_splat_limits).
+  if (plan.slabs > 0) return {3.5, 3.0, 2.3, 3.0, 2.0, 1.5};
+  return {3.5, 3.0, 2.3, 1.8, 0.6, 0.0};
+}
+
 SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   SplatNeeds needs;
   if (plan.is_extended()) return needs;
-  const std::array<double, 6> farther = plan.needs_sort()
-                                            ? std::array{3.5, 3.0, 2.3, 1.8, 0.6, 0.0}
-                                            : std::array{1.9, 1.4, 0.6, 0.0, 0.0, 0.0};
+  const std::array<double, 6> farther = first_farther(plan);
   // The smaller the tolerance, the more of it goes to errors of peaks that lie upon one another.
   const bool is_full = plan.precision == Precision::full, is_finest = plan.adds_small_blocks;
   const double in_full = is_finest ? 1.2 : is_full ? 0.8 : 0;
@@ -91,6 +96,25 @@ void set_limits(const Frame& frame, FramePlan& plan) {
 // Bounds are several times larger than estimates.
 constexpr double first_part_certified = 0.05;
 
+// Slabs pay in large frames that are not bright: the light that wide splats may change by their
+// order is that of the picture (docs/accuracy.md, "Slabs"). What is guessed wrong here costs time.
+// Laying ten slabs takes as long for a pixel as one or two wide splats do in order.
+int choose_slabs(const Frame& frame, const FramePlan& plan, const PlanOptions& options) {
+  constexpr int first_slabs = 10;
+  constexpr std::uint64_t fewest_particles = 1u << 19;
+  constexpr double brightest = 0.3;
+  const bool is_possible = plan.needs_sort() && plan.precision == Precision::fast &&
+                           !plan.has_ellipses && !frame.kernel.cut && !plan.certify &&
+                           options.coarse_grids;
+  if (!is_possible) return 0;
+  if (options.slabs >= 0) return options.slabs;
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(frame.crop.width) * static_cast<std::uint64_t>(frame.crop.height);
+  const bool pays = particle_count(frame) >= std::max(fewest_particles, 2 * pixels) &&
+                    plan.light_behind <= brightest;
+  return pays ? first_slabs : 0;
+}
+
 void set_budget(const ErrorBudget& budget, FramePlan& plan) {
   plan.precision = budget.precision;
   plan.has_fine_places = budget.has_fine_places;
@@ -116,15 +140,36 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
 
   plan.certify = options.certify;
   plan.drawn_for_tolerance = frame.tolerance * (options.certify ? first_part_certified : 1);
-  set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, options), plan);
+  set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light,
+                               !plan.needs_sort() && options.coarse_grids),
+             plan);
   if (plan.needs_sort() && !plan.is_extended()) plan.light_behind = guess_light_behind(frame);
+  plan.slabs = choose_slabs(frame, plan, options);
+  if (plan.slabs > 0) {
+    set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, true), plan);
+  }
   plan.needs = first_needs(plan, light_of_uneven_ends(frame, plan));
   set_limits(frame, plan);
-  return plan;
+  // Small pictures have one grid, and transmittances that are carried are not laid.
+  const bool has_slabs = plan.pyramid.grids.size() > 1 && !plan.layers.keeps_transmittance;
+  return plan.slabs > 0 && !has_slabs ? in_order_plan(frame, plan) : plan;
+}
+
+FramePlan in_order_plan(const Frame& frame, const FramePlan& plan) {
+  FramePlan ordered = plan;
+  ordered.slabs = 0;
+  set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, false), ordered);
+  ordered.needs = first_needs(ordered, light_of_uneven_ends(frame, ordered));
+  set_limits(frame, ordered);
+  return ordered;
 }
 
 FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeeds& needs) {
+  // More of them take as long to lay as splats take in order.
+  constexpr int most_slabs = 32;
+  if (plan.slabs > 0 && needs.slabs > most_slabs) return in_order_plan(frame, plan);
   FramePlan refined = plan;
+  refined.slabs = plan.slabs > 0 ? std::max(plan.slabs, needs.slabs) : 0;
   for (std::size_t octave = 0; octave < needs.widths.size(); ++octave) {
     WidthNeed& need = refined.needs.widths[octave];
     need.farther += needs.widths[octave].farther;
@@ -138,9 +183,8 @@ FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeed
 FramePlan tighten_plan(const Frame& frame, const FramePlan& plan, double times) {
   FramePlan tightened = plan;
   tightened.drawn_for_tolerance /= times;
-  PlanOptions options;
-  options.coarse_grids = plan.shares.coarse_grids > 0;
-  set_budget(make_error_budget(frame, tightened.drawn_for_tolerance, plan.light, options),
+  set_budget(make_error_budget(frame, tightened.drawn_for_tolerance, plan.light,
+                               plan.shares.coarse_grids > 0),
              tightened);
   set_limits(frame, tightened);
   return tightened;
@@ -149,6 +193,7 @@ FramePlan tighten_plan(const Frame& frame, const FramePlan& plan, double times) 
 FramePlan extend_plan(const Frame& frame, const FramePlan& plan) {
   FramePlan extended = plan;
   set_budget(make_extended_budget(), extended);
+  extended.slabs = 0;
   extended.needs = {};
   extended.light_behind = 1;
   set_limits(frame, extended);

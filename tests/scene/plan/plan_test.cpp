@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "reference/frames.h"
 #include "scene/plan/blur_filter.h"
 
 namespace splotchcl {
@@ -103,11 +104,12 @@ TEST(Plan, SharesOutTheWholeTolerance) {
       EXPECT_GE(shares.pixel_mean, 0);
       EXPECT_GE(shares.phi, 0);
       EXPECT_GE(shares.early_stop, 0);
+      EXPECT_GE(shares.slabs, 0);
       // Tolerance 0 shares out what it promises instead.
       const double promise = tolerance > 0 ? tolerance : extended_tolerance;
       EXPECT_EQ(shares.promise, promise);
       EXPECT_NEAR(shares.truncation + shares.coarse_grids + shares.pixel_mean + shares.phi +
-                      shares.early_stop,
+                      shares.early_stop + shares.slabs,
                   promise, 1e-15 * promise);
     }
   }
@@ -132,6 +134,55 @@ TEST(Plan, HasNoCoarseGridsWhereOrderMatters) {
   const FramePlan plan = make_plan(frame_of({component(Kind::gray, 1)}));
   EXPECT_EQ(plan.shares.coarse_grids, 0);
   EXPECT_EQ(plan.pyramid.grids.size(), 1u);
+}
+
+// So many clouds before the camera, each of this optical depth.
+Frame many_layers(std::size_t count, float depth) {
+  DrawnComponent clouds = component(Kind::gray, 0.2);
+  std::vector<float> positions(3 * count);
+  for (std::size_t i = 0; i < count; ++i)
+    positions[3 * i + 2] = 10 + static_cast<float>(i % 100);
+  clouds.particles.count = count;
+  clouds.particles.position = Column::owning(std::move(positions));
+  clouds.particles.smoothing_length = Column::uniform(1);
+  clouds.brightness = static_cast<double>(depth);
+  Frame frame = test::empty_frame(64, 64);
+  frame.components = {clouds};
+  return frame;
+}
+
+TEST(Plan, DrawsLargeDimOrderedFramesInSlabs) {
+  constexpr std::size_t many = std::size_t{1} << 20;
+  const FramePlan plan = make_plan(many_layers(many, 1e-3F));
+  EXPECT_GT(plan.slabs, 1);
+  EXPECT_GT(plan.pyramid.grids.size(), 1U);
+  EXPECT_EQ(make_plan(many_layers(1000, 1e-3F)).slabs, 0) << "few particles";
+  EXPECT_EQ(make_plan(many_layers(many, 1e3F)).slabs, 0) << "bright sources";
+}
+
+TEST(Plan, DrawsInOrderWhatMayNotBeDrawnInSlabs) {
+  Frame frame = many_layers(std::size_t{1} << 20, 1e-3F);
+  PlanOptions certified;
+  certified.certify = true;
+  EXPECT_EQ(make_plan(frame, certified).slabs, 0);
+  frame.tolerance = 1e-4;
+  EXPECT_EQ(make_plan(frame).slabs, 0) << "small tolerances";
+  frame.tolerance = 1e-3;
+  frame.kernel.cut = 1.8;
+  EXPECT_EQ(make_plan(frame).slabs, 0) << "cut kernels";
+}
+
+TEST(Plan, TakesMoreSlabsUntilOrderIsCheaper) {
+  const Frame frame = many_layers(std::size_t{1} << 20, 1e-3F);
+  const FramePlan plan = make_plan(frame);
+  SplatNeeds needs;
+  needs.slabs = plan.slabs + 3;
+  EXPECT_EQ(refine_plan(frame, plan, needs).slabs, plan.slabs + 3);
+  needs.slabs = 1000;
+  const FramePlan ordered = refine_plan(frame, plan, needs);
+  EXPECT_EQ(ordered.slabs, 0);
+  EXPECT_EQ(ordered.shares.coarse_grids, 0);
+  EXPECT_EQ(ordered.pyramid.grids.size(), 1U);
 }
 
 TEST(Plan, TakesThePrecisionThatTheToleranceNeeds) {
