@@ -41,8 +41,8 @@ SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
     needs.widths[octave].farther =
         std::max(0.0, farther[octave] + in_full + std::log(light_of_errors));
   }
-  if (is_full && !is_finest) needs.grid_light = 3;
-  const std::array<double, 5> light = {100, 100, 100, 6, 6};
+  if (is_full) needs.grid_light = is_finest ? 4 : 3;
+  const std::array<double, 5> light = {100, 100, 100, 6, 12};
   for (std::size_t octave = 0; is_finest && octave < light.size(); ++octave)
     needs.widths[octave].light = light[octave];
   return needs;
