@@ -5,6 +5,7 @@
 #include "generate/haloes.h"
 #include "generate/profile.h"
 #include "generate/web.h"
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"
@@ -94,11 +95,15 @@ std::vector<Halo> make_haloes(const Web& web, double spacing) {
 
 std::vector<PlacedGas> place_gas(const Web& web, std::vector<Halo>& haloes, std::uint64_t count,
                                  double spacing, Random& random) {
-  std::vector<Vec3> birthplaces, places;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  constexpr std::size_t places_at_once = 4096;
+  std::vector<Vec3> birthplaces;
+  for (std::uint64_t i = 0; i < count; ++i)
     birthplaces.push_back(even_place(i, random, 0.5 * spacing));
-    places.push_back(web.displaced(birthplaces.back()));
-  }
+  std::vector<Vec3> places(birthplaces.size());
+  for_blocks(places.size(), places_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      places[i] = web.displaced(birthplaces[i]);
+  });
   sharpen_web(places, haloes);
   const HaloMap map(haloes, 192);
   std::vector<PlacedGas> all;

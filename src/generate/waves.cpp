@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 
 namespace splotchcl {
@@ -27,7 +28,7 @@ std::vector<Complex> sum_first_index(const std::vector<Complex>& in,
   const std::size_t waves = phases.size() / side;
   const std::size_t rest = in.size() / waves;
   std::vector<Complex> out(rest * side);
-  for (std::size_t r = 0; r < rest; ++r) {
+  const auto sum_row = [&](std::size_t r) {
     Complex* row = &out[r * side];
     for (std::size_t n = 0; n < waves; ++n) {
       const Complex amplitude = in[n * rest + r];
@@ -38,7 +39,12 @@ std::vector<Complex> sum_first_index(const std::vector<Complex>& in,
                           amplitude.real() * phase[x].imag() + amplitude.imag() * phase[x].real());
       }
     }
-  }
+  };
+  constexpr std::size_t rows_at_once = 64;
+  for_blocks(rest, rows_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r)
+      sum_row(r);
+  });
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "generate/gather.h"
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 
 namespace splotchcl {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int longest_wave = 24;
 constexpr int grid_side = 96;
+constexpr std::size_t places_at_once = 4096;
 constexpr double web_wave = 6.5;  // waves per box; shorter ones do not move the web
 
 // Bent where radiation ruled: Bardeen et al. (1986), by waves per box.
@@ -70,8 +72,10 @@ void sharpen_web(std::vector<Vec3>& places, std::vector<Halo>& haloes) {
   constexpr double widths[] = {1.6, 1.3, 1};  // in cells
   for (const double width : widths) {
     const PeriodicGrid density = smoothed_density(places, side, width);
-    for (Vec3& place : places)
-      place += step_uphill(density, place, width);
+    for_blocks(places.size(), places_at_once, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        places[i] += step_uphill(density, places[i], width);
+    });
     for (Halo& halo : haloes)
       halo.center += step_uphill(density, halo.center, width);
   }
