@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -40,6 +41,13 @@ int run(int argc, char** argv) {
   return run(argc, argv, console);
 }
 
+// PoCL compiles each kernel a second time, for its size of work-groups, unless it is told not to:
+// two seconds of a first picture, for the same bits at the same speed.
+void have_kernels_compiled_once() {
+  constexpr int not_over_the_users = 0;
+  ::setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", not_over_the_users);
+}
+
 // Without what libraries do when a program ends: HDF5 tries to close damaged files again and again,
 // and says so.
 [[noreturn]] void leave(int code) {
@@ -55,6 +63,7 @@ int main(int argc, char** argv) {
   splotchcl::guard_mapped_files();
   splotchcl::guard_crashes();
   splotchcl::let_errors_be_quiet();
+  have_kernels_compiled_once();
   try {
     leave(run(argc, argv));
   } catch (...) {

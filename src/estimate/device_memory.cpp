@@ -74,6 +74,14 @@ class FrameBuffers {
     return largest * specialization_.planes() * sizeof(float);
   }
 
+  // The planes before a slab, and what its grids are refined into. The errors are an eighth of a
+  // plane.
+  std::uint64_t slabs() const {
+    if (plan_.slabs == 0) return 0;
+    const std::uint64_t plane = layout_.grids.front().plane_size * sizeof(float);
+    return specialization_.planes() * plane + plane / 8 + blurred_columns();
+  }
+
   std::uint64_t blocks_of_chunk() const {
     return chunk_splats() / (std::uint64_t{traits_.project_block} * splats_per_particle());
   }
@@ -108,7 +116,7 @@ std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
   const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
   const std::uint64_t drawing =
       count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
-  return buffers.planes() + buffers.splats(count) + std::max(sorting, drawing);
+  return buffers.planes() + buffers.splats(count) + std::max(sorting, drawing + buffers.slabs());
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ struct Rates {
   double pixel;                             // resolved
 };
 
+// Of a pixel that a slab is laid on.
+constexpr double laid_pixel = 17;
+
 constexpr Rates rates_of_sums = {11.6, 90, 0, 9, 4, 1.1, 2.3, 3, 7.2};
 constexpr Rates rates_in_order = {22, 180, 13, 19, 35, 0.5, 0.9, 6, 8.3};
 
@@ -41,7 +44,8 @@ double estimate_seconds(const Frame& frame, const FramePlan& plan, const SplatWo
       (plan.is_extended() ? rates.extended_particle : rates.particle) *
           static_cast<double>(particle_count(frame)) +
       rates.sorted * work.splats + (rates.binned + rates.entry) * work.tile_entries +
-      row_part(rates, plan.precision) * work.row_parts + rates.pixel * pixels;
+      row_part(rates, plan.precision) * work.row_parts +
+      (rates.pixel + laid_pixel * plan.slabs) * pixels;
   return 1e-9 * nanoseconds * 2 / std::max(cores, 1);
 }
 
