@@ -14,6 +14,7 @@
 #include "cli/map_command.h"
 #include "cli/pages.h"
 #include "cli/version.h"
+#include "cli/view_command.h"
 #include "common/nearest_name.h"
 #include "splotchcl/error.h"
 
@@ -333,6 +334,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
+  add_view(app, run, console);
   add_map(app, run, console);
   add_convert(app, run, console);
   add_movie(app, run, console);

@@ -40,6 +40,16 @@ struct RenderOptions : DrawOptions {
 };
 int run_render(const RenderOptions& options, Console& console);
 
+struct ViewOptions {
+  std::filesystem::path scene;
+  std::string device;
+  std::vector<std::string> settings;  // key=value
+  std::optional<std::string> size;    // WIDTHxHEIGHT
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: one that is free
+};
+int run_view(const ViewOptions& options, Console& console);
+
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
   std::string quantity, statistic, weight, types, view, center, unit, distance, sky,

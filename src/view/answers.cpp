@@ -1,0 +1,81 @@
+#include "view/answers.h"
+
+#include <nlohmann/json.hpp>
+
+namespace splotchcl::view {
+namespace {
+
+using Json = nlohmann::json;
+
+// Paths and messages need not be UTF-8.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json answer(std::uint64_t id) {
+  return {{"type", "answer"}, {"id", id}};
+}
+
+}  // namespace
+
+std::string frame_message(const FrameHeader& header, const ViewPicture& picture) {
+  const bool is_exact = header.stage == FrameScheduler::Stage::exact;
+  const std::string json = text_of({{"frame", header.frame},
+                                    {"state", header.state},
+                                    {"stage", is_exact ? "exact" : "preview"},
+                                    {"format", picture.is_jpeg ? "image/jpeg" : "image/png"},
+                                    {"seconds", picture.seconds},
+                                    {"decided", header.decided},
+                                    {"notes", picture.notes}});
+  std::string message;
+  message.reserve(4 + json.size() + picture.file.size());
+  for (int shift = 0; shift < 32; shift += 8)
+    message += static_cast<char>(json.size() >> shift & 0xff);
+  message += json;
+  message.append(picture.file.begin(), picture.file.end());
+  return message;
+}
+
+std::string state_error(std::uint64_t state, const std::string& text) {
+  return text_of({{"type", "error"}, {"state", state}, {"text", text}});
+}
+
+std::string message_error(const std::string& text) {
+  return text_of({{"type", "error"}, {"text", text}});
+}
+
+std::string histogram_answer(std::uint64_t id, const FieldHistogram& histogram) {
+  Json json = answer(id);
+  json["minimum"] = histogram.minimum;
+  json["maximum"] = histogram.maximum;
+  json["counts"] = histogram.counts;
+  return text_of(json);
+}
+
+std::string pick_answer(std::uint64_t id, const std::optional<Vec3>& position) {
+  Json json = answer(id);
+  if (position) json["position"] = {position->a[0], position->a[1], position->a[2]};
+  return text_of(json);
+}
+
+std::string scene_text_answer(std::uint64_t id, const std::string& opened, const std::string& now) {
+  Json json = answer(id);
+  json["opened"] = opened;
+  json["now"] = now;
+  return text_of(json);
+}
+
+std::string save_answer(std::uint64_t id, SaveResult result, const std::string& path) {
+  Json json = answer(id);
+  json["saved"] = result == SaveResult::saved;
+  json["path"] = path;
+  return text_of(json);
+}
+
+std::string question_error(std::uint64_t id, const std::string& text) {
+  Json json = answer(id);
+  json["error"] = text;
+  return text_of(json);
+}
+
+}  // namespace splotchcl::view

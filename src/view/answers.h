@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/vector.h"
+#include "view/field_histogram.h"
+#include "view/frame_scheduler.h"
+#include "view/view_drawer.h"
+#include "view/view_files.h"
+
+// What the program says to a page (docs/view.md, "What page and program say"): JSON, but for
+// frames.
+namespace splotchcl::view {
+
+// What a page is told beside a picture.
+struct FrameHeader {
+  std::uint64_t frame = 0;  // to be acknowledged
+  std::uint64_t state = 0;  // the page's number of the state that it shows
+  FrameScheduler::Stage stage = FrameScheduler::Stage::preview;
+  std::map<std::string, double> decided;  // keys that the state left open
+};
+
+// Binary: the number of bytes of the header, 4 bytes with the lowest first; the header as JSON; the
+// picture's file.
+std::string frame_message(const FrameHeader& header, const ViewPicture& picture);
+
+// The state could not be drawn.
+std::string state_error(std::uint64_t state, const std::string& text);
+// A message could not be understood.
+std::string message_error(const std::string& text);
+
+std::string histogram_answer(std::uint64_t id, const FieldHistogram& histogram);
+std::string pick_answer(std::uint64_t id, const std::optional<Vec3>& position);
+std::string scene_text_answer(std::uint64_t id, const std::string& opened, const std::string& now);
+// `path`: where it is, or would have been.
+std::string save_answer(std::uint64_t id, SaveResult result, const std::string& path);
+std::string question_error(std::uint64_t id, const std::string& text);
+
+}  // namespace splotchcl::view

@@ -1,0 +1,275 @@
+#include "view/draw_loop.h"
+
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <utility>
+
+#include "finish/tone_levels.h"
+#include "splotchcl/error.h"
+#include "view/answers.h"
+#include "view/field_histogram.h"
+#include "view/pick.h"
+#include "view/scene_description.h"
+#include "view/view_files.h"
+#include "view/view_scene.h"
+
+namespace splotchcl::view {
+namespace {
+
+using Stage = FrameScheduler::Stage;
+using Clock = std::chrono::steady_clock;
+
+constexpr double preview_seconds = 1.0 / 30;
+constexpr std::size_t most_questions = 32;
+constexpr std::size_t histogram_bins = 64;
+// Enough to find what lies under the pointer.
+constexpr std::uint64_t particles_to_pick = 200000;
+
+ViewDrawer::Options with_go_on(ViewDrawer::Options options, std::function<bool()> go_on) {
+  options.go_on = std::move(go_on);
+  return options;
+}
+
+}  // namespace
+
+DrawLoop::Page::Page(SendToPage to_page, std::uint64_t particles)
+    : send(std::move(to_page)), quality(particles, preview_seconds) {}
+
+DrawLoop::DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options,
+                   std::vector<std::string>& notes)
+    : drawer_(std::move(source), with_go_on(std::move(options), [this] { return go_on(); }), notes),
+      description_(describe_scene(drawer_.opened(), drawer_.snapshot())),
+      thread_([this] { run(); }) {}
+
+DrawLoop::~DrawLoop() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::uint64_t DrawLoop::open_page(SendToPage send) {
+  send({false, description_});
+  const std::lock_guard lock(mutex_);
+  auto page = std::make_shared<Page>(std::move(send), drawer_.particles());
+  page->input = page->scheduler.take_input(false, Clock::now());
+  pages_[++last_page_] = std::move(page);
+  changed_.notify_all();
+  return last_page_;
+}
+
+void DrawLoop::close_page(std::uint64_t page) {
+  const std::lock_guard lock(mutex_);
+  const auto found = pages_.find(page);
+  if (found == pages_.end()) return;
+  found->second->is_closed = true;
+  pages_.erase(found);
+}
+
+void DrawLoop::take(std::uint64_t number, const PageMessage& message) {
+  const std::lock_guard lock(mutex_);
+  const auto found = pages_.find(number);
+  if (found == pages_.end()) return;
+  Page& page = *found->second;
+  if (const auto* state = std::get_if<PageState>(&message)) {
+    page.state = *state;
+    page.input = page.scheduler.take_input(state->is_moving, Clock::now());
+  } else if (const auto* acknowledged = std::get_if<FrameAcknowledged>(&message)) {
+    page.scheduler.acknowledge(acknowledged->frame);
+  } else {
+    if (page.questions.size() >= most_questions) {
+      throw UsageError("too many questions of the page wait for their answers, expected 32");
+    }
+    page.questions.push_back(std::get<PageQuestion>(message));
+  }
+  changed_.notify_all();
+}
+
+std::optional<DrawLoop::Work> DrawLoop::find_work(FrameScheduler::Time now) {
+  auto next = pages_.upper_bound(last_served_);
+  for (std::size_t i = 0; i < pages_.size(); ++i, ++next) {
+    if (next == pages_.end()) next = pages_.begin();
+    Page& page = *next->second;
+    const std::optional<FrameScheduler::Task> task = page.scheduler.next(now);
+    // A picture that takes long lets questions pass.
+    const bool has_question = !page.questions.empty();
+    if (!has_question && !task) continue;
+    last_served_ = next->first;
+    Work work{next->second, FrameScheduler::Task(), page.state, page.input};
+    if (has_question && !(task && task->stage == Stage::preview)) {
+      work.what = page.questions.front();
+      page.questions.pop_front();
+    } else {
+      work.what = *task;
+    }
+    return work;
+  }
+  return std::nullopt;
+}
+
+std::optional<FrameScheduler::Time> DrawLoop::wake_time() const {
+  std::optional<FrameScheduler::Time> first;
+  for (const auto& [number, page] : pages_) {
+    const std::optional<FrameScheduler::Time> time = page->scheduler.wake_time();
+    if (time && (!first || *time < *first)) first = time;
+  }
+  return first;
+}
+
+std::optional<DrawLoop::Work> DrawLoop::wait_for_work() {
+  std::unique_lock lock(mutex_);
+  while (!is_stopping_) {
+    if (auto work = find_work(Clock::now())) return work;
+    if (const auto time = wake_time()) {
+      changed_.wait_until(lock, *time);
+    } else {
+      changed_.wait(lock);
+    }
+  }
+  return std::nullopt;
+}
+
+bool DrawLoop::go_on() {
+  const std::lock_guard lock(mutex_);
+  if (is_stopping_) return false;
+  if (!exact_page_) return true;
+  return !exact_page_->is_closed && !exact_page_->scheduler.is_outdated(exact_task_);
+}
+
+void DrawLoop::set_task(const Work& work) {
+  const std::lock_guard lock(mutex_);
+  exact_page_ = nullptr;
+  const auto* task = std::get_if<FrameScheduler::Task>(&work.what);
+  if (task == nullptr || task->stage == Stage::preview) return;
+  exact_page_ = work.page;
+  exact_task_ = *task;
+}
+
+// Kernels are compiled before the first page asks.
+void DrawLoop::warm_up() {
+  try {
+    drawer_.preview(drawer_.opened(), preview_levels(drawer_.particles()).front());
+  } catch (const DrawingCancelled&) {
+    // The program ends.
+  } catch (const std::exception&) {
+    // Each page is told when it is drawn for it.
+  }
+}
+
+void DrawLoop::run() {
+  warm_up();
+  while (const std::optional<Work> work = wait_for_work()) {
+    set_task(*work);
+    try {
+      carry_out(*work);
+    } catch (const DrawingCancelled&) {
+      // Something newer is to be drawn, or nothing any more.
+    }
+  }
+}
+
+void DrawLoop::carry_out(const Work& work) {
+  if (const auto* question = std::get_if<PageQuestion>(&work.what)) {
+    try {
+      answer(work, *question);
+    } catch (const std::exception& error) {
+      work.page->send({false, question_error(question->id, error.what())});
+    }
+    return;
+  }
+  const auto& task = std::get<FrameScheduler::Task>(work.what);
+  try {
+    draw(work, task);
+  } catch (const std::exception& error) {
+    work.page->send({false, state_error(work.state.number, error.what())});
+    const std::lock_guard lock(mutex_);
+    work.page->scheduler.failed({Stage::preview, task.input});
+    work.page->scheduler.failed({Stage::exact, task.input});
+  }
+}
+
+DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
+  std::optional<PageScene>& known = work.page->scene;
+  if (known && known->input == work.input) return *known;
+  PageScene scene;
+  scene.input = work.input;
+  scene.all = scene_of(drawer_.opened(), work.state);
+  scene.open = open_keys(scene.all);
+  scene.all = drawer_.decide(scene.all);
+  scene.shown = without_hidden(scene.all, work.state.hidden);
+  return known.emplace(std::move(scene));
+}
+
+void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
+  Page& page = *work.page;
+  PageScene& scene = scene_of_page(work);
+  ViewPicture picture;
+  if (task.stage == Stage::preview) {
+    picture = drawer_.preview(scene.shown, page.quality.level());
+    page.quality.drawn(picture.seconds);
+  } else {
+    picture = drawer_.exact(scene.shown);
+  }
+  if (picture.finish) {  // the exact picture has the exposure that the preview has found
+    take_tone(*picture.finish, scene.all.finish);
+    take_tone(*picture.finish, scene.shown.finish);
+  }
+  FrameHeader header;
+  header.state = work.state.number;
+  header.stage = task.stage;
+  header.decided = numbers_of(scene.all, scene.open);
+  {
+    const std::lock_guard lock(mutex_);
+    header.frame = page.scheduler.sent(task);
+  }
+  page.send({true, frame_message(header, picture)});
+}
+
+void DrawLoop::answer(const Work& work, const PageQuestion& question) {
+  PageScene& scene = scene_of_page(work);
+  const std::string text = std::visit(
+      [&](const auto& what) { return answer_to(scene, question.id, what); }, question.what);
+  work.page->send({false, text});
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id,
+                                const HistogramQuestion& question) {
+  if (question.component >= scene.all.components.size()) {
+    throw UsageError("histogram: there is no such component");
+  }
+  const Frame frame = drawer_.load(scene.all);
+  const DrawnComponent& component = frame.components[question.component];
+  return histogram_answer(
+      id, field_histogram(component.particles.color, component.color.scaling, histogram_bins));
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const PickQuestion& question) {
+  const Frame frame = drawer_.sample(scene.shown, particles_to_pick);
+  return pick_answer(id, pick_particle(frame, question.x * frame.width, question.y * frame.height));
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SceneTextQuestion&) {
+  return scene_text_answer(id, portable_scene_text(drawer_.opened()),
+                           portable_scene_text(scene.shown));
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SaveScene& question) {
+  const SaveResult result =
+      save_scene(question.path, question.may_replace, scene.shown, drawer_.snapshot());
+  return save_answer(id, result, std::filesystem::absolute(question.path).string());
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question) {
+  const SaveResult result =
+      check_picture(question.path, question.may_replace, scene.shown, drawer_.snapshot());
+  if (result == SaveResult::saved) {
+    const DrawnFrame drawn = drawer_.draw(scene.shown);
+    write_pictures(question.path, drawn.pictures, image_file_options(scene.shown));
+  }
+  return save_answer(id, result, std::filesystem::absolute(question.path).string());
+}
+
+}  // namespace splotchcl::view

@@ -1,0 +1,89 @@
+// The range of a component's color field: two sliders over a histogram, and their numbers.
+import {button, element, numberInput, row, wide} from './elements.js';
+import {drawHistogram} from './histogram.js';
+import {readable, rounded, scaled, unscaled} from './scaling.js';
+
+const steps = 1000;
+
+export class RangeControl {
+  // `colors` returns the colors of the palette that is shown.
+  constructor(component, name, store, link, colors) {
+    this.component = component;
+    this.store = store;
+    this.link = link;
+    this.colors = colors;
+    this.histogram = null;
+    this.asked = '';  // for which field and scaling
+    this.canvas = element('canvas', {className: 'histogram', width: 308, height: 64, 'aria-hidden': true});
+    this.ends = ['min', 'max'].map((end) => this.makeEnd(end, name));
+    this.elements = [
+      row('Range', wide(this.canvas)),
+      ...this.ends.map(({slider, number}, i) => row(i === 0 ? 'from' : 'to', slider, number)),
+      row('', wide(button('Adapt range', `Adapt range of ${name} to the data`, () => this.adapt()))),
+    ];
+  }
+
+  makeEnd(end, name) {
+    const word = end === 'min' ? 'minimum' : 'maximum';
+    const slider = element('input', {type: 'range', min: 0, max: steps, step: 1,
+                                     'aria-label': `Range ${word} slider of ${name}`});
+    slider.oninput = () => this.set(end, rounded(this.valueAt(slider.value / steps)), true);
+    slider.onchange = () => this.store.rest();
+    const number = numberInput(`Range ${word} of ${name}`, (value) => this.set(end, value, false));
+    return {end, slider, number};
+  }
+
+  key(end) { return `component.${this.component}.color.${end}`; }
+  value(end) { return this.store.settings[this.key(end)]; }
+  get scaling() { return this.value('scaling'); }
+
+  set(end, value, isMoving) {
+    this.store.change({[this.key(end)]: value}, {gesture: this.key(end), isMoving});
+  }
+
+  adapt() { this.store.change({[this.key('min')]: null, [this.key('max')]: null}); }
+  focus() { this.ends[0].slider.focus(); }
+
+  // What the sliders span, scaled: all data, and the range where that is wider.
+  get span() {
+    const values = [this.value('min'), this.value('max')];
+    if (this.histogram) values.push(this.histogram.minimum, this.histogram.maximum);
+    const places = values.filter((v) => v !== null).map((v) => scaled(v, this.scaling))
+        .filter(Number.isFinite);
+    const low = Math.min(...places), high = Math.max(...places);
+    return low < high ? {low, high} : {low: low - 1, high: low + 1};
+  }
+
+  valueAt(share) {
+    const {low, high} = this.span;
+    return unscaled(low + share * (high - low), this.scaling);
+  }
+
+  placeOf(value) {
+    const {low, high} = this.span;
+    return (scaled(value, this.scaling) - low) / (high - low);
+  }
+
+  show() {
+    this.askForHistogram();
+    for (const {end, slider, number} of this.ends) {
+      const value = this.value(end);
+      if (document.activeElement !== number) number.value = readable(value);
+      slider.disabled = value === null;
+      if (value === null) continue;
+      slider.value = Math.round(steps * this.placeOf(value));
+      slider.setAttribute('aria-valuetext', readable(value));
+    }
+    drawHistogram(this.canvas, this);
+  }
+
+  askForHistogram() {
+    const wanted = `${this.value('field')} ${this.scaling}`;
+    if (wanted === this.asked || !this.link.isOpen) return;
+    this.asked = wanted;
+    this.link.ask({type: 'histogram', component: this.component}).then((histogram) => {
+      this.histogram = histogram.counts.length > 0 ? histogram : null;
+      this.show();
+    }, () => { this.asked = ''; });
+  }
+}

@@ -1,0 +1,68 @@
+// Saves the scene or the picture where the program runs, after showing what has changed.
+import {element} from './elements.js';
+import {lineChanges} from './line_changes.js';
+
+const byId = (id) => document.getElementById(id);
+
+export class SaveDialog {
+  constructor(link, opened) {
+    this.link = link;
+    this.paths = {save_scene: opened.scene_file, save_picture: opened.picture_file};
+    this.dialog = byId('save-dialog');
+    byId('save-close').onclick = () => this.dialog.close();
+    this.dialog.querySelector('form').onsubmit = (event) => {
+      event.preventDefault();
+      this.save();
+    };
+    byId('save-path').oninput = () => this.mayReplace(false);
+  }
+
+  open(type) {
+    const isScene = type === 'save_scene';
+    this.type = type;
+    byId('save-title').textContent = isScene ? 'Save scene' : 'Save picture';
+    byId('save-path').value = this.paths[type];
+    byId('save-note').textContent = isScene
+      ? 'A scene file (.toml) in the folder in which splotchcl runs, or a path. splotchcl render draws it as it is here.'
+      : 'Drawn anew by splotchcl as .png, .jpg, .exr or .tif, in the folder in which it runs, or at a path.';
+    byId('save-answer').textContent = '';
+    byId('save-changes').hidden = !isScene;
+    this.mayReplace(false);
+    this.dialog.showModal();
+    if (isScene) this.showChanges();
+  }
+
+  async showChanges() {
+    const shown = byId('save-diff');
+    shown.textContent = '';
+    try {
+      const {opened, now} = await this.link.ask({type: 'scene_text'});
+      const changes = lineChanges(opened, now).filter(([sign]) => sign !== ' ');
+      if (changes.length === 0) shown.textContent = 'nothing';
+      for (const [sign, line] of changes) {
+        shown.append(element(sign === '+' ? 'ins' : 'del', {}, `${sign} ${line}\n`));
+      }
+    } catch (error) {
+      shown.textContent = error.message;
+    }
+  }
+
+  mayReplace(may) {
+    this.replaces = may;
+    byId('save-go').textContent = may ? 'Replace file' : 'Save file';
+  }
+
+  async save() {
+    const path = byId('save-path').value;
+    const answer = byId('save-answer');
+    answer.textContent = 'Saving';
+    try {
+      const {saved, path: place} = await this.link.ask({type: this.type, path, replace: this.replaces});
+      answer.textContent = saved ? `Saved ${place}` : `${place} exists already. Replace it?`;
+      this.mayReplace(!saved);
+      if (saved) this.paths[this.type] = path;
+    } catch (error) {
+      answer.textContent = error.message;
+    }
+  }
+}

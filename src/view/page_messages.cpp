@@ -1,0 +1,229 @@
+#include "view/page_messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl::view {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_settings = 1000;
+constexpr std::size_t longest_word = 200;
+constexpr std::size_t longest_path = 4096;
+
+enum class Kind { number, numbers, word, word_or_number, flag };
+
+struct PageKey {
+  std::string_view key;
+  Kind kind;
+};
+
+// What a page may set. Names of files are not among them, so that no page makes the program read
+// another file than its user has opened.
+constexpr std::array page_keys = {
+    PageKey{"camera.position", Kind::numbers},
+    PageKey{"camera.look_at", Kind::numbers},
+    PageKey{"camera.sky", Kind::numbers},
+    PageKey{"camera.field_of_view", Kind::number},
+    PageKey{"camera.projection", Kind::word},
+    PageKey{"image.size", Kind::numbers},
+    PageKey{"image.gamma", Kind::number},
+    PageKey{"tolerance", Kind::number},
+    PageKey{"finish.exposure", Kind::word_or_number},
+    PageKey{"finish.white", Kind::word_or_number},
+    PageKey{"finish.tone", Kind::word},
+    PageKey{"finish.saturation", Kind::number},
+    PageKey{"finish.contrast", Kind::number},
+    PageKey{"finish.color_bar.show", Kind::flag},
+    PageKey{"finish.scale_bar.show", Kind::flag},
+};
+constexpr std::array component_keys = {
+    PageKey{"palette", Kind::word},       PageKey{"brightness", Kind::number},
+    PageKey{"size.factor", Kind::number}, PageKey{"absorption", Kind::word_or_number},
+    PageKey{"color.field", Kind::word},   PageKey{"color.scaling", Kind::word},
+    PageKey{"color.min", Kind::number},   PageKey{"color.max", Kind::number},
+};
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw UsageError("message of the page: " + what);
+}
+
+template <std::size_t n>
+std::optional<Kind> find_kind(const std::array<PageKey, n>& keys, std::string_view key) {
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const PageKey& k) { return k.key == key; });
+  if (found == keys.end()) return std::nullopt;
+  return found->kind;
+}
+
+// "component.12.palette" -> "palette"
+std::optional<std::string_view> key_of_component(std::string_view key) {
+  constexpr std::string_view start = "component.";
+  if (key.substr(0, start.size()) != start) return std::nullopt;
+  key.remove_prefix(start.size());
+  const std::size_t dot = key.find('.');
+  const std::string_view number = key.substr(0, dot);
+  const bool is_number =
+      !number.empty() && number.size() <= 4 &&
+      std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (dot == std::string_view::npos || !is_number) return std::nullopt;
+  return key.substr(dot + 1);
+}
+
+Kind kind_of(const std::string& key) {
+  std::optional<Kind> kind = find_kind(page_keys, key);
+  if (const auto own = key_of_component(key)) kind = find_kind(component_keys, *own);
+  if (!kind) refuse("key '" + key.substr(0, longest_word) + "' is none that a page may set");
+  return *kind;
+}
+
+// Words that need no escapes in TOML: names of fields, palettes and choices.
+std::string quoted_word(const std::string& key, const Json& value) {
+  const auto& word = value.get_ref<const std::string&>();
+  const bool is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return c >= ' ' && c != '"' && c != '\\' && c != 127;
+  });
+  if (word.empty() || word.size() > longest_word || !is_plain) {
+    refuse(key + " is no word of 1 to 200 plain characters");
+  }
+  return '"' + word + '"';
+}
+
+std::string number_text(const std::string& key, const Json& value) {
+  const auto number = value.get<double>();
+  if (!std::isfinite(number)) refuse(key + " is not finite");
+  // TOML tells whole numbers from others, and some keys take only these.
+  if (std::rint(number) == number && std::abs(number) < 1e15) return fmt::format("{:.0f}", number);
+  return fmt::format("{}", number);
+}
+
+std::string numbers_text(const std::string& key, const Json& value) {
+  if (value.size() < 2 || value.size() > 3) refuse(key + " has neither two numbers nor three");
+  std::string text;
+  for (const Json& number : value) {
+    if (!number.is_number()) refuse(key + " has something that is no number");
+    text += (text.empty() ? "[" : ", ") + number_text(key, number);
+  }
+  return text + "]";
+}
+
+std::string toml_text(const std::string& key, const Json& value) {
+  const Kind kind = kind_of(key);
+  const bool takes_number = kind == Kind::number || kind == Kind::word_or_number;
+  const bool takes_word = kind == Kind::word || kind == Kind::word_or_number;
+  if (takes_number && value.is_number()) return number_text(key, value);
+  if (takes_word && value.is_string()) return quoted_word(key, value);
+  if (kind == Kind::numbers && value.is_array()) return numbers_text(key, value);
+  if (kind == Kind::flag && value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  refuse(fmt::format("{} has {}, which is not its kind of value", key, value.type_name()));
+}
+
+const Json& member(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  if (found == json.end()) refuse(std::string("there is no ") + name);
+  return *found;
+}
+
+std::uint64_t number_of(const Json& json, const char* name) {
+  const Json& value = member(json, name);
+  if (!value.is_number_unsigned()) refuse(std::string(name) + " is no whole number from 0");
+  return value.get<std::uint64_t>();
+}
+
+bool flag_of(const Json& json, const char* name) {
+  const Json& value = member(json, name);
+  if (!value.is_boolean()) refuse(std::string(name) + " is neither true nor false");
+  return value.get<bool>();
+}
+
+// 0 to 1.
+double share_of(const Json& json, const char* name) {
+  const Json& value = member(json, name);
+  const double share = value.is_number() ? value.get<double>() : -1;
+  if (!(share >= 0 && share <= 1)) refuse(std::string(name) + " is no number from 0 to 1");
+  return share;
+}
+
+std::string path_of(const Json& json) {
+  const Json& value = member(json, "path");
+  if (!value.is_string()) refuse("path is no text");
+  const auto& path = value.get_ref<const std::string&>();
+  if (path.empty() || path.size() > longest_path || path.find('\0') != std::string::npos) {
+    refuse("path is empty, too long or no path");
+  }
+  return path;
+}
+
+PageState parse_state(const Json& json) {
+  PageState state;
+  state.number = number_of(json, "number");
+  state.is_moving = flag_of(json, "moving");
+  const Json& settings = member(json, "settings");
+  if (!settings.is_object() || settings.size() > most_settings) {
+    refuse("settings are no object of at most 1000 keys");
+  }
+  for (const auto& [key, value] : settings.items()) {
+    if (value.is_null()) {
+      kind_of(key);
+      state.open.insert(key);
+    } else {
+      state.settings.push_back({key, toml_text(key, value)});
+    }
+  }
+  const Json& hidden = member(json, "hidden");
+  if (!hidden.is_array() || hidden.size() > most_settings) refuse("hidden is no list");
+  for (const Json& component : hidden) {
+    if (!component.is_number_unsigned()) refuse("hidden has something that is no component");
+    state.hidden.insert(component.get<std::size_t>());
+  }
+  return state;
+}
+
+PageMessage parse(const Json& json) {
+  if (!json.is_object()) refuse("it is no JSON object");
+  const Json& type = member(json, "type");
+  if (!type.is_string()) refuse("type is no text");
+  const auto& name = type.get_ref<const std::string&>();
+  if (name == "state") return parse_state(json);
+  if (name == "acknowledge") return FrameAcknowledged{number_of(json, "frame")};
+  PageQuestion question{number_of(json, "id"), SceneTextQuestion{}};
+  if (name == "histogram") {
+    question.what = HistogramQuestion{static_cast<std::size_t>(number_of(json, "component"))};
+  } else if (name == "pick") {
+    question.what = PickQuestion{share_of(json, "x"), share_of(json, "y")};
+  } else if (name == "save_scene") {
+    question.what = SaveScene{path_of(json), flag_of(json, "replace")};
+  } else if (name == "save_picture") {
+    question.what = SavePicture{path_of(json), flag_of(json, "replace")};
+  } else if (name != "scene_text") {
+    refuse("type '" + name.substr(0, longest_word) + "' is unknown");
+  }
+  return question;
+}
+
+}  // namespace
+
+PageMessage parse_page_message(std::string_view text) {
+  if (text.size() > longest_message_bytes) refuse("it is longer than 64 KiB");
+  // Deep nesting would need much stack to take apart; nothing here nests more than twice.
+  int depth = 0, deepest = 0;
+  for (const char c : text) {
+    depth += (c == '[' || c == '{') ? 1 : (c == ']' || c == '}') ? -1 : 0;
+    deepest = std::max(deepest, depth);
+  }
+  if (deepest > 32) refuse("it is nested too deeply");
+  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (json.is_discarded()) refuse("it is not JSON");
+  return parse(json);
+}
+
+}  // namespace splotchcl::view

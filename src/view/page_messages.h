@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+// What a page says (docs/view.md, "What page and program say"). Each message is complete in
+// itself, so that those that were overtaken can be left out.
+namespace splotchcl::view {
+
+// A value of a scene's key, as TOML: `camera.position` and `[1, 2, 3]`.
+struct PageSetting {
+  std::string key, value;
+};
+
+// All that the page shows: how its scene differs from the one that was opened.
+struct PageState {
+  std::uint64_t number = 0;  // the page's own, for its answers
+  bool is_moving = false;    // more will follow at once
+  std::vector<PageSetting> settings;
+  std::set<std::string> open;    // keys that are left to the data
+  std::set<std::size_t> hidden;  // components that are off
+};
+
+struct FrameAcknowledged {
+  std::uint64_t frame = 0;
+};
+
+// How the color field's values of a component are distributed.
+struct HistogramQuestion {
+  std::size_t component = 0;
+};
+// What lies at a place of the picture, 0 to 1 from its upper left corner.
+struct PickQuestion {
+  double x = 0, y = 0;
+};
+// The scene as text, and that which was opened.
+struct SceneTextQuestion {};
+struct SaveScene {
+  std::string path;
+  bool may_replace = false;
+};
+struct SavePicture {
+  std::string path;
+  bool may_replace = false;
+};
+
+// What is answered once, by the page's number for it.
+struct PageQuestion {
+  std::uint64_t id = 0;
+  std::variant<HistogramQuestion, PickQuestion, SceneTextQuestion, SaveScene, SavePicture> what;
+};
+
+using PageMessage = std::variant<PageState, FrameAcknowledged, PageQuestion>;
+
+// No message is longer.
+constexpr std::size_t longest_message_bytes = 64 * 1024;
+
+// Throws UsageError for what is no message: not JSON, a key that a page may not set, a value of
+// another kind than the key's, anything missing or too much.
+PageMessage parse_page_message(std::string_view text);
+
+}  // namespace splotchcl::view

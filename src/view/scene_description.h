@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl::view {
+
+// What a page is told of the scene when it opens, as JSON: the value of every key that it may set,
+// its components with the fields that they could show, and all palettes with their colors.
+std::string describe_scene(const Scene& opened, const Snapshot& snapshot);
+
+}  // namespace splotchcl::view

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "splotchcl/frame_drawer.h"
+#include "splotchcl/open_scene.h"
+#include "view/frame_sample.h"
+#include "view/preview_quality.h"
+
+namespace splotchcl::view {
+
+// A picture as the page gets it.
+struct ViewPicture {
+  bool is_jpeg = false;             // else PNG, with the bits that render writes
+  std::vector<unsigned char> file;  // the whole of it
+  // The scene's, with the exposure and white that were found where it leaves them open.
+  std::optional<FinishSettings> finish;
+  std::vector<std::string> notes;
+  double seconds = 0;  // to load, to draw and to store it
+};
+
+// Thrown where `go_on` has said that a picture is not wanted any more.
+struct DrawingCancelled {};
+
+// Draws what pages show of one opened scene. Reads a snapshot's columns once. Not for use from
+// several threads at once.
+class ViewDrawer {
+ public:
+  struct Options {
+    std::string device;  // as FrameDrawerOptions has it
+    CompositeShape shape = CompositeShape::automatic;
+    // Asked from part to part of a picture; false ends the drawing with DrawingCancelled.
+    std::function<bool()> go_on;
+  };
+
+  // Decides what the scene leaves to the data; `notes` takes what the user should know. Throws as
+  // decide does, and DeviceError.
+  ViewDrawer(SceneWithSnapshot source, const Options& options, std::vector<std::string>& notes);
+
+  // The scene as it was opened, with every number decided but exposure and white.
+  const Scene& opened() const { return opened_; }
+  const Snapshot& snapshot() const { return *snapshot_; }
+  std::uint64_t particles() const { return particles_; }
+
+  // A scene with numbers found anew where a page left them open.
+  Scene decide(const Scene& scene) const;
+
+  ViewPicture preview(const Scene& scene, const PreviewLevel& level);
+  ViewPicture exact(const Scene& scene);
+  // As splotchcl render draws it.
+  DrawnFrame draw(const Scene& scene);
+
+  // All particles of the scene, and at most about so many of them.
+  Frame load(const Scene& scene) const;
+  Frame sample(const Scene& scene, std::uint64_t particles);
+
+ private:
+  Scene opened_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  FrameSampler sampler_;
+  FrameDrawer drawer_;
+  std::uint64_t particles_ = 0;
+};
+
+}  // namespace splotchcl::view

@@ -1,0 +1,113 @@
+#include "view/view_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::view {
+namespace {
+
+constexpr std::int64_t most_pixels = 8192 * 8192;
+
+// The number that a key stands for, where it can be left open; null for all other keys.
+std::optional<double>* find_open_number(Scene& scene, const std::string& key) {
+  if (key == "finish.exposure") return &scene.finish.exposure;
+  if (key == "finish.white") return &scene.finish.white;
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    const std::string start = fmt::format("component.{}.color.", i);
+    if (key == start + "min") return &scene.components[i].color.minimum;
+    if (key == start + "max") return &scene.components[i].color.maximum;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> all_open_keys(const Scene& scene) {
+  std::vector<std::string> keys = {"finish.exposure", "finish.white"};
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    if (scene.components[i].color.field.empty()) continue;
+    keys.push_back(fmt::format("component.{}.color.min", i));
+    keys.push_back(fmt::format("component.{}.color.max", i));
+  }
+  return keys;
+}
+
+bool is_known_palette(std::string name) {
+  const std::vector<PaletteInfo> palettes = list_palettes();
+  const auto has = [&palettes](const std::string& wanted) {
+    return std::any_of(palettes.begin(), palettes.end(),
+                       [&](const PaletteInfo& palette) { return palette.name == wanted; });
+  };
+  if (has(name)) return true;
+  const bool is_reversed = name.size() > 2 && name.compare(name.size() - 2, 2, "_r") == 0;
+  return is_reversed && has(name.substr(0, name.size() - 2));
+}
+
+// Any other name may be a file, which the page has no business with.
+void check_palettes(const Scene& opened, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    const std::string& palette = scene.components[i].palette;
+    if (palette == opened.components[i].palette || is_known_palette(palette)) continue;
+    throw UsageError("palette: found '" + palette +
+                     "', expected the scene's own or one that splotchcl palettes lists");
+  }
+}
+
+}  // namespace
+
+Scene scene_of(const Scene& opened, const PageState& state) {
+  std::vector<std::string> settings;
+  for (const PageSetting& setting : state.settings)
+    settings.push_back(setting.key + "=" + setting.value);
+  Scene scene = apply_settings(opened, settings);
+  for (const std::string& key : state.open) {
+    std::optional<double>* const number = find_open_number(scene, key);
+    if (number == nullptr) throw UsageError(key + ": found no value, expected one");
+    number->reset();
+  }
+  check_palettes(opened, scene);
+  const std::int64_t pixels = std::int64_t{scene.image.width} * scene.image.height;
+  if (pixels > most_pixels) {
+    throw UsageError(fmt::format(
+        "image.size: found {}x{} pixels, expected at most 8192x8192 in a page; save the scene and "
+        "draw it with splotchcl render --size",
+        scene.image.width, scene.image.height));
+  }
+  return scene;
+}
+
+Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
+  std::vector<Component> shown;
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    if (hidden.count(i) == 0) shown.push_back(scene.components[i]);
+  }
+  if (shown.empty()) throw UsageError("all components are off, expected one to be drawn");
+  scene.components = std::move(shown);
+  return scene;
+}
+
+std::set<std::string> open_keys(const Scene& scene) {
+  Scene copy = scene;
+  std::set<std::string> open;
+  for (const std::string& key : all_open_keys(scene)) {
+    if (!*find_open_number(copy, key)) open.insert(key);
+  }
+  return open;
+}
+
+std::map<std::string, double> numbers_of(const Scene& scene, const std::set<std::string>& keys) {
+  Scene copy = scene;
+  std::map<std::string, double> numbers;
+  for (const std::string& key : keys) {
+    const std::optional<double>* const number = find_open_number(copy, key);
+    if (number != nullptr && *number) numbers[key] = **number;
+  }
+  return numbers;
+}
+
+}  // namespace splotchcl::view

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "splotchcl/scene.h"
+#include "view/page_messages.h"
+
+// What a page's state makes of the scene that was opened.
+namespace splotchcl::view {
+
+// With all components; limits that the state leaves open are unset. Throws UsageError for values
+// that no scene can have, palettes that are neither the program's nor the scene's own, and
+// pictures of more than 8192 x 8192 pixels.
+Scene scene_of(const Scene& opened, const PageState& state);
+
+// Without the components that are off. Throws UsageError where all are.
+Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden);
+
+// The keys of numbers that the scene leaves to the data or to the picture. It has all components.
+std::set<std::string> open_keys(const Scene& scene);
+// The numbers that the scene has for such keys by now, for the page to show.
+std::map<std::string, double> numbers_of(const Scene& scene, const std::set<std::string>& keys);
+
+}  // namespace splotchcl::view

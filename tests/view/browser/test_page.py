@@ -1,0 +1,253 @@
+"""The page in a real browser. Controls are found by the names that a screen reader says."""
+
+import base64
+import json
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("selenium", reason="python3-selenium is missing; scripts/setup --browser installs it")
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+
+class Page:
+    """The page of a view, by its accessible names alone."""
+
+    def __init__(self, browser, view):
+        self.browser = browser
+        self.view = view
+        browser.get(view.address)
+        self.wait_for_exact()
+
+    def find(self, name):
+        """The one control that a screen reader calls so."""
+        controls = self.browser.find_elements(
+            By.CSS_SELECTOR, "button, input, select, [role=application], [role=status], dialog, pre")
+        found = [c for c in controls if c.accessible_name == name and c.is_displayed()]
+        assert len(found) == 1, f"{len(found)} controls are called {name}"
+        return found[0]
+
+    def script(self, text):
+        return self.browser.execute_script("return " + text)
+
+    def setting(self, key):
+        return self.script(f"app.store.settings['{key}']")
+
+    @property
+    def last_state(self):
+        return self.script("app.link.lastState")
+
+    def wait_for_exact(self):
+        """Until what the page shows is the exact picture of its newest state."""
+        newest = ("app.store !== null && app.link.pendingState === null && "
+                  "document.body.dataset.stage === 'exact' && "
+                  "Number(document.body.dataset.state) === app.link.lastState")
+        WebDriverWait(self.browser, 60, 0.05).until(lambda _: self.script(newest))
+
+    def picture(self):
+        """The pixels on the canvas, as a PNG file."""
+        url = self.script("document.getElementById('picture').toDataURL('image/png')")
+        return base64.b64decode(url.split(",")[1])
+
+    def type_number(self, name, value):
+        control = self.find(name)
+        control.send_keys(Keys.CONTROL, "a")
+        control.send_keys(str(value), Keys.ENTER)
+
+    def keep_screenshot(self, name):
+        folder = os.environ.get("SPLOTCHCL_SCREENSHOTS")
+        if folder:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            self.browser.save_screenshot(str(Path(folder) / f"{name}.png"))
+
+    def errors(self):
+        return [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
+
+
+@pytest.fixture
+def page(browser, view):
+    made = Page(browser, view())
+    made.errors()
+    yield made
+    assert made.errors() == []
+    browser.get("about:blank")
+
+
+def test_orbit_palette_range_and_save_are_found_by_their_names(page):
+    for name in ("Picture", "Orbit left", "Orbit right", "Orbit up", "Orbit down", "Pan left",
+                 "Move closer", "Move away", "Field of view", "Palette of gas", "Range minimum of gas",
+                 "Range maximum of gas", "Range minimum slider of gas", "Brightness of gas",
+                 "Show gas", "Exposure", "Tone", "Undo", "Redo", "Save scene", "Save picture", "Help"):
+        page.find(name)
+
+
+def test_every_control_has_a_name(page):
+    controls = page.browser.find_elements(By.CSS_SELECTOR, "button, input, select, [tabindex]")
+    assert len(controls) > 30
+    assert [c.get_attribute("outerHTML") for c in controls
+            if c.is_displayed() and not c.accessible_name] == []
+
+
+def test_orbiting_turns_the_camera_at_the_same_distance(page):
+    before, target = page.setting("camera.position"), page.setting("camera.look_at")
+    picture = page.picture()
+    page.find("Orbit left").click()
+    page.wait_for_exact()
+    after = page.setting("camera.position")
+    assert after != before and page.setting("camera.look_at") == target
+
+    def distance(place):
+        return sum((a - b) ** 2 for a, b in zip(place, target)) ** 0.5
+
+    assert distance(after) == pytest.approx(distance(before))
+    assert page.picture() != picture
+
+
+def test_a_drag_orbits_and_is_one_step_of_undo(page):
+    before = page.setting("camera.position")
+    ActionChains(page.browser).drag_and_drop_by_offset(page.find("Picture"), 80, 30).perform()
+    page.wait_for_exact()
+    assert page.setting("camera.position") != before
+    page.find("Undo").click()
+    assert page.setting("camera.position") == before
+    page.find("Redo").click()
+    assert page.setting("camera.position") != before
+
+
+def test_keys_orbit_pan_and_move(page):
+    view = page.find("Picture")
+    before = page.setting("camera.position")
+    view.send_keys(Keys.ARROW_RIGHT)
+    orbited = page.setting("camera.position")
+    assert orbited != before
+    look_at = page.setting("camera.look_at")
+    view.send_keys(Keys.SHIFT, Keys.ARROW_RIGHT)
+    assert page.setting("camera.look_at") != look_at
+    view.send_keys("h")
+    assert page.setting("camera.position") == before
+    view.send_keys("+")
+    assert page.setting("camera.position") != before
+
+
+def test_flying_moves_on_until_escape(page):
+    before = page.setting("camera.look_at")
+    page.find("Fly through the data").click()
+    ActionChains(page.browser).key_down("w").pause(0.4).key_up("w").perform()
+    assert page.setting("camera.look_at") != before
+    page.find("Picture").send_keys(Keys.ESCAPE)
+    page.wait_for_exact()
+
+
+def test_a_double_click_takes_what_is_there_as_the_center(page):
+    before = page.setting("camera.look_at")
+    ActionChains(page.browser).double_click(page.find("Picture")).perform()
+    WebDriverWait(page.browser, 10).until(lambda _: page.setting("camera.look_at") != before)
+    page.wait_for_exact()
+
+
+def test_palette_and_range_change_the_picture(page):
+    pictures = [page.picture()]
+    Select(page.find("Palette of gas")).select_by_visible_text("viridis")
+    page.wait_for_exact()
+    pictures.append(page.picture())
+    middle = (page.setting("component.0.color.min") * page.setting("component.0.color.max")) ** 0.5
+    page.type_number("Range minimum of gas", middle)
+    page.wait_for_exact()
+    pictures.append(page.picture())
+    assert page.setting("component.0.color.min") == pytest.approx(middle, rel=1e-4)
+    assert len(set(pictures)) == 3
+    page.find("Adapt range of gas to the data").click()
+    page.wait_for_exact()
+    assert page.setting("component.0.color.min") < middle
+
+
+def test_all_palettes_are_shown_to_choose_from(page):
+    page.browser.find_element(By.TAG_NAME, "summary").click()
+    choices = page.browser.find_elements(By.CSS_SELECTOR, "[role=radiogroup] input")
+    assert len(choices) > 30
+    page.find("cividis for gas").click()
+    assert page.setting("component.0.palette") == "cividis"
+    page.keep_screenshot("palettes")
+
+
+def test_another_field_gets_a_range_of_its_own(page):
+    Select(page.find("Color field of gas")).select_by_visible_text("density")
+    page.wait_for_exact()
+    assert page.setting("component.0.color.min") < page.setting("component.0.color.max")
+    assert page.find("Range minimum of gas").get_attribute("value") != ""
+
+
+def test_the_saved_scene_renders_to_the_bits_on_the_page(page, run, tmp_path):
+    page.find("Orbit up").click()
+    Select(page.find("Palette of gas")).select_by_visible_text("magma")
+    page.wait_for_exact()
+    (tmp_path / "page.png").write_bytes(page.picture())
+    page.find("Save scene").click()
+    WebDriverWait(page.browser, 10).until(
+        lambda _: "magma" in page.find("Changes of the scene").text)
+    page.keep_screenshot("save")
+    page.find("Save file").click()
+    saved = tmp_path / page.script("app.store.opened.scene_file")
+    WebDriverWait(page.browser, 10).until(lambda _: saved.exists())
+    page.find("Close").click()
+    run("render", saved, "-o", tmp_path / "rendered.png")
+    told = run("compare", tmp_path / "page.png", tmp_path / "rendered.png", "--limit", 0, "--json")
+    assert json.loads(told)["pixels_beyond"] == 0
+
+
+def test_a_reload_keeps_what_was_set(page):
+    page.find("Orbit left").click()
+    page.wait_for_exact()
+    kept, picture = page.setting("camera.position"), page.picture()
+    page.browser.refresh()
+    page.wait_for_exact()
+    assert page.setting("camera.position") == kept
+    assert page.picture() == picture
+
+
+def test_a_lost_connection_comes_back(page):
+    page.browser.execute_script("app.link.socket.close()")
+    page.find("Orbit left").click()
+    WebDriverWait(page.browser, 20).until(lambda _: page.script("app.link.isOpen"))
+    page.wait_for_exact()
+
+
+def test_two_hundred_moves_end_with_the_last_one_drawn(page):
+    page.browser.execute_script(
+        "for (let i = 0; i < 200; ++i) setTimeout(() => app.gestures.move('orbit', 0.1, 0), 5 * i);")
+    time.sleep(1.5)
+    page.wait_for_exact()
+    assert page.last_state > 10
+
+
+def test_help_opens_with_a_question_mark(page):
+    page.find("Picture").send_keys("?")
+    assert page.find("Keys and pointer").is_displayed()
+    page.find("Close help").click()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_is_a_light_and_a_dark_page(page, scheme):
+    page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+        "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+    color = page.script("getComputedStyle(document.body).backgroundColor")
+    assert (int(color.split("(")[1].split(",")[0]) > 128) == (scheme == "light")
+    page.keep_screenshot(scheme)
+
+
+def test_a_page_without_the_token_shows_nothing(browser, view):
+    opened = view()
+    browser.get(f"http://127.0.0.1:{opened.port}/")
+    assert "no token" in browser.find_element(By.TAG_NAME, "body").text
+
+
+def test_ctrl_c_ends_the_program_with_the_page_open(browser, view):
+    opened = view()
+    Page(browser, opened)
+    assert opened.end() == (0, "")
+    browser.get("about:blank")

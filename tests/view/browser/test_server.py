@@ -1,0 +1,191 @@
+"""Who gets an answer from the server, and what it does with what it cannot understand: without a
+browser, by the same requests that one sends."""
+
+import http.client
+import socket
+
+import pytest
+
+from page_socket import PageSocket
+
+
+def get(view, path, **headers):
+    connection = http.client.HTTPConnection("127.0.0.1", view.port, timeout=30)
+    connection.request("GET", path, headers=headers)
+    answer = connection.getresponse()
+    return answer.status, answer.read().decode(), dict(answer.getheaders())
+
+
+def is_exact(number):
+    return lambda message: message.get("stage") == "exact" and message["state"] == number
+
+
+def is_exact_of_opened(message):
+    return is_exact(0)(message)
+
+
+def test_the_address_is_one_line_with_a_token_on_this_machine_only(view):
+    assert view().address.startswith("http://127.0.0.1:")
+    assert len(view().token) == 32
+
+
+def test_the_page_is_for_those_who_know_the_token(view):
+    opened = view()
+    status, text, headers = get(opened, f"/{opened.token}/")
+    assert status == 200 and "<!doctype html>" in text
+    assert "default-src 'none'" in headers["Content-Security-Policy"]
+    assert get(opened, f"/{opened.token}/app.js")[0] == 200
+    assert get(opened, f"/{opened.token}/nothing")[0] == 404
+    for path in ("/", "/app.js", f"/{'0' * 32}/", f"/{opened.token}"):
+        status, text, _ = get(opened, path)
+        assert status == 403 and opened.token not in text, path
+
+
+def test_other_hosts_and_origins_are_refused(view):
+    opened = view()
+    page = f"/{opened.token}/"
+    assert get(opened, page, Host="evil.example")[0] == 403
+    assert get(opened, page, Origin="http://evil.example")[0] == 403
+    # The port may be another: that of a forwarded one.
+    assert get(opened, page, Host="localhost:9")[0] == 200
+    assert PageSocket(opened).status == 101
+    assert PageSocket(opened, token="0" * 32).status == 403
+    assert PageSocket(opened, origin="http://evil.example").status == 403
+    assert PageSocket(opened, origin="").status == 403
+    assert PageSocket(opened, host="evil.example").status == 403
+
+
+def test_requests_that_are_none_do_not_end_the_server(view):
+    opened = view()
+    for request in (b"\0\1\2\r\n\r\n", b"GET " + b"x" * 100000, b"POST / HTTP/1.1\r\n\r\n",
+                    b"GET / HTTP/1.1\r\nContent-Length: 9999999999\r\n\r\n"):
+        with socket.create_connection(("127.0.0.1", opened.port), timeout=30) as connection:
+            connection.sendall(request)
+    assert get(opened, f"/{opened.token}/")[0] == 200
+
+
+@pytest.mark.parametrize("message", ["", "x", '{"type":"state"}', "[" * 20000,
+                                     '{"type":"histogram","id":1,"component":99}'],
+                         ids=["empty", "text", "half", "deep", "component"])
+def test_messages_that_are_none_are_answered_with_an_error(view, message):
+    page = PageSocket(view())
+    page.send(message)
+    answers = page.receive_until(lambda m: m["type"] == "error" or "error" in m)
+    assert answers
+    page.set(5)
+    page.receive_until(is_exact(5))
+
+
+def test_a_huge_message_ends_its_own_page_only(view):
+    opened = view()
+    page, other = PageSocket(opened), PageSocket(opened)
+    page.send("x" * 100000)
+    with pytest.raises(ConnectionError):
+        while True:
+            page.receive()
+    other.receive_until(is_exact_of_opened)
+
+
+def test_a_state_that_cannot_be_drawn_leaves_the_page_as_it_is(view):
+    page = PageSocket(view())
+    page.set(1, **{"camera__field_of_view": 500})
+    answers = page.receive_until(lambda m: m["type"] == "error")
+    assert answers[-1]["state"] == 1 and "field_of_view" in answers[-1]["text"]
+    page.set(2, **{"camera__field_of_view": 50})
+    page.receive_until(is_exact(2))
+
+
+def test_two_hundred_states_leave_no_backlog_and_the_last_is_drawn(view):
+    page = PageSocket(view())
+    page.receive_until(is_exact_of_opened)
+    for number in range(1, 201):
+        page.set(number, moving=number < 200, **{"camera__field_of_view": 30 + 0.1 * number})
+    frames = page.receive_until(is_exact(200))
+    assert len(frames) < 60
+    assert [frame["state"] for frame in frames] == sorted(frame["state"] for frame in frames)
+
+
+def test_frames_wait_for_a_page_that_does_not_acknowledge(view):
+    page = PageSocket(view())
+    frames = 0
+    page.connection.settimeout(3)
+    with pytest.raises(TimeoutError):
+        for number in range(1, 50):
+            page.set(number, moving=True, **{"camera__field_of_view": 30 + number})
+            while page.receive()["type"] != "frame":
+                pass
+            frames += 1
+    assert frames == 2
+
+
+def test_two_pages_have_states_of_their_own(view):
+    opened = view()
+    first, second = PageSocket(opened), PageSocket(opened)
+    first.set(1, component__0__palette="magma")
+    second.set(1, component__0__palette="ice")
+    pictures = [page.receive_until(is_exact(1))[-1]["file"] for page in (first, second)]
+    assert pictures[0] != pictures[1]
+
+
+def test_the_saved_scene_renders_to_the_bits_of_the_exact_picture(view, run, tmp_path):
+    page = PageSocket(view())
+    page.set(1, component__0__palette="magma", component__0__brightness=3.7,
+             camera__field_of_view=33.3, finish__exposure=None)
+    exact = page.receive_until(is_exact(1))[-1]
+    (tmp_path / "page.png").write_bytes(exact["file"])
+    page.send({"type": "save_scene", "id": 1, "path": "saved.toml", "replace": False})
+    page.send({"type": "save_picture", "id": 2, "path": "saved.png", "replace": False})
+    answers = page.receive_until(lambda m: m.get("id") == 2)
+    assert all(answer["saved"] for answer in answers if answer["type"] == "answer")
+    run("render", tmp_path / "saved.toml", "-o", tmp_path / "rendered.png")
+    rendered = (tmp_path / "rendered.png").read_bytes()
+    assert rendered == exact["file"]
+    assert rendered == (tmp_path / "saved.png").read_bytes()
+
+
+def test_files_are_replaced_only_when_that_is_said(view, snapshot, tmp_path):
+    page = PageSocket(view())
+    kept = tmp_path / "kept.toml"
+    kept.write_text("mine")
+
+    def save(path, replace, kind="save_scene"):
+        page.send({"type": kind, "id": 1, "path": str(path), "replace": replace})
+        return page.receive_until(lambda m: m["type"] == "answer")[-1]
+
+    assert save("kept.toml", False)["saved"] is False
+    assert kept.read_text() == "mine"
+    assert save("kept.toml", True)["saved"] is True
+    assert "[camera]" in kept.read_text()
+    assert "error" in save("scene.txt", False)
+    assert "error" in save("nowhere/scene.toml", False)
+    linked = tmp_path / "snapshot.png"
+    linked.symlink_to(snapshot)
+    before = snapshot.read_bytes()
+    assert "error" in save(linked, True, "save_picture")
+    assert snapshot.read_bytes() == before
+
+
+def test_open_ranges_are_found_and_told(view):
+    page = PageSocket(view())
+    page.set(1, **{"component__0__color__field": "density", "component__0__color__min": None,
+                   "component__0__color__max": None})
+    decided = page.receive_until(is_exact(1))[-1]["decided"]
+    assert decided["component.0.color.min"] < decided["component.0.color.max"]
+
+
+def test_components_that_are_off_are_not_drawn(view):
+    page = PageSocket(view())
+    page.receive_until(is_exact_of_opened)
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [0]})
+    without_gas = page.receive_until(is_exact(1))[-1]["file"]
+    page.send({"type": "state", "number": 2, "moving": False, "settings": {}, "hidden": []})
+    assert page.receive_until(is_exact(2))[-1]["file"] != without_gas
+    page.send({"type": "state", "number": 3, "moving": False, "settings": {}, "hidden": [0, 1]})
+    assert "off" in page.receive_until(lambda m: m["type"] == "error")[-1]["text"]
+
+
+def test_ctrl_c_ends_it_with_a_page_open(view):
+    opened = view()
+    page = PageSocket(opened)
+    page.receive()
+    assert opened.end() == (0, "")

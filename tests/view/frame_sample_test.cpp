@@ -1,0 +1,78 @@
+// A part of the particles that has the light of all.
+#include "view/frame_sample.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace splotchcl::view {
+namespace {
+
+Frame frame_of(std::size_t count) {
+  std::vector<float> positions, sizes, masses;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const float offset : {0.0f, 0.25f, 0.5f})
+      positions.push_back(static_cast<float>(i) + offset);
+    sizes.push_back(static_cast<float>(i + 1));
+    masses.push_back(1);
+  }
+  Frame frame;
+  DrawnComponent component;
+  component.particles.count = count;
+  component.particles.position = Column::owning(std::move(positions));
+  component.particles.smoothing_length = Column::owning(std::move(sizes));
+  component.particles.weight = Column::owning(std::move(masses));
+  component.particles.color = Column::uniform(5);
+  component.reference_column = 8;
+  frame.components.push_back(component);
+  return frame;
+}
+
+TEST(FrameSample, IsTheFrameWhereAllParticlesAreWanted) {
+  FrameSampler sampler;
+  const Frame frame = frame_of(100);
+  EXPECT_EQ(sampler.sample(frame, 0).components[0].particles.count, 100u);
+  EXPECT_EQ(sampler.sample(frame, 100).components[0].particles.count, 100u);
+}
+
+TEST(FrameSample, HasTheLightOfAll) {
+  FrameSampler sampler;
+  const DrawnComponent sample = sampler.sample(frame_of(1000), 250).components[0];
+  EXPECT_EQ(sample.particles.count, 250u);
+  EXPECT_DOUBLE_EQ(sample.reference_column, 2);
+  EXPECT_DOUBLE_EQ(sample.particles_per_drawn, 4);
+}
+
+TEST(FrameSample, TakesWholeParticlesOfAllTheFrame) {
+  FrameSampler sampler;
+  const Particles sample = sampler.sample(frame_of(1000), 100).components[0].particles;
+  std::set<std::size_t> tenths;
+  for (std::size_t i = 0; i < sample.count; ++i) {
+    const float number = sample.position[3 * i];
+    EXPECT_EQ(sample.position[3 * i + 2], number + 0.5f);
+    EXPECT_EQ(sample.smoothing_length[i], number + 1);
+    tenths.insert(static_cast<std::size_t>(number) / 10);
+  }
+  EXPECT_EQ(tenths.size(), 100u);  // one of each run of ten
+  EXPECT_EQ(sample.color.uniform_value(), 5);
+}
+
+TEST(FrameSample, IsGatheredOnceForTheSameColumns) {
+  FrameSampler sampler;
+  const Frame frame = frame_of(1000);
+  const float* const first = sampler.sample(frame, 100).components[0].particles.position.data();
+  EXPECT_EQ(sampler.sample(frame, 100).components[0].particles.position.data(), first);
+  Frame other = frame;
+  other.components[0].particles.color = Column::uniform(6);
+  EXPECT_EQ(sampler.sample(other, 100).components[0].particles.color.uniform_value(), 6);
+}
+
+TEST(FrameSample, LeavesNoComponentOut) {
+  FrameSampler sampler;
+  Frame frame = frame_of(10000);
+  frame.components.push_back(frame_of(3).components[0]);
+  EXPECT_EQ(sampler.sample(frame, 100).components[1].particles.count, 1u);
+}
+
+}  // namespace
+}  // namespace splotchcl::view

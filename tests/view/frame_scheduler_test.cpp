@@ -1,0 +1,92 @@
+// What is drawn next for a page.
+#include "view/frame_scheduler.h"
+
+#include <gtest/gtest.h>
+
+namespace splotchcl::view {
+namespace {
+
+using Stage = FrameScheduler::Stage;
+using std::chrono::milliseconds;
+const FrameScheduler::Time start;
+
+TEST(FrameScheduler, HasNothingToDrawWithoutInput) {
+  const FrameScheduler scheduler;
+  EXPECT_FALSE(scheduler.next(start));
+  EXPECT_FALSE(scheduler.wake_time());
+}
+
+TEST(FrameScheduler, TheNewestInputWins) {
+  FrameScheduler scheduler;
+  for (int i = 0; i < 200; ++i)
+    scheduler.take_input(true, start);
+  const auto task = scheduler.next(start);
+  ASSERT_TRUE(task);
+  EXPECT_EQ(task->input, 200u);
+  scheduler.sent(*task);
+  EXPECT_FALSE(scheduler.next(start));  // none of the others
+}
+
+TEST(FrameScheduler, APreviewComesAtOnceAndTheExactPictureAtRest) {
+  FrameScheduler scheduler;
+  scheduler.take_input(false, start);
+  const auto preview = scheduler.next(start);
+  ASSERT_TRUE(preview);
+  EXPECT_EQ(preview->stage, Stage::preview);
+  scheduler.acknowledge(scheduler.sent(*preview));
+  EXPECT_FALSE(scheduler.next(start));
+  ASSERT_EQ(scheduler.wake_time(), start + FrameScheduler::rest);
+  const auto exact = scheduler.next(start + FrameScheduler::rest);
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(exact->stage, Stage::exact);
+  scheduler.acknowledge(scheduler.sent(*exact));
+  EXPECT_FALSE(scheduler.next(start + milliseconds(10000)));
+  EXPECT_FALSE(scheduler.wake_time());
+}
+
+TEST(FrameScheduler, WhileSomethingMovesRestIsLonger) {
+  FrameScheduler scheduler;
+  scheduler.take_input(true, start);
+  scheduler.acknowledge(scheduler.sent(*scheduler.next(start)));
+  EXPECT_FALSE(scheduler.next(start + FrameScheduler::rest));
+  EXPECT_TRUE(scheduler.next(start + FrameScheduler::rest_while_moving));
+}
+
+TEST(FrameScheduler, TwoFramesAtMostAreOnTheirWay) {
+  FrameScheduler scheduler;
+  std::uint64_t first = 0;
+  for (int i = 0; i < 2; ++i) {
+    scheduler.take_input(true, start);
+    const std::uint64_t frame = scheduler.sent(*scheduler.next(start));
+    if (i == 0) first = frame;
+  }
+  const std::uint64_t newest = scheduler.take_input(true, start);
+  EXPECT_FALSE(scheduler.next(start));
+  EXPECT_FALSE(scheduler.wake_time());
+  scheduler.acknowledge(99);  // never sent
+  EXPECT_FALSE(scheduler.next(start));
+  scheduler.acknowledge(first);
+  ASSERT_TRUE(scheduler.next(start));
+  EXPECT_EQ(scheduler.next(start)->input, newest);
+}
+
+TEST(FrameScheduler, NewInputMakesAnExactPictureUseless) {
+  FrameScheduler scheduler;
+  const FrameScheduler::Task exact{Stage::exact, scheduler.take_input(false, start)};
+  EXPECT_FALSE(scheduler.is_outdated(exact));
+  scheduler.take_input(true, start);
+  EXPECT_TRUE(scheduler.is_outdated(exact));
+}
+
+TEST(FrameScheduler, WhatFailedIsNotTriedAgain) {
+  FrameScheduler scheduler;
+  const std::uint64_t input = scheduler.take_input(false, start);
+  scheduler.failed({Stage::preview, input});
+  scheduler.failed({Stage::exact, input});
+  EXPECT_FALSE(scheduler.next(start + milliseconds(10000)));
+  scheduler.take_input(false, start);
+  EXPECT_TRUE(scheduler.next(start));
+}
+
+}  // namespace
+}  // namespace splotchcl::view

@@ -1,0 +1,40 @@
+// The files of the page are in the program.
+#include "view/page_files.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+namespace splotchcl::view {
+namespace {
+
+TEST(PageFiles, ThePageItselfHasNoName) {
+  const auto page = find_page_file("");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->type, "text/html; charset=utf-8");
+  EXPECT_EQ(page->text.substr(0, 9), "<!doctype");
+}
+
+TEST(PageFiles, HaveTheirTypes) {
+  EXPECT_EQ(find_page_file("style.css")->type, "text/css; charset=utf-8");
+  EXPECT_EQ(find_page_file("app.js")->type, "text/javascript; charset=utf-8");
+}
+
+TEST(PageFiles, NoOthersAreServed) {
+  for (const char* const name : {"../CMakeLists.txt", "/etc/passwd", "app", ".", "App.js"})
+    EXPECT_FALSE(find_page_file(name)) << name;
+}
+
+TEST(PageFiles, ScriptsImportOnlyThoseThatAreThere) {
+  const std::string script(find_page_file("app.js")->text);
+  const std::regex import("from '\\./([a-z_.]+)'");
+  int imports = 0;
+  for (std::sregex_iterator found(script.begin(), script.end(), import), end; found != end;
+       ++found, ++imports)
+    EXPECT_TRUE(find_page_file((*found)[1].str())) << (*found)[1];
+  EXPECT_GT(imports, 3);
+}
+
+}  // namespace
+}  // namespace splotchcl::view

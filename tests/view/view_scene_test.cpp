@@ -1,0 +1,97 @@
+// What a page's state makes of the scene that was opened.
+#include "view/view_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::view {
+namespace {
+
+using ::testing::ElementsAre;
+
+Scene opened_scene() {
+  Scene scene;
+  scene.snapshot = "snapshot";
+  scene.camera.emplace();
+  scene.camera->width = 3;
+  scene.components.resize(2);
+  for (Component& component : scene.components) {
+    component.color.field = "density";
+    component.color.minimum = 1;
+    component.color.maximum = 2;
+  }
+  return scene;
+}
+
+PageState state_with(const std::string& key, const std::string& value) {
+  PageState state;
+  state.settings.push_back({key, value});
+  return state;
+}
+
+TEST(ViewScene, IsTheOpenedOneForAnEmptyState) {
+  EXPECT_EQ(format_scene(scene_of(opened_scene(), {})), format_scene(opened_scene()));
+}
+
+TEST(ViewScene, HasTheStatesSettings) {
+  const Scene scene = scene_of(opened_scene(), state_with("component.1.palette", "\"magma\""));
+  EXPECT_EQ(scene.components[1].palette, "magma");
+  EXPECT_EQ(scene.components[0].palette, opened_scene().components[0].palette);
+}
+
+TEST(ViewScene, AFieldOfViewTakesThePlaceOfAWidth) {
+  const Scene scene = scene_of(opened_scene(), state_with("camera.field_of_view", "30"));
+  EXPECT_FALSE(scene.camera->width);
+  EXPECT_EQ(scene.camera->field_of_view_degrees, 30);
+}
+
+TEST(ViewScene, LeavesOpenWhatTheStateLeavesOpen) {
+  PageState state;
+  state.open = {"component.0.color.min", "finish.exposure"};
+  const Scene scene = scene_of(opened_scene(), state);
+  EXPECT_FALSE(scene.components[0].color.minimum);
+  EXPECT_TRUE(scene.components[0].color.maximum);
+  EXPECT_THAT(open_keys(scene), ElementsAre("component.0.color.min", "finish.exposure"));
+}
+
+TEST(ViewScene, OtherKeysCannotBeOpen) {
+  PageState state;
+  state.open = {"camera.position"};
+  EXPECT_THROW(scene_of(opened_scene(), state), UsageError);
+}
+
+TEST(ViewScene, TellsTheNumbersThatWereFound) {
+  const auto numbers = numbers_of(opened_scene(), {"component.1.color.max", "finish.white"});
+  EXPECT_EQ(numbers.at("component.1.color.max"), 2);
+  EXPECT_EQ(numbers.at("finish.white"), 1);
+}
+
+TEST(ViewScene, ValuesThatNoSceneCanHaveAreRefused) {
+  EXPECT_THROW(scene_of(opened_scene(), state_with("camera.field_of_view", "-3")), UsageError);
+  EXPECT_THROW(scene_of(opened_scene(), state_with("component.2.palette", "\"magma\"")),
+               UsageError);
+}
+
+TEST(ViewScene, PalettesAreNoFiles) {
+  EXPECT_NO_THROW(scene_of(opened_scene(), state_with("component.0.palette", "\"magma_r\"")));
+  EXPECT_THROW(scene_of(opened_scene(), state_with("component.0.palette", "\"/etc/passwd\"")),
+               UsageError);
+}
+
+TEST(ViewScene, HugePicturesAreRefused) {
+  EXPECT_THROW(scene_of(opened_scene(), state_with("image.size", "[65536, 65536]")), UsageError);
+}
+
+TEST(ViewScene, ComponentsThatAreOffAreLeftOut) {
+  Scene scene = opened_scene();
+  scene.components[1].name = "stars";
+  EXPECT_EQ(without_hidden(scene, {0}).components.at(0).name, "stars");
+  EXPECT_EQ(without_hidden(scene, {0}).components.size(), 1u);
+  EXPECT_THROW(without_hidden(scene, {0, 1}), UsageError);
+}
+
+}  // namespace
+}  // namespace splotchcl::view
