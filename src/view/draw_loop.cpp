@@ -200,6 +200,7 @@ DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
   scene.open = open_keys(scene.all);
   scene.all = drawer_.decide(scene.all);
   scene.shown = without_hidden(scene.all, work.state.hidden);
+  scene.drawn = work.state.frame ? at_frame(scene.shown, *work.state.frame) : scene.shown;
   return known.emplace(std::move(scene));
 }
 
@@ -208,14 +209,15 @@ void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
   PageScene& scene = scene_of_page(work);
   ViewPicture picture;
   if (task.stage == Stage::preview) {
-    picture = drawer_.preview(scene.shown, page.quality.level());
+    picture = drawer_.preview(scene.drawn, page.quality.level());
     page.quality.drawn(picture.seconds);
   } else {
-    picture = drawer_.exact(scene.shown);
+    picture = drawer_.exact(scene.drawn);
   }
   if (picture.finish) {  // the exact picture has the exposure that the preview has found
     take_tone(*picture.finish, scene.all.finish);
     take_tone(*picture.finish, scene.shown.finish);
+    take_tone(*picture.finish, scene.drawn.finish);
   }
   FrameHeader header;
   header.state = work.state.number;
@@ -247,7 +249,7 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id,
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const PickQuestion& question) {
-  const Frame frame = drawer_.sample(scene.shown, particles_to_pick);
+  const Frame frame = drawer_.sample(scene.drawn, particles_to_pick);
   return pick_answer(id, pick_particle(frame, question.x * frame.width, question.y * frame.height));
 }
 
@@ -264,10 +266,10 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SaveSc
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question) {
   const SaveResult result =
-      check_picture(question.path, question.may_replace, scene.shown, drawer_.snapshot());
+      check_picture(question.path, question.may_replace, scene.drawn, drawer_.snapshot());
   if (result == SaveResult::saved) {
-    const DrawnFrame drawn = drawer_.draw(scene.shown);
-    write_pictures(question.path, drawn.pictures, image_file_options(scene.shown));
+    const DrawnFrame drawn = drawer_.draw(scene.drawn);
+    write_pictures(question.path, drawn.pictures, image_file_options(scene.drawn));
   }
   return save_answer(id, result, std::filesystem::absolute(question.path).string());
 }

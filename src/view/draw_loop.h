@@ -52,7 +52,8 @@ class DrawLoop {
     std::uint64_t input = 0;
     std::set<std::string> open;  // keys that the state leaves to data or picture
     Scene all;                   // with components that are off
-    Scene shown;
+    Scene shown;                 // without them
+    Scene drawn;                 // at the film's frame, where that is shown
   };
   struct Page {
     explicit Page(SendToPage to_page, std::uint64_t particles);

@@ -17,6 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t most_settings = 1000;
+constexpr std::uint64_t last_frame = 100000;
 constexpr std::size_t longest_word = 200;
 constexpr std::size_t longest_path = 4096;
 
@@ -163,6 +164,36 @@ std::string path_of(const Json& json) {
   return path;
 }
 
+Keyframe parse_keyframe(const Json& json) {
+  if (!json.is_object()) refuse("a keyframe is no object");
+  Keyframe keyframe;
+  const Json& frame = member(json, "frame");
+  keyframe.frame = frame.is_number() ? frame.get<double>() : -1;
+  if (!(keyframe.frame >= 0 && keyframe.frame <= last_frame)) {
+    refuse("the frame of a keyframe is no number from 0 to 100000");
+  }
+  const Json& settings = member(json, "settings");
+  if (!settings.is_object() || settings.empty()) refuse("a keyframe has no settings");
+  for (const auto& [key, value] : settings.items())
+    keyframe.values[key] = toml_text(key, value);
+  return keyframe;
+}
+
+void parse_film(const Json& json, PageState& state) {
+  if (const auto keyframes = json.find("keyframes"); keyframes != json.end()) {
+    if (!keyframes->is_array() || keyframes->size() > most_settings) {
+      refuse("keyframes are no list of at most 1000");
+    }
+    state.keyframes.emplace();
+    for (const Json& keyframe : *keyframes)
+      state.keyframes->push_back(parse_keyframe(keyframe));
+  }
+  if (json.find("frame") == json.end()) return;
+  const std::uint64_t frame = number_of(json, "frame");
+  if (frame > last_frame) refuse("frame is more than 100000");
+  state.frame = static_cast<int>(frame);
+}
+
 PageState parse_state(const Json& json) {
   PageState state;
   state.number = number_of(json, "number");
@@ -185,6 +216,7 @@ PageState parse_state(const Json& json) {
     if (!component.is_number_unsigned()) refuse("hidden has something that is no component");
     state.hidden.insert(component.get<std::size_t>());
   }
+  parse_film(json, state);
   return state;
 }
 

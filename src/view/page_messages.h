@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include "splotchcl/path.h"
 
 // What a page says (docs/view.md, "What page and program say"). Each message is complete in
 // itself, so that those that were overtaken can be left out.
@@ -22,8 +25,10 @@ struct PageState {
   std::uint64_t number = 0;  // the page's own, for its answers
   bool is_moving = false;    // more will follow at once
   std::vector<PageSetting> settings;
-  std::set<std::string> open;    // keys that are left to the data
-  std::set<std::size_t> hidden;  // components that are off
+  std::set<std::string> open;                      // keys that are left to the data
+  std::set<std::size_t> hidden;                    // components that are off
+  std::optional<std::vector<Keyframe>> keyframes;  // instead of the scene's own
+  std::optional<int> frame;  // of the film that these make, instead of the scene as it stands
 };
 
 struct FrameAcknowledged {

@@ -149,6 +149,20 @@ Json components_json(const Scene& scene, const Snapshot& snapshot) {
   return components;
 }
 
+// Those of a scene whose keyframes move nothing but the camera; a page cannot show others.
+Json keyframes_json(const Scene& scene) {
+  Json keyframes = Json::array();
+  for (const Keyframe& keyframe : scene.path.keyframes) {
+    Json settings = Json::object();
+    for (const auto& [key, value] : keyframe.values) {
+      settings[key] = Json::parse(value, nullptr, false);
+      if (key.rfind("camera.", 0) != 0 || settings[key].is_discarded()) return Json::array();
+    }
+    keyframes.push_back({{"frame", keyframe.frame}, {"settings", settings}});
+  }
+  return keyframes;
+}
+
 // Linear light, 0 to 1.
 Json colors_json(const Palette& palette) {
   Json colors = Json::array();
@@ -188,6 +202,8 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot) {
                {"settings", settings_json(opened)},
                {"components", components_json(opened, snapshot)},
                {"palettes", palettes_json(opened)},
+               {"keyframes", keyframes_json(opened)},
+               {"has_path", opened.path.is_set()},
                {"scene_file", stem_of(snapshot) + "_view.toml"},
                {"picture_file", stem_of(snapshot) + "_view.png"}};
   if (info.redshift) json["redshift"] = *info.redshift;

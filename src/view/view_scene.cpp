@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "film/path/film_path.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
@@ -70,6 +71,7 @@ Scene scene_of(const Scene& opened, const PageState& state) {
     if (number == nullptr) throw UsageError(key + ": found no value, expected one");
     number->reset();
   }
+  if (state.keyframes) scene.path.keyframes = *state.keyframes;
   check_palettes(opened, scene);
   const std::int64_t pixels = std::int64_t{scene.image.width} * scene.image.height;
   if (pixels > most_pixels) {
@@ -89,6 +91,16 @@ Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
   if (shown.empty()) throw UsageError("all components are off, expected one to be drawn");
   scene.components = std::move(shown);
   return scene;
+}
+
+Scene at_frame(const Scene& scene, int frame) {
+  std::vector<std::string> ignored;
+  const FilmPath path(scene, ignored);
+  if (frame >= path.frame_count()) {
+    throw UsageError(
+        fmt::format("the film: found frame {}, expected one below {}", frame, path.frame_count()));
+  }
+  return path.scene_at(scene, frame);
 }
 
 std::set<std::string> open_keys(const Scene& scene) {

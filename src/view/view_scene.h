@@ -18,6 +18,9 @@ Scene scene_of(const Scene& opened, const PageState& state);
 // Without the components that are off. Throws UsageError where all are.
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden);
 
+// As it is at a frame of its film. Throws UsageError where it has no such frame.
+Scene at_frame(const Scene& scene, int frame);
+
 // The keys of numbers that the scene leaves to the data or to the picture. It has all components.
 std::set<std::string> open_keys(const Scene& scene);
 // The numbers that the scene has for such keys by now, for the page to show.

@@ -53,6 +53,25 @@ TEST(PageMessages, AStateNamesComponentsThatAreOff) {
   EXPECT_THAT(state_of("{}", "[2,0]").hidden, ElementsAre(0, 2));
 }
 
+TEST(PageMessages, AStateMayHaveKeyframesAndAFrameOfTheirFilm) {
+  const auto state = std::get<PageState>(parse_page_message(
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"frame":12,)"
+      R"("keyframes":[{"frame":50,"settings":{"camera.position":[1,2,3]}}]})"));
+  EXPECT_EQ(state.frame, 12);
+  ASSERT_TRUE(state.keyframes);
+  EXPECT_EQ(state.keyframes->at(0).frame, 50);
+  EXPECT_EQ(state.keyframes->at(0).values.at("camera.position"), "[1, 2, 3]");
+}
+
+TEST(PageMessages, KeyframesWithoutFrameOrSettingsAreRefused) {
+  const std::string start =
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"keyframes":[)";
+  for (const char* const keyframe :
+       {"3", "{}", R"({"frame":1})", R"({"frame":-1,"settings":{"tolerance":1}})",
+        R"({"frame":1,"settings":{}})", R"({"frame":1,"settings":{"snapshot":"a"}})"})
+    EXPECT_NE(refusal(start + keyframe + "]}"), "") << keyframe;
+}
+
 TEST(PageMessages, NumbersKeepAllTheirDigits) {
   EXPECT_EQ(state_of(R"({"component.0.color.min":0.1234567890123456})").settings[0].value,
             "0.1234567890123456");

@@ -2,6 +2,7 @@
 // it draws is shown.
 import {ComponentControls} from './component_controls.js';
 import {Gestures} from './gestures.js';
+import {KeyframeControls} from './keyframe_controls.js';
 import {Link} from './link.js';
 import {Picture} from './picture.js';
 import {SaveDialog} from './save_dialog.js';
@@ -39,8 +40,9 @@ class App {
     const move = (kind, x, y) => this.gestures.move(kind, x, y);
     this.components = opened.components.map(
         (_, number) => new ComponentControls(number, opened, this.store, this.link));
+    this.keyframes = new KeyframeControls(this.store, (frame, isPlaying) => this.showFilm(frame, isPlaying));
     this.controls = [cameraControls(this.store, move), ...this.components, lightControls(this.store),
-                     pictureControls(this.store)];
+                     this.keyframes, pictureControls(this.store)];
     byId('controls').replaceChildren(...this.controls.map((controls) => controls.element));
     byId('controls').onsubmit = (event) => event.preventDefault();
     this.active = this.components[0];
@@ -67,15 +69,19 @@ class App {
   changed() {
     byId('error').textContent = '';
     this.say('Preview');
+    this.keyframes.leave();
     this.show();
     this.sendState();
   }
 
   sendState() {
-    const {hidden} = this.store.state;
-    const settings = this.store.differences();
-    sessionStorage.setItem(memory, JSON.stringify({settings, hidden}));
-    this.link.sendState(settings, hidden, this.store.isMoving);
+    const state = this.store.differences();
+    sessionStorage.setItem(memory, JSON.stringify(state));
+    this.link.sendState({...state, moving: this.store.isMoving});
+  }
+
+  showFilm(frame, isPlaying) {
+    this.link.sendState({...this.store.differences(), frame, moving: isPlaying});
   }
 
   show() {
@@ -116,6 +122,7 @@ class App {
       m: () => this.active.nextPalette(1),
       M: () => this.active.nextPalette(-1),
       r: () => this.active.range?.focus(),
+      k: () => this.keyframes.add(),
       s: () => this.save.open('save_scene'),
       p: () => this.save.open('save_picture'),
     };

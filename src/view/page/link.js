@@ -24,9 +24,9 @@ export class Link extends EventTarget {
   get isOpen() { return this.socket.readyState === WebSocket.OPEN; }
 
   // The newest of each animation frame is sent.
-  sendState(settings, hidden, isMoving) {
+  sendState(state) {
     const isFirst = this.pendingState === null;
-    this.pendingState = {settings, hidden, moving: isMoving};
+    this.pendingState = state;
     if (isFirst) requestAnimationFrame(() => this.flush());
   }
 

@@ -3,15 +3,18 @@
 const mostSteps = 200;
 const sameGestureMilliseconds = 700;
 
-const copyOf = (state) => ({settings: {...state.settings}, hidden: [...state.hidden]});
+const copyOf = ({settings, hidden, keyframes}) => ({settings: {...settings}, hidden, keyframes});
 const isEqual = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 export class Store extends EventTarget {
   constructor(opened, kept) {
     super();
     this.opened = opened;
-    this.state = {settings: {...opened.settings}, hidden: []};
-    if (kept) this.state = {settings: {...opened.settings, ...kept.settings}, hidden: kept.hidden};
+    this.state = {
+      settings: {...opened.settings, ...kept?.settings},
+      hidden: kept?.hidden ?? [],
+      keyframes: kept?.keyframes ?? opened.keyframes,
+    };
     this.past = [];
     this.future = [];
     this.gesture = null;
@@ -37,6 +40,12 @@ export class Store extends EventTarget {
     this.tell();
   }
 
+  setKeyframes(keyframes) {
+    this.remember(null);
+    this.state.keyframes = keyframes;
+    this.tell();
+  }
+
   // Nothing changes any more: the exact picture may come.
   rest() {
     if (!this.isMoving) return;
@@ -58,8 +67,11 @@ export class Store extends EventTarget {
 
   // What differs from the scene that was opened.
   differences() {
-    const all = Object.entries(this.state.settings);
-    return Object.fromEntries(all.filter(([k, v]) => !isEqual(v, this.opened.settings[k])));
+    const {settings, hidden, keyframes} = this.state;
+    const changed = Object.entries(settings).filter(([k, v]) => !isEqual(v, this.opened.settings[k]));
+    const result = {settings: Object.fromEntries(changed), hidden};
+    if (!isEqual(keyframes, this.opened.keyframes)) result.keyframes = keyframes;
+    return result;
   }
 
   remember(gesture) {

@@ -175,6 +175,30 @@ def test_all_palettes_are_shown_to_choose_from(page):
     page.keep_screenshot("palettes")
 
 
+def test_keyframes_are_added_played_and_saved(page, tmp_path):
+    page.find("Add keyframe").click()
+    page.find("Orbit left").click()
+    page.wait_for_exact()
+    here = page.picture()
+    page.find("Picture").send_keys("k")
+    frame = page.find("Frame of keyframe 2")
+    assert frame.get_attribute("value") == "50"
+    page.find("Play the keyframes").click()
+    WebDriverWait(page.browser, 20).until(
+        lambda _: page.script("app.keyframes.timer === null && app.keyframes.frame === 50"))
+    page.wait_for_exact()
+    assert page.picture() == here
+    page.keep_screenshot("keyframes")
+    page.find("Remove keyframe 1").click()
+    page.find("Undo").click()
+    page.find("Save scene").click()
+    page.find("Save file").click()
+    saved = tmp_path / page.script("app.store.opened.scene_file")
+    WebDriverWait(page.browser, 10).until(lambda _: saved.exists())
+    assert "keyframes" in saved.read_text()
+    page.find("Close").click()
+
+
 def test_another_field_gets_a_range_of_its_own(page):
     Select(page.find("Color field of gas")).select_by_visible_text("density")
     page.wait_for_exact()

@@ -143,6 +143,21 @@ def test_the_saved_scene_renders_to_the_bits_of_the_exact_picture(view, run, tmp
     assert rendered == (tmp_path / "saved.png").read_bytes()
 
 
+def test_a_frame_of_the_keyframes_has_the_bits_of_the_film(view, run, tmp_path):
+    page = PageSocket(view())
+    keyframes = [{"frame": frame, "settings": {"camera.field_of_view": angle}}
+                 for frame, angle in ((0, 25), (10, 40))]
+    state = {"type": "state", "moving": False, "settings": {"finish.exposure": -2, "finish.white": 1},
+             "hidden": [], "keyframes": keyframes}
+    page.send({**state, "number": 1, "frame": 4})
+    exact = page.receive_until(is_exact(1))[-1]
+    page.send({**state, "number": 2})
+    page.send({"type": "save_scene", "id": 1, "path": "film.toml", "replace": False})
+    page.receive_until(lambda m: m["type"] == "answer")
+    run("movie", tmp_path / "film.toml", "-o", tmp_path / "frame_%04d.png", "--frames", "4:5")
+    assert (tmp_path / "frame_0004.png").read_bytes() == exact["file"]
+
+
 def test_files_are_replaced_only_when_that_is_said(view, snapshot, tmp_path):
     page = PageSocket(view())
     kept = tmp_path / "kept.toml"
