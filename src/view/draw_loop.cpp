@@ -39,7 +39,7 @@ DrawLoop::Page::Page(SendToPage to_page, std::uint64_t particles)
 DrawLoop::DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options,
                    std::vector<std::string>& notes)
     : drawer_(std::move(source), with_go_on(std::move(options), [this] { return go_on(); }), notes),
-      description_(describe_scene(drawer_.opened(), drawer_.snapshot())),
+      description_(describe_scene(drawer_.opened(), *drawer_.snapshot_of(drawer_.opened()))),
       thread_([this] { run(); }) {}
 
 DrawLoop::~DrawLoop() {
@@ -259,14 +259,14 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SceneT
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SaveScene& question) {
-  const SaveResult result =
-      save_scene(question.path, question.may_replace, scene.shown, drawer_.snapshot());
+  const SaveResult result = save_scene(question.path, question.may_replace, scene.shown,
+                                       *drawer_.snapshot_of(scene.shown));
   return save_answer(id, result, std::filesystem::absolute(question.path).string());
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question) {
-  const SaveResult result =
-      check_picture(question.path, question.may_replace, scene.drawn, drawer_.snapshot());
+  const SaveResult result = check_picture(question.path, question.may_replace, scene.drawn,
+                                          *drawer_.snapshot_of(scene.drawn));
   if (result == SaveResult::saved) {
     const DrawnFrame drawn = drawer_.draw(scene.drawn);
     write_pictures(question.path, drawn.pictures, image_file_options(scene.drawn));

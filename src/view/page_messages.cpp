@@ -31,21 +31,14 @@ struct PageKey {
 // What a page may set. Names of files are not among them, so that no page makes the program read
 // another file than its user has opened.
 constexpr std::array page_keys = {
-    PageKey{"camera.position", Kind::numbers},
-    PageKey{"camera.look_at", Kind::numbers},
-    PageKey{"camera.sky", Kind::numbers},
-    PageKey{"camera.field_of_view", Kind::number},
-    PageKey{"camera.projection", Kind::word},
-    PageKey{"image.size", Kind::numbers},
-    PageKey{"image.gamma", Kind::number},
-    PageKey{"tolerance", Kind::number},
-    PageKey{"finish.exposure", Kind::word_or_number},
-    PageKey{"finish.white", Kind::word_or_number},
-    PageKey{"finish.tone", Kind::word},
-    PageKey{"finish.saturation", Kind::number},
-    PageKey{"finish.contrast", Kind::number},
-    PageKey{"finish.color_bar.show", Kind::flag},
-    PageKey{"finish.scale_bar.show", Kind::flag},
+    PageKey{"camera.position", Kind::numbers},     PageKey{"camera.look_at", Kind::numbers},
+    PageKey{"camera.sky", Kind::numbers},          PageKey{"camera.field_of_view", Kind::number},
+    PageKey{"camera.projection", Kind::word},      PageKey{"image.size", Kind::numbers},
+    PageKey{"image.gamma", Kind::number},          PageKey{"tolerance", Kind::number},
+    PageKey{"time.index", Kind::number},           PageKey{"finish.exposure", Kind::word_or_number},
+    PageKey{"finish.white", Kind::word_or_number}, PageKey{"finish.tone", Kind::word},
+    PageKey{"finish.saturation", Kind::number},    PageKey{"finish.contrast", Kind::number},
+    PageKey{"finish.color_bar.show", Kind::flag},  PageKey{"finish.scale_bar.show", Kind::flag},
 };
 constexpr std::array component_keys = {
     PageKey{"palette", Kind::word},       PageKey{"brightness", Kind::number},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "load/derived_fields.h"
+#include "snapshot/snapshot_list.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"
 
@@ -188,6 +189,12 @@ Json palettes_json(const Scene& scene) {
   return palettes;
 }
 
+// First and last moment of a sequence.
+Json times_json(const Scene& scene) {
+  const std::vector<ListedSnapshot> snapshots = list_snapshots(scene.time);
+  return {snapshots.front().index, snapshots.back().index};
+}
+
 std::string stem_of(const Snapshot& snapshot) {
   const std::string stem = snapshot.info().files.front().stem().string();
   return stem.empty() ? "view" : stem;
@@ -208,6 +215,10 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot) {
                {"picture_file", stem_of(snapshot) + "_view.png"}};
   if (info.redshift) json["redshift"] = *info.redshift;
   json["time"] = info.time;
+  if (opened.time.is_set()) {
+    json["times"] = times_json(opened);
+    json["settings"]["time.index"] = opened.time.index;
+  }
   // File names need not be UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -60,15 +60,21 @@ ViewDrawer::ViewDrawer(SceneWithSnapshot source, const Options& options,
   particles_ = particle_count(load(opened_));
 }
 
+std::shared_ptr<const Snapshot> ViewDrawer::snapshot_of(const Scene& scene) const {
+  if (!scene.time.is_set()) return snapshot_;
+  moment_ = source_.at(scene);
+  return moment_;
+}
+
 Scene ViewDrawer::decide(const Scene& scene) const {
   if (is_decided(scene)) return scene;
   std::vector<std::string> ignored;
-  return fixed_scene(splotchcl::decide(scene, *snapshot_, ignored));
+  return fixed_scene(splotchcl::decide(scene, *snapshot_of(scene), ignored));
 }
 
 Frame ViewDrawer::load(const Scene& scene) const {
   std::vector<std::string> ignored;
-  return load_frame(scene, *snapshot_, ignored);
+  return load_frame(scene, *snapshot_of(scene), ignored);
 }
 
 Frame ViewDrawer::sample(const Scene& scene, std::uint64_t particles) {
@@ -82,7 +88,7 @@ ViewPicture ViewDrawer::preview(const Scene& scene, const PreviewLevel& level) {
   smaller.image.height = std::max(1, scene.image.height / level.divisor);
   smaller.tolerance = std::max(scene.tolerance, preview_tolerance);
   const Frame frame = sample(smaller, level.particles);
-  const DrawnFrame drawn = drawer_.draw(smaller, frame, snapshot_->info());
+  const DrawnFrame drawn = drawer_.draw(smaller, frame, snapshot_of(smaller)->info());
   ViewPicture picture = stored(smaller, drawn, true);
   picture.seconds = seconds.passed();
   return picture;
@@ -96,7 +102,7 @@ ViewPicture ViewDrawer::exact(const Scene& scene) {
 }
 
 DrawnFrame ViewDrawer::draw(const Scene& scene) {
-  return drawer_.draw(scene, load(scene), snapshot_->info());
+  return drawer_.draw(scene, load(scene), snapshot_of(scene)->info());
 }
 
 }  // namespace splotchcl::view

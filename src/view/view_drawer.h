@@ -8,6 +8,7 @@
 
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/open_scene.h"
+#include "splotchcl/snapshot_source.h"
 #include "view/frame_sample.h"
 #include "view/preview_quality.h"
 
@@ -43,7 +44,8 @@ class ViewDrawer {
 
   // The scene as it was opened, with every number decided but exposure and white.
   const Scene& opened() const { return opened_; }
-  const Snapshot& snapshot() const { return *snapshot_; }
+  // What the scene draws: of a sequence the moment that it says.
+  std::shared_ptr<const Snapshot> snapshot_of(const Scene& scene) const;
   std::uint64_t particles() const { return particles_; }
 
   // A scene with numbers found anew where a page left them open.
@@ -60,7 +62,9 @@ class ViewDrawer {
 
  private:
   Scene opened_;
-  std::shared_ptr<const Snapshot> snapshot_;
+  mutable SnapshotSource source_;                   // of a sequence
+  mutable std::shared_ptr<const Snapshot> moment_;  // of the sequence that was asked for last
+  std::shared_ptr<const Snapshot> snapshot_;        // that was opened, with its columns
   FrameSampler sampler_;
   FrameDrawer drawer_;
   std::uint64_t particles_ = 0;

@@ -6,7 +6,7 @@ import {KeyframeControls} from './keyframe_controls.js';
 import {Link} from './link.js';
 import {Picture} from './picture.js';
 import {SaveDialog} from './save_dialog.js';
-import {cameraControls, lightControls, pictureControls} from './scene_controls.js';
+import {cameraControls, lightControls, pictureControls, timeControls} from './scene_controls.js';
 import {Store} from './store.js';
 
 const byId = (id) => document.getElementById(id);
@@ -43,6 +43,7 @@ class App {
     this.keyframes = new KeyframeControls(this.store, (frame, isPlaying) => this.showFilm(frame, isPlaying));
     this.controls = [cameraControls(this.store, move), ...this.components, lightControls(this.store),
                      this.keyframes, pictureControls(this.store)];
+    if (opened.times) this.controls.splice(1, 0, timeControls(this.store, opened.times));
     byId('controls').replaceChildren(...this.controls.map((controls) => controls.element));
     byId('controls').onsubmit = (event) => event.preventDefault();
     this.active = this.components[0];

@@ -56,6 +56,24 @@ export function cameraControls(store, move) {
   return controls;
 }
 
+// Of a scene with several snapshots: which moment is shown.
+export function timeControls(store, [first, last]) {
+  const controls = new Controls('Time', store);
+  const key = 'time.index';
+  const slider = element('input', {type: 'range', min: first, max: last, step: 'any', 'aria-label': 'Time slider'});
+  slider.oninput = () => store.change({[key]: Number(Number(slider.value).toFixed(3))}, {gesture: key, isMoving: true});
+  slider.onchange = () => store.rest();
+  const number = numberInput('Time index', (value) => store.change({[key]: value}, {gesture: key}),
+                             {min: first, max: last});
+  controls.element.append(row('Snapshot', slider, number));
+  controls.shows.push((settings) => {
+    slider.value = settings[key];
+    slider.setAttribute('aria-valuetext', readable(settings[key]));
+    if (document.activeElement !== number) number.value = readable(settings[key]);
+  });
+  return controls;
+}
+
 export function lightControls(store) {
   const controls = new Controls('Light', store);
   const key = 'finish.exposure';

@@ -38,6 +38,19 @@ def snapshot(run, tmp_path_factory) -> Path:
     return path
 
 
+@pytest.fixture(scope="session")
+def real_file():
+    """Finds a real snapshot by its name below the folder of them."""
+    folder = Path(os.environ.get("SPLOTCHCL_TEST_DATA", "nowhere"))
+
+    def find(name) -> Path:
+        if not (folder / name).is_file():
+            pytest.skip(f"no snapshot {name} in the folder SPLOTCHCL_TEST_DATA")
+        return (folder / name).resolve()
+
+    return find
+
+
 class View:
     """A running splotchcl view, in a folder of its own."""
 

@@ -2,6 +2,7 @@
 browser, by the same requests that one sends."""
 
 import http.client
+import json
 import socket
 
 import pytest
@@ -156,6 +157,24 @@ def test_a_frame_of_the_keyframes_has_the_bits_of_the_film(view, run, tmp_path):
     page.receive_until(lambda m: m["type"] == "answer")
     run("movie", tmp_path / "film.toml", "-o", tmp_path / "frame_%04d.png", "--frames", "4:5")
     assert (tmp_path / "frame_0004.png").read_bytes() == exact["file"]
+
+
+def test_a_moment_between_two_snapshots_has_the_bits_of_render(view, run, real_file, tmp_path):
+    snapshots = [str(real_file(f"lcdm/fmt2_snapshot_{number:03d}")) for number in (4, 5, 6)]
+    scene = tmp_path / "series.toml"
+    scene.write_text(f"[time]\nsnapshots = {json.dumps(snapshots)}\n"
+                     "[image]\nsize = [160, 120]\n[[component]]\nname = 'gas'\n"
+                     "color.field = 'internal_energy'\ncolor.scaling = 'log'\n")
+    page = PageSocket(view(scene))
+    assert page.receive()["times"] == [0, 2]
+    page.set(1, time__index=1.25)
+    moved = page.receive_until(is_exact(1))[-1]["file"]
+    page.send({"type": "save_scene", "id": 1, "path": "moment.toml", "replace": False})
+    assert page.receive_until(lambda m: m["type"] == "answer")[-1]["saved"]
+    run("render", tmp_path / "moment.toml", "-o", tmp_path / "moment.png")
+    assert (tmp_path / "moment.png").read_bytes() == moved
+    page.set(2, time__index=3)
+    assert "time.index" in page.receive_until(lambda m: m["type"] == "error")[-1]["text"]
 
 
 def test_files_are_replaced_only_when_that_is_said(view, snapshot, tmp_path):
