@@ -22,6 +22,16 @@ std::string_view name_of(std::string_view host) {
   return host.substr(0, colon);
 }
 
+bool is_any_address(std::string_view address) {
+  return address == "0.0.0.0" || address == "::";
+}
+
+// An address in numbers, which no other page can make lead here.
+bool is_number_of_address(std::string_view name) {
+  if (name.size() > 2 && name.front() == '[' && name.back() == ']') return true;
+  return !name.empty() && name.find_first_not_of("0123456789.") == std::string_view::npos;
+}
+
 // Takes as long wherever they differ, so that its time tells nothing.
 bool are_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
@@ -66,7 +76,8 @@ std::string_view AccessRules::check_socket(const RequestSource& source) const {
 void AccessRules::check_host(std::string_view host) const {
   const std::string_view name = name_of(host);
   const bool is_known = name == "127.0.0.1" || name == "localhost" || name == "[::1]" ||
-                        name == address_ || name == "[" + address_ + "]";
+                        name == address_ || name == "[" + address_ + "]" ||
+                        (is_any_address(address_) && is_number_of_address(name));
   if (name.empty() || !is_known) throw AccessDenied{"the Host is not this server's"};
 }
 

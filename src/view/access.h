@@ -19,7 +19,8 @@ struct RequestSource {
 // Who may talk to the server: whoever knows its token, and was sent by no other page.
 //   Host    the name must be 127.0.0.1, localhost, [::1] or the address that the server is bound
 //   to:
-//           a page that made its own name lead here is refused. The port may be another, since it
+//           a page that made its own name lead here is refused. Where the server is bound to all
+//           addresses, any that is written in numbers will do. The port may be another, since it
 //           is another behind a forwarded port.
 //   Origin  where it is sent, it must be "http://" and the Host, to the letter. A socket must send
 //           it, as every browser does.

@@ -71,6 +71,13 @@ TEST(Access, IsForTheAddressThatIsListenedOn) {
   EXPECT_FALSE(lets_in({page, "192.0.2.8:80", ""}, "192.0.2.7"));
 }
 
+TEST(Access, IsForEveryAddressInNumbersWhereAllAreListenedOn) {
+  EXPECT_TRUE(lets_in({page, "192.0.2.7:80", ""}, "0.0.0.0"));
+  EXPECT_TRUE(lets_in({page, "[2001:db8::7]:80", ""}, "::"));
+  EXPECT_FALSE(lets_in({page, "evil.example:80", ""}, "0.0.0.0"));
+  EXPECT_FALSE(lets_in({page, ":80", ""}, "0.0.0.0"));
+}
+
 TEST(Access, IsForThePagesOwnOriginOnly) {
   EXPECT_TRUE(lets_in({page, "127.0.0.1:80", "http://127.0.0.1:80"}));
   for (const char* const origin :
