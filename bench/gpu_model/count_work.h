@@ -17,7 +17,7 @@ struct CountedWork {
 };
 
 // Draws the frame once with the kernels and the sizes for GPUs, on any device. Tiles that stop
-// early are counted in full. Not for frames of tolerance 0, nor with ellipses.
+// early are counted in full.
 CountedWork count_frame(DeviceContext& device, const Frame& frame);
 
 // Sorts so many pairs with random keys.

@@ -26,8 +26,10 @@ struct Launches {
 };
 using Cost = KernelCost (*)(const Launches&);
 
+// Structures begin at any word, but those of as many bytes as a sector.
 double gathered(double bytes) {
-  return sector * std::ceil((bytes + sector / 2) / sector);
+  if (std::fmod(bytes, sector) == 0) return bytes;
+  return sector * (1 + (bytes - word) / sector);
 }
 
 // Two passes over all particles, of which the second writes splats. Counted with Oclgrind, a
@@ -48,9 +50,12 @@ KernelCost scan_reduce(const Launches& l) {
           SCAN_VALUES_OF_ITEM + scan_steps, static_cast<int>(scan_barriers)};
 }
 
+// Every group adds up the sums of those before it, of 2048 at most.
 KernelCost scan_stretches(const Launches& l) {
-  return {l.items * SCAN_VALUES_OF_ITEM * word, l.items * SCAN_VALUES_OF_ITEM * word, l.items * 110,
-          2 * SCAN_VALUES_OF_ITEM + scan_steps, static_cast<int>(scan_barriers)};
+  const double groups_before = 0.5 * l.groups() / l.count;
+  return {l.items * SCAN_VALUES_OF_ITEM * word + l.groups() * groups_before * word,
+          l.items * SCAN_VALUES_OF_ITEM * word, l.items * 160,
+          3 * SCAN_VALUES_OF_ITEM + 2 * scan_steps, static_cast<int>(2 * scan_barriers)};
 }
 
 KernelCost sort_count(const Launches& l) {
@@ -97,11 +102,16 @@ KernelCost bin_count_entries(const Launches& l) {
   return {l.items * sizeof(shared::SplatTiles), l.items * word, l.items * 60, 1, 0};
 }
 
-// The first steps of the search, and those around a group's own entries, are in the cache.
+// Neighbors have the same slot or the next one, so that a group reads its slots once, and in a
+// search for each of its ends a sector for each step. Then items search between these, in the
+// cache.
 KernelCost bin_emit(const Launches& l) {
   const double steps = std::ceil(std::log2(std::max(2.0, l.work.chunk)));
-  return {l.work.entries * (sizeof(shared::SplatTiles) + 3 * word), l.work.entries * 2 * word,
-          l.items * (60 + 10 * steps), steps, 0};
+  const double in_group = std::log2(group);
+  return {(l.work.splats + l.groups()) * (sizeof(shared::SplatTiles) + 2 * word) +
+              l.groups() * 2 * steps * sector,
+          l.work.entries * 2 * word, l.items * (60 + 10 * in_group) + l.groups() * 32 * 10 * steps,
+          steps + in_group, 1};
 }
 
 KernelCost bin_make_entries(const Launches& l) {
@@ -109,42 +119,72 @@ KernelCost bin_make_entries(const Launches& l) {
           l.work.entries * l.work.entry_bytes, l.items * 250, 1 + l.work.entry_bytes / word, 1};
 }
 
-// Per entry both axes, which parts of the tile it touches, and its fetch; per part and pixel the
-// layer: three channels of five operations, or of one, and what is read of local memory.
-KernelCost composite(const Launches& l) {
-  const double of_pixel = l.work.is_ordered ? 33 : 17;
-  const double pixels = l.items * l.work.planes * word;
+// What a group does for a batch of 8 splats of extended numbers: each of its 32 items takes eight
+// pixels of each splat.
+KernelCost composite_extended(const Launches& l) {
+  const double pixels = l.items * 8 * l.work.planes * word;
+  const double longest = std::min(l.work.segment_length, l.work.longest_list);
   KernelCost cost;
-  cost.bytes_read = l.work.entries * l.work.entry_bytes + pixels;
+  cost.bytes_read = l.work.entries * (word + gathered(l.work.extended_splat_bytes)) + pixels;
   cost.bytes_written = pixels;
-  cost.operations = l.work.entries * (axes * 40 + parts * 25 + l.work.entry_bytes / word * 5) +
-                    l.work.drawn_parts * 32 * of_pixel + l.work.entries / batch * group * 40;
+  cost.operations = l.work.entries * (axes * 1000 + group * 300);
+  cost.chain = longest * (1 + 1.0 / 8 + 1);
+  cost.barriers = static_cast<int>(3 * std::ceil(longest / 8));
+  return cost;
+}
+
+// Per entry both axes, which parts of the tile it touches, and its fetch; per part and pixel which
+// splat is next (5), its axes (5), its light (4) and its layer: each of three channels, what is
+// not thin with what decides that and whether it is there at all (6). An operation of local memory
+// counts as any other.
+KernelCost composite(const Launches& l) {
+  if (l.work.is_extended) return composite_extended(l);
+  const FrameWork& work = l.work;
+  const double pixels = l.items * work.planes * word;
+  const double plain_entries = work.entries - work.mean_entries - work.bright_entries;
+  const double of_pixel = 5 + 5 + 4;
+  const double of_layers = work.thin_parts * (work.is_ordered ? 1 + 3 * 4 : 3) +
+                           work.series_parts * (6 + 3 * 12) + work.full_parts * (6 + 3 * 40) +
+                           work.slab_parts * 6;
+  KernelCost cost;
+  cost.bytes_read = work.entries * work.entry_bytes + pixels;
+  cost.bytes_written = pixels;
+  cost.operations =
+      axes * (plain_entries * 26 + work.mean_entries * 59 + work.bright_entries * 120) +
+      work.entries * (parts * 25 + 80 + work.entry_bytes / word * 5) +
+      32 * (work.drawn_parts() * of_pixel + of_layers) + work.entries / batch * group * 40;
   // Rounds over its splats, and of each batch those of its own.
-  cost.chain = std::min(l.work.segment_length, l.work.longest_list) * (1 + 6 / batch);
+  cost.chain = std::min(work.segment_length, work.longest_list) * (1 + 6 / batch);
   cost.barriers = static_cast<int>(4 * std::ceil(cost.chain / batch)) + 3;
   return cost;
 }
 
-// Only what is cut is joined; in frames with some such lists that is little.
-double cut_segments(const FrameWork& work) {
+// The stretches that one cut list has in a chunk, at most.
+double most_segments(const FrameWork& work) {
   return std::max(1.0, std::ceil(work.longest_list / work.segment_length));
 }
 
+// Only what is cut is joined.
 KernelCost join(const Launches& l) {
-  const double pixels = l.items * l.work.planes * word;
-  return {2 * pixels, pixels, l.items * 60, cut_segments(l.work), 0};
+  const double of_stretch = l.work.tile_pixels * l.work.planes * word;
+  return {l.work.partial_tiles * 2 * of_stretch, l.work.partial_tiles * of_stretch,
+          l.work.partial_tiles * l.work.tile_pixels * 60, most_segments(l.work), 0};
 }
 
-// A step per splat of a batch of 256, for each of 256 cells.
+// What an entry adds; for each batch of 256 a look at 8 words of each of 256 cells. A splat counts
+// in one of its tiles: two bits there, and where all of a batch add to one cell, 32 items wait for
+// the one that adds them up: that is counted, for peaks and for endings.
 KernelCost collect(const Launches& l) {
   const double cells = l.items * word;
   const double longest = std::min(l.work.segment_length, l.work.longest_list);
-  return {l.work.entries * l.work.entry_bytes + cells, cells, l.work.entries * (120 + group * 4),
-          longest * (1 + 1 / group), static_cast<int>(2 * std::ceil(longest / group))};
+  return {l.work.entries * l.work.entry_bytes + cells, cells,
+          l.work.entries * (120 + 8 * 5) + l.work.splats * (10 + 2 * 32 * 5),
+          longest * (1 + 9 / group), static_cast<int>(2 * std::ceil(longest / group)) + 1};
 }
 
 KernelCost collect_segments(const Launches& l) {
-  return {2 * l.items * word, l.items * word, l.items * 8, cut_segments(l.work), 0};
+  const double cells = l.work.partial_tiles * group;
+  return {2 * cells * word, cells * word, cells * 8, most_segments(l.work), 0};
 }
 
 // Work-items take eight pixels. Weights of a blur are at most MOST_BLUR_WEIGHTS, and neighbors
@@ -155,6 +195,13 @@ KernelCost blur(const Launches& l) {
 
 KernelCost refine(const Launches& l) {
   return {l.items * 8 * word * 2, l.items * 8 * word * 2, l.items * 8 * 25, 10, 0};
+}
+
+// Sums interpolated by ten weights, of which neighbors share the rows, and laid among what is
+// there.
+KernelCost lay_slab(const Launches& l) {
+  const double planes = l.items * 8 * word * 6;
+  return {planes * 2.5, planes * 2, l.items * 8 * 3 * 90, 3 * 10, 0};
 }
 
 KernelCost resolve(const Launches& l) {
@@ -178,12 +225,14 @@ const std::map<std::string, Cost>& costs() {
                                                   {"bin_make_entries", bin_make_entries},
                                                   {"composite", composite},
                                                   {"join", join},
+                                                  {"join_extended", join},
                                                   {"collect", collect},
                                                   {"collect_segments", collect_segments},
                                                   {"blur_columns", blur},
                                                   {"blur_rows", blur},
                                                   {"refine_columns", refine},
                                                   {"refine_rows", refine},
+                                                  {"lay_slab", lay_slab},
                                                   {"resolve", resolve}};
   return all;
 }
@@ -198,6 +247,26 @@ KernelCost cost_of(const std::string& kernel, double items, double launches,
                      ": add what it costs to bench/gpu_model/kernel_costs.cpp");
   }
   return found->second({items, launches, work});
+}
+
+std::set<std::string> known_kernels() {
+  std::set<std::string> names;
+  for (const auto& [name, cost] : costs())
+    names.insert(name);
+  return names;
+}
+
+double longest_chain(const std::string& kernel, const FrameWork& work) {
+  // Of a sort's scatter, of a short run of equal keys, and of the weights of a blur.
+  constexpr double of_any_frame = SORT_SHORT_RUN * SORT_SHORT_RUN;
+  const double largest = std::max(
+      {2.0, work.particles * work.splats_per_particle, work.entries, work.tiles, work.pixels});
+  double of_chunk = 0;
+  if (kernel == "composite" || kernel == "collect")
+    of_chunk = 2.5 * work.segment_length;
+  else if (kernel == "join" || kernel == "join_extended" || kernel == "collect_segments")
+    of_chunk = work.chunk / work.segment_length;
+  return of_any_frame + 2 * std::log2(largest) + of_chunk;
 }
 
 }  // namespace splotchcl::bench

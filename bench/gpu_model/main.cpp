@@ -2,11 +2,14 @@
 // sizes for GPUs on any device, counts bytes, operations and chains of steps, and divides by what
 // vendors say of their devices.
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <iostream>
 
 #include "arguments.h"
 #include "gpu_model/count_work.h"
 #include "gpu_model/prediction.h"
+#include "gpu_model/scene_frame.h"
 #include "splotchcl/error.h"
 #include "synthetic.h"
 #include "table.h"
@@ -26,8 +29,10 @@ void print_work(const CountedWork& counted, const std::vector<KernelWork>& kerne
   if (work.particles > 0) {
     std::cout << std::fixed << "particles " << work.particles / 1e6 << " M, splats "
               << work.splats / 1e6 << " M, entries " << work.entries / 1e6 << " M, pixel updates "
-              << 32 * work.drawn_parts / 1e9 << " G at most, longest list of a chunk "
-              << work.longest_list << "\n\n";
+              << 32 * work.drawn_parts() / 1e9 << " G at most (" << 32 * work.thin_parts / 1e9
+              << " G of thin layers), by the error function " << work.mean_entries / 1e6
+              << " M entries, by its complement " << work.bright_entries / 1e6
+              << " M, longest list of a chunk " << work.longest_list << "\n\n";
   }
   Table table({"stage", "kernel", "launches", "M items", "least", "MB read", "MB written", "G ops",
                "chain", "KiB local", "barriers"});
@@ -39,6 +44,18 @@ void print_work(const CountedWork& counted, const std::vector<KernelWork>& kerne
                std::to_string(k.cost.barriers)});
   }
   std::cout << table.text() << "\n";
+}
+
+// For scripts/check_gpu_model: what is added up over the launches of each kernel.
+void write_counters(const std::string& path, const std::vector<KernelWork>& kernels) {
+  std::ofstream file(path);
+  file << "stage,kernel,launches,items,bytes_read,bytes_written,operations\n"
+       << std::setprecision(15);
+  for (const KernelWork& k : kernels) {
+    file << k.stage << ',' << k.kernel << ',' << k.launches << ',' << k.items << ','
+         << k.cost.bytes_read << ',' << k.cost.bytes_written << ',' << k.cost.operations << '\n';
+  }
+  if (!file.flush()) throw DataError(path + ": cannot write the counters");
 }
 
 // Milliseconds of each stage, and of the kernel that takes most of it what it waits for.
@@ -77,21 +94,32 @@ void print_prediction(const std::vector<KernelWork>& kernels) {
   std::cout << "Predicted milliseconds, no device of these at hand:\n\n" << table.text();
 }
 
+Frame made_up_frame(const Arguments& arguments) {
+  UniverseSetup setup;
+  setup.particles = static_cast<std::size_t>(arguments.number("particles", 1000000));
+  Frame frame = universe_frame(make_universe(setup), arguments.number("width", 1400),
+                               arguments.number("height", 1050));
+  set_light(frame, light_of(arguments.text("light", "ordered")));
+  return frame;
+}
+
+Frame frame_of(const Arguments& arguments) {
+  if (!arguments.has("scene")) return made_up_frame(arguments);
+  std::vector<std::string> settings;
+  if (arguments.has("snapshot"))
+    settings.push_back("snapshot=\"" + arguments.text("snapshot", "") + '"');
+  return frame_of_scene(arguments.text("scene", ""), settings);
+}
+
 void predict(const Arguments& arguments) {
   DeviceContext device(choose_device(arguments.text("device", "")));
-  CountedWork counted;
-  if (arguments.has("sort")) {
-    counted = count_sort(device, static_cast<std::uint32_t>(arguments.number("sort", 0)));
-  } else {
-    UniverseSetup setup;
-    setup.particles = static_cast<std::size_t>(arguments.number("particles", 1000000));
-    Frame frame = universe_frame(make_universe(setup), arguments.number("width", 1400),
-                                 arguments.number("height", 1050));
-    set_light(frame, light_of(arguments.text("light", "ordered")));
-    counted = count_frame(device, frame);
-  }
+  const CountedWork counted =
+      arguments.has("sort")
+          ? count_sort(device, static_cast<std::uint32_t>(arguments.number("sort", 0)))
+          : count_frame(device, frame_of(arguments));
   const std::vector<KernelWork> kernels = add_up(counted.launches, counted.work);
   print_work(counted, kernels);
+  if (arguments.has("counters")) write_counters(arguments.text("counters", ""), kernels);
   print_prediction(kernels);
 }
 
@@ -103,6 +131,9 @@ int main(int count, char** words) {
       count, words,
       {"particles=N: of the made-up universe, 1000000", "width=N: pixels, 1400",
        "height=N: pixels, 1050", "light=PLAN: emission, proportional or ordered, which is meant",
-       "sort=N: only sorts so many pairs", "device=NAME: part of a device's name"},
+       "scene=FILE: draws this scene, not the made-up universe",
+       "snapshot=FILE: absolute path of the scene's snapshot", "sort=N: only sorts so many pairs",
+       "counters=FILE: also writes what each kernel does, as CSV",
+       "device=NAME: part of a device's name"},
       splotchcl::bench::predict);
 }

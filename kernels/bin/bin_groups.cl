@@ -88,9 +88,10 @@ __kernel OF_GROUPS void bin_count_entries(const GroupBinParameters p,
   entry_counts[slot] = count;
 }
 
-// The last slot whose entries begin at this one or before: it has it.
-INLINED uint slot_of_entry(__global const uint* first_entries, uint slots, uint entry) {
-  uint low = 0, high = slots;
+// The last slot from `low` on and before `end` whose entries begin at this one or before: it has
+// it.
+INLINED uint slot_of_entry(__global const uint* first_entries, uint low, uint end, uint entry) {
+  uint high = end;
   while (high - low > 1) {
     const uint middle = low + (high - low) / 2;
     if (first_entries[middle] <= entry) {
@@ -102,15 +103,22 @@ INLINED uint slot_of_entry(__global const uint* first_entries, uint slots, uint 
   return low;
 }
 
-// Entries in the order of slots, and of each slot in that of tiles.
+// Entries in the order of slots, and of each slot in that of tiles. The slots of a group's first
+// and last entry are looked for among all, the others between them.
 __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint* order,
                                  __global const SplatTiles* tiles,
                                  __global const uint* first_entries,
                                  __global uint* tiles_of_entries,
                                  __global uint* splats_of_entries) {
-  const uint entry = get_global_id(0);
-  if (entry >= p.entry_count) return;
-  const uint slot = slot_of_entry(first_entries, p.bin.end - p.bin.first, entry);
+  __local uint ends[2];
+  const uint item = get_local_id(0), first = get_group_id(0) * GROUP_ITEMS;
+  const uint last = min(first + GROUP_ITEMS, p.entry_count) - 1u, entry = first + item;
+  if (item < 2) {
+    ends[item] = slot_of_entry(first_entries, 0, p.bin.end - p.bin.first, item == 0 ? first : last);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (entry > last) return;
+  const uint slot = slot_of_entry(first_entries, ends[0], ends[1] + 1, entry);
   const SplatTiles own = tiles[slot];
   const uint k = entry - first_entries[slot] + tiles_before(own, p.bin.first_tile);
   const uint tile = own.first + k / own.columns * own.grid_columns + k % own.columns;

@@ -1,14 +1,38 @@
 // The sums of collected.cl for GPUs: a work-group takes a segment of a tile's list. For a batch of
-// splats at a time each work-item works out what one of them adds, then each adds up one cell, in
-// the order of the list. Segments of cut lists have cells of their own, which are joined in order.
+// splats at a time each work-item works out what one of them adds, and leaves a bit with the cells
+// that it adds to; then each adds up one cell, in the order of the list. Segments of cut lists have
+// cells of their own, which are joined in order.
 
 #define NO_CELL 0xffffffffu
 
-// What splats add to cells of peaks, and to cells of endings.
+// A word has so many bits.
+#define SPLATS_OF_WORD 32
+#define WORDS (GROUP_ITEMS / SPLATS_OF_WORD)
+
+// What splats add to cells of peaks, and to cells of endings; for each cell the splats that add to
+// it, a bit each.
 typedef struct Contributions {
-  uint cells[2][GROUP_ITEMS];
   float values[2][GROUP_ITEMS];
+  uint of_cells[WORDS][GROUP_ITEMS];
 } Contributions;
+
+INLINED void leave_bit(__local Contributions* batch, uint item, uint cell) {
+  if (cell < GROUP_ITEMS)
+    atomic_or(&batch->of_cells[item / SPLATS_OF_WORD][cell], 1u << item % SPLATS_OF_WORD);
+}
+
+// What the batch adds to this cell after those before; its bits are 0 again afterwards.
+INLINED float with_batch(float sum, __local Contributions* batch, uint kind, uint cell) {
+  for (uint w = 0; w < WORDS; ++w) {
+    uint bits = batch->of_cells[w][cell];
+    batch->of_cells[w][cell] = 0;
+    while (bits != 0) {
+      sum += batch->values[kind][w * SPLATS_OF_WORD + 31u - clz(bits & -bits)];
+      bits &= bits - 1u;
+    }
+  }
+  return sum;
+}
 
 INLINED Contribution contribution_of(__global const TileSplat* splat, const CertifyParameters* p,
                                      __global const Grid* grids, uint g, uint tile) {
@@ -44,20 +68,21 @@ __kernel OF_GROUPS void collect(const CertifyParameters p, __global const Grid* 
   const uint kind = item < p.endings[0].first ? 0 : 1;
   float sum = has_cell && !is_cut ? own[item] : 0.0f;
   if (item == p.listed) sum += (float)(segment.end - segment.begin);
+  for (uint w = 0; w < WORDS; ++w)
+    batch.of_cells[w][item] = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
   for (uint first = segment.begin; first < segment.end; first += GROUP_ITEMS) {
     const uint count = min((uint)GROUP_ITEMS, segment.end - first);
     if (item < count) {
       const Contribution added =
           contribution_of(entries + first + item, &p, grids, g, segment.tile);
-      batch.cells[0][item] = added.peak_cell;
       batch.values[0][item] = added.peak;
-      batch.cells[1][item] = added.ending_cell;
       batch.values[1][item] = added.ending;
+      leave_bit(&batch, item, added.peak_cell);
+      leave_bit(&batch, item, added.ending_cell);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint k = 0; k < count; ++k) {
-      if (batch.cells[kind][k] == item) sum += batch.values[kind][k];
-    }
+    sum = with_batch(sum, &batch, kind, item);
     barrier(CLK_LOCAL_MEM_FENCE);
   }
   if (has_cell) own[item] = sum;

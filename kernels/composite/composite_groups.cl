@@ -4,8 +4,9 @@
 // composite_rows.cl, on single floats.
 #define GROUP (TILE_WIDTH * TILE_HEIGHT)
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
-// A bit each in a word.
+// A bit each in a word, that of the first splat the highest.
 #define BATCH 32
+#define BIT_OF(k) (0x80000000u >> (k))
 // Parts of a tile: the pixels of 32 work-items, which many GPUs run as one.
 #define PART_WIDTH 8
 #define PART_HEIGHT 4
@@ -17,38 +18,74 @@
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
 #define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
 
+// What all pixels need of a splat's light, in words of four floats: absorption with the optical
+// depth in any pixel at most, half the absorption, emission; in sums what they add up, by threes.
+#ifdef LIGHT_ORDERED
+#define AMPLITUDES 3
+#else
+#define AMPLITUDES (SUMMED / 3)
+#endif
+
 typedef struct Batch {
+  float4 amplitudes[BATCH * AMPLITUDES];
   TileSplat splats[BATCH];
+  float factors[2 * BATCH];  // of each splat's columns, then of each splat's rows (axis_factor)
   float axes[BATCH * AXES];  // of each splat, columns, then rows
-  float deepest[BATCH];      // optical depth in any pixel at most
-  uint touching;             // bit k: splat k reaches the center of a pixel of the tile
-  uint drawn[PARTS];         // of that part
+  uint touching;             // splats that reach the center of a pixel of the tile
+  uint drawn[PARTS];         // those of a part
+  uint thick;                // whose layers two terms do not serve for
   uint shows;                // whether anything behind shows in any pixel
 } Batch;
 
-// One axis of the separable shape at distance d of a pixel's centre.
-inline float axis_shape(float d, float sigma, float mean_sigma) {
-  if (sigma < 0.0f) return bright_mean(d, -sigma);
-  if (sigma >= mean_sigma) return gaussian(d, 1.44269504f / (sigma * sigma));
-  const float per_sigma = 1.0f / sigma;
-  return PIXEL_MEAN_SCALE * sigma *
-         (error_function((d + 0.5f) * per_sigma) - error_function((d - 0.5f) * per_sigma));
+// What axis_shape() needs of a width: divided once for all pixels.
+inline float axis_factor(float sigma, float mean_sigma) {
+  return sigma >= mean_sigma ? 1.44269504f / (sigma * sigma) : 1.0f / sigma;
 }
 
-// Zero outside what the rows would draw.
-inline float axis_of_splat(const __local TileSplat* splat, uint axis, float mean_sigma) {
-  const int is_column = axis < TILE_WIDTH;
-  const float d = is_column ? (float)axis + FIRST_X - splat->x - LOW_X(*splat)
-                            : (float)(axis - TILE_WIDTH) + FIRST_Y - splat->y - LOW_Y(*splat);
+// One axis of the separable shape at distance d of a pixel's centre.
+inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
+  if (sigma < 0.0f) return bright_mean(d, -sigma);
+  if (sigma >= mean_sigma) return gaussian(d, factor);
+  return PIXEL_MEAN_SCALE * sigma *
+         (error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor));
+}
+
+// Zero outside what the rows would draw, and where a difference of error functions errs below it.
+// `center` is that of the item's column or row.
+inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, float center,
+                           float mean_sigma) {
+  const __local TileSplat* splat = batch->splats + k;
+  const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
   if (fabs(d) > radius) return 0.0f;
-  return axis_shape(d, is_column ? SIGMA_X(*splat) : splat->sigma, mean_sigma);
+  return max(axis_shape(d, is_column ? SIGMA_X(*splat) : splat->sigma,
+                        batch->factors[is_column ? k : BATCH + k], mean_sigma),
+             0.0f);
 }
 
-// Whether a splat reaches the center of a pixel among so many of each axis around (x, y).
-inline int reaches(const __local TileSplat* splat, float x, float y, int width, int height) {
-  return fabs(splat->x - x) <= 0.5f * (float)(width - 1) + RADIUS_X(*splat) &&
-         fabs(splat->y - y) <= 0.5f * (float)(height - 1) + splat->radius;
+// Whether a splat reaches the center of a pixel of the tile.
+inline int reaches_tile(const __local TileSplat* splat) {
+  return fabs(splat->x) <= 0.5f * (TILE_WIDTH - 1) + RADIUS_X(*splat) &&
+         fabs(splat->y) <= 0.5f * (TILE_HEIGHT - 1) + splat->radius;
+}
+
+// ... of the part around (x, y). A splat ends at its radius all around, but for those that are cut:
+// they draw the pixel that holds their center, however small they are.
+inline int reaches_part(const __local TileSplat* splat, float x, float y) {
+  const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
+  const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
+  if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
+#ifdef KERNEL_CUT
+  return 1;
+#else
+  const float dx = max(across, 0.0f), dy = max(along, 0.0f);
+#ifdef ELLIPSES
+  const float round_dx = dx * (splat->radius / splat->along_x.radius);
+#else
+  const float round_dx = dx;
+#endif
+  return round_dx * round_dx + dy * dy <= splat->radius * splat->radius;
+#endif
 }
 
 inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
@@ -61,34 +98,57 @@ inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
 #endif
 }
 
-INLINED void fetch(__local Batch* batch, __global const TileSplat* entries, uint first,
-                   uint count) {
+INLINED void fetch(__local Batch* batch, __global const TileSplat* entries, uint first, uint count,
+                   float mean_sigma) {
   const uint item = get_local_id(0);
   __global const uint* from = (__global const uint*)(entries + first);
   __local uint* to = (__local uint*)batch->splats;
   for (uint w = item; w < count * ENTRY_WORDS; w += GROUP)
     to[w] = from[w];
-  if (item == 0) batch->touching = batch->shows = 0;
+  if (item < count) {
+    batch->factors[item] = axis_factor(SIGMA_X(entries[first + item]), mean_sigma);
+    batch->factors[BATCH + item] = axis_factor(entries[first + item].sigma, mean_sigma);
+  }
+  if (item == 0) batch->touching = batch->thick = batch->shows = 0;
   if (item < PARTS) batch->drawn[item] = 0;
 }
 
-// What all pixels of the tile need of the batch.
-INLINED void prepare(__local Batch* batch, uint count, float mean_sigma) {
-  const uint item = get_local_id(0);
-  for (uint place = item; place < count * AXES; place += GROUP)
-    batch->axes[place] = axis_of_splat(batch->splats + place / AXES, place % AXES, mean_sigma);
+INLINED void prepare_amplitudes(__local Batch* batch, uint k, float mean_sigma,
+                                const CompositeParameters p) {
+  const __local TileSplat* splat = batch->splats + k;
+  __local float4* amplitudes = batch->amplitudes + k * AMPLITUDES;
+#ifdef LIGHT_ORDERED
+  const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
+                                     splat->absorption[2], deepest_of(splat, mean_sigma));
+  if (absorption.w > p.phi_short) atomic_or(&batch->thick, BIT_OF(k));
+  amplitudes[0] = absorption;
+  amplitudes[1] = 0.5f * absorption;
+  amplitudes[2] = (float4)(splat->emission[0], splat->emission[1], splat->emission[2], 0.0f);
+#else
+  for (int i = 0; i < AMPLITUDES; ++i) {
+    const __local float* summed = splat->summed + 3 * i;
+    amplitudes[i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
+  }
+#endif
+}
+
+// What all pixels of the tile need of the batch. An item has one column or row of all splats that
+// it takes, and one part: there are as many parts of all splats as items.
+INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
+                     const CompositeParameters p) {
+  const uint item = get_local_id(0), axis = item % AXES;
+  const int is_column = axis < TILE_WIDTH;
+  const float center = is_column ? (float)axis + FIRST_X : (float)(axis - TILE_WIDTH) + FIRST_Y;
+  for (uint k = item / AXES; k < count; k += GROUP / AXES)
+    batch->axes[k * AXES + axis] = axis_of_splat(batch, k, is_column, center, mean_sigma);
   if (item < count) {
-    batch->deepest[item] = deepest_of(batch->splats + item, mean_sigma);
-    if (reaches(batch->splats + item, 0.0f, 0.0f, TILE_WIDTH, TILE_HEIGHT))
-      atomic_or(&batch->touching, 1u << item);
+    prepare_amplitudes(batch, item, mean_sigma, p);
+    if (reaches_tile(batch->splats + item)) atomic_or(&batch->touching, BIT_OF(item));
   }
-  for (uint i = item; i < PARTS * BATCH; i += GROUP) {
-    const uint k = i % BATCH, part = i / BATCH;
-    const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
-    const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-    if (k < count && reaches(batch->splats + k, x, y, PART_WIDTH, PART_HEIGHT))
-      atomic_or(&batch->drawn[part], 1u << k);
-  }
+  const uint k = item % BATCH, part = item / BATCH;
+  const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
+  const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
+  if (k < count && reaches_part(batch->splats + k, x, y)) atomic_or(&batch->drawn[part], BIT_OF(k));
 }
 
 #ifdef KERNEL_CUT
@@ -111,20 +171,18 @@ inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
 
 #ifdef LIGHT_ORDERED
 // As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl.
-inline void add_channel(float* pixel, int c, float emission, float absorption, float shape,
-                        float deepest, const CompositeParameters p) {
+inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
+                             float half_of_it, float shape) {
   const float opacity = pixel[c + 3];
-#ifndef KEEP_TRANSMITTANCE
-  if (deepest <= p.phi_short) {
-    const float covered = shape - (shape * shape) * (0.5f * absorption);
-    const float u = covered - opacity * covered;
-    pixel[c] += u * emission;
-    pixel[c + 3] = opacity + u * absorption;
-    return;
-  }
-#endif
-  const float depth = shape * absorption;
-  const int by_series = deepest <= p.phi_series;
+  const float covered = shape - (shape * shape) * half_of_it;
+  const float u = covered - opacity * covered;
+  pixel[c] += u * emission;
+  pixel[c + 3] = opacity + u * absorption;
+}
+
+inline void add_channel(float* pixel, int c, float emission, float absorption, float shape,
+                        int by_series) {
+  const float opacity = pixel[c + 3], depth = shape * absorption;
   const float phi = by_series ? phi_series(depth) : phi_full(depth);
   const float passed = by_series ? passed_by_series(depth, phi) : passed_in_full(depth, phi);
   const float t = transmittance_of(opacity);
@@ -132,27 +190,71 @@ inline void add_channel(float* pixel, int c, float emission, float absorption, f
   pixel[c] += u * emission;
   pixel[c + 3] = carry(opacity, u * absorption, t * passed);
 }
+
+INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, float shape) {
+  const float4 absorption = amplitudes[0], half_of_it = amplitudes[1], emission = amplitudes[2];
+  add_thin_channel(pixel, 0, emission.x, absorption.x, half_of_it.x, shape);
+  add_thin_channel(pixel, 1, emission.y, absorption.y, half_of_it.y, shape);
+  add_thin_channel(pixel, 2, emission.z, absorption.z, half_of_it.z, shape);
+}
+
+INLINED void add_splat(float* pixel, const __local float4* amplitudes, float shape,
+                       const CompositeParameters p) {
+#ifndef KEEP_TRANSMITTANCE
+  if (amplitudes[0].w <= p.phi_short) {
+    add_thin_splat(pixel, amplitudes, shape);
+    return;
+  }
+#endif
+  const float4 absorption = amplitudes[0], emission = amplitudes[2];
+  const int by_series = absorption.w <= p.phi_series;
+  add_channel(pixel, 0, emission.x, absorption.x, shape, by_series);
+  add_channel(pixel, 1, emission.y, absorption.y, shape, by_series);
+  add_channel(pixel, 2, emission.z, absorption.z, shape, by_series);
+}
+#else
+INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, float shape) {
+  for (int i = 0; i < AMPLITUDES; ++i) {
+    const float4 summed = amplitudes[i];
+    pixel[3 * i] += shape * summed.x;
+    pixel[3 * i + 1] += shape * summed.y;
+    pixel[3 * i + 2] += shape * summed.z;
+  }
+}
 #endif
 
-// The batch's splats of these bits, in order.
+// Of the batch's splats of these bits the first, whose bit is taken away.
+INLINED uint take_first(uint* bits) {
+  const uint k = clz(*bits);
+  *bits ^= BIT_OF(k);
+  return k;
+}
+
+INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y) {
+#ifdef KERNEL_CUT
+  if (!is_inside_cut(batch->splats + k, x, y)) return 0.0f;
+#endif
+  return batch->axes[k * AXES + x] * batch->axes[k * AXES + TILE_WIDTH + y];
+}
+
+// The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
 INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, uint y,
                   const CompositeParameters p) {
-  while (bits != 0) {
-    const uint k = 31u - clz(bits & -bits);
-    bits &= bits - 1u;
-    const float shape = batch->axes[k * AXES + x] * batch->axes[k * AXES + TILE_WIDTH + y];
-    const __local TileSplat* splat = batch->splats + k;
-    if (!(shape > 0.0f)) continue;
-#ifdef KERNEL_CUT
-    if (!is_inside_cut(splat, x, y)) continue;
-#endif
 #ifdef LIGHT_ORDERED
-    for (int c = 0; c < 3; ++c)
-      add_channel(pixel, c, splat->emission[c], splat->absorption[c], shape, batch->deepest[k], p);
+#ifdef KEEP_TRANSMITTANCE
+  const int all_thin = 0;
 #else
-    for (int c = 0; c < SUMMED; ++c)
-      pixel[c] += shape * splat->summed[c];
+  const int all_thin = (bits & batch->thick) == 0;
 #endif
+  while (!all_thin && bits != 0) {
+    const uint k = take_first(&bits);
+    const float shape = shape_at(batch, k, x, y);
+    if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
+  }
+#endif
+  while (bits != 0) {
+    const uint k = take_first(&bits);
+    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape_at(batch, k, x, y));
   }
 }
 
@@ -185,11 +287,12 @@ inline int shows_behind(const float* front, float stop) {
 #endif
 }
 
-// The bits of `bits` from the n-th set one of `counted` on, which has as many.
-inline uint behind_bit(uint counted, uint n) {
+// The bits behind the first n set ones of `counted`, which has as many at least: from the next set
+// one on.
+inline uint bits_behind(uint counted, uint n) {
   for (uint k = 0; k < n; ++k)
-    counted &= counted - 1u;
-  return counted;
+    take_first(&counted);
+  return counted != 0 ? 0xffffffffu >> clz(counted) : 0u;
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
@@ -221,15 +324,14 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint first = segment.begin; first < end; first += BATCH) {
     const uint count = min((uint)BATCH, segment.end - first);
-    fetch(&batch, entries, first, count);
+    fetch(&batch, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, count, grid.mean_sigma);
+    prepare(&batch, count, grid.mean_sigma, p);
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = batch.touching, drawn = batch.drawn[part];
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
-    const uint next_block = ends_block ? behind_bit(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    // Splats that touch no pixel are drawn nowhere, so that bits below serve.
-    const uint of_next = next_block != 0 ? ~((next_block & -next_block) - 1u) : 0u;
+    // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
+    const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
     draw(pixel, &batch, drawn & ~of_next, x, y, p);
     in_block += popcount(touching);
     if (ends_block) {

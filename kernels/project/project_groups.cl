@@ -59,6 +59,9 @@ __kernel OF_GROUPS void project(
   uint slot = offsets[group] + group_scan(count, sums, &total);
   for (uint k = 0; k < count; ++k, ++slot) {
     Splat listed = splat;
+#ifdef WHOLE_SECTORS
+    listed.unused = 0;
+#endif
 #ifdef ELLIPSES
     const int copy = copies.x + (int)k;
     listed.x += steps_to_copy(splat, copy, p);

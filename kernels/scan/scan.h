@@ -7,6 +7,8 @@
 
 struct ScanParameters {
   unsigned int count;  // values
+  // Sums of stretches are not scanned: every group adds up those before it.
+  unsigned int adds_up_groups;
 };
 
 #ifdef __OPENCL_VERSION__

@@ -145,12 +145,29 @@ TEST_P(EveryKernel, LooksInAllDirectionsAtToleranceZero) {
   }
 }
 
-// A list that is cut: layers of its segments are joined.
+// A list that is cut: layers of its segments, and what the check is told of them, are joined.
 TEST_P(EveryKernel, JoinsSegments) {
-  const std::vector<Cloud> grains(8200, Cloud{0.2, 0.3, 1, 0.1, 0.01});
+  const std::vector<Cloud> grains(100, Cloud{0.2, 0.3, 1, 0.1, 0.01});
+  DeviceContext device(choose_device(""));
+  choose_shape(device.traits, GetParam() == CompositeShape::rows);
+  device.traits.segment_length = 30;
+  for (const double tolerance : {1e-3, 0.0}) {
+    Frame frame = frame_of(3, 2, {component_of(grains, two_colors())});
+    frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
+    frame.tolerance = tolerance;
+    EXPECT_LE(largest_error(draw_once(device, frame, GetParam()), reference::render(frame)),
+              tolerance > 0 ? tolerance : extended_tolerance);
+  }
+}
+
+// Particles of one depth: a stable sort by all bits of the keys.
+TEST_P(EveryKernel, SortsManyEqualDepths) {
+  const std::vector<Cloud> grains(50, Cloud{0.2, 0.3, 1, 0.1, 0.01});
   Frame frame = frame_of(3, 2, {component_of(grains, two_colors())});
-  frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
-  expect_within_tolerance(frame, "segments");
+  frame.components.push_back(component_of({{0.2, 0.3, 1e6, 0.1, 0.01}}, two_colors()));
+  for (DrawnComponent& component : frame.components)
+    component.absorption = {Absorption::Kind::gray, 0.2};
+  expect_within_tolerance(frame, "equal depths");
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryKernel,

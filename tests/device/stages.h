@@ -175,7 +175,12 @@ class Stages {
  private:
   void sort() { sorted_ = pipeline_->sorter().sort(std::move(keyed_)); }
   std::vector<shared::Splat> splats(const SplatMemory& memory, std::size_t count) {
-    return read_as<shared::Splat>(memory.splats, count);
+    const std::size_t bytes = context().specialization.splat_bytes();
+    const std::vector<std::byte> stored = read_as<std::byte>(memory.splats, count * bytes);
+    std::vector<shared::Splat> splats(count);
+    for (std::size_t i = 0; i < count; ++i)
+      std::memcpy(&splats[i], stored.data() + i * bytes, sizeof(shared::Splat));
+    return splats;
   }
 
   const Frame frame_;

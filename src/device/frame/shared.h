@@ -41,7 +41,7 @@ static_assert(has_words<SortParameters, 4>);
 static_assert(has_words<KeyBits, 2>);
 static_assert(has_words<GroupSortParameters, 5>);
 static_assert(has_words<KeyRange, 4>);
-static_assert(has_words<ScanParameters, 1>);
+static_assert(has_words<ScanParameters, 2>);
 static_assert(has_words<BinParameters, 15>);
 static_assert(has_words<SplatTiles, 4>);
 static_assert(has_words<GroupBinParameters, 16>);

@@ -45,7 +45,18 @@ std::uint32_t Specialization::planes() const {
 
 std::size_t Specialization::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
-         (vector_colors_ ? sizeof(shared::OwnColor) : 0) + (fine_places_ ? sizeof(cl_uint) : 0);
+         (vector_colors_ ? sizeof(shared::OwnColor) : 0) + (fine_places_ ? sizeof(cl_uint) : 0) +
+         (has_whole_sectors() ? sizeof(cl_uint) : 0);
+}
+
+// Splats of seven words are gathered in one sector of a GPU's memory with one more.
+bool Specialization::has_whole_sectors() const {
+  return !rows_ && !ellipses_ && !vector_colors_ && !fine_places_;
+}
+
+std::string Specialization::splat_defines() const {
+  return define_if(vector_colors_, "VECTOR_COLORS") + define_if(fine_places_, "FINE_PLACES") +
+         define_if(has_whole_sectors(), "WHOLE_SECTORS");
 }
 
 std::size_t Specialization::extended_splat_bytes() const {
@@ -83,8 +94,7 @@ std::string Specialization::number_defines() const {
 }
 
 ProgramSource Specialization::project(ProjectOutput output) const {
-  std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS") +
-                        define_if(fine_places_, "FINE_PLACES");
+  std::string defines = define_if(rows_, "LANES_8") + splat_defines();
   if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
   if (output == ProjectOutput::splats && rows_)
@@ -150,7 +160,8 @@ ProgramSource Specialization::scan() {
 ProgramSource Specialization::bin() const {
   const std::string defines =
       tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
-      define_if(vector_colors_, "VECTOR_COLORS") + define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
+      define_if(vector_colors_, "VECTOR_COLORS") + define_if(has_whole_sectors(), "WHOLE_SECTORS") +
+      define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
   if (rows_) {
     return {defines,
             {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl",

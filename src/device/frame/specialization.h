@@ -65,6 +65,8 @@ class Specialization {
   static ProgramSource coarse_grids();
 
  private:
+  bool has_whole_sectors() const;
+  std::string splat_defines() const;
   std::string wide_angle_defines() const;
   std::string extended_defines() const;
   std::vector<std::string> project_files(ProjectOutput output) const;

@@ -12,15 +12,18 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.bin_blocks = 64;
   traits.sort_blocks = 32;
   traits.segment_length = 8192;
+  traits.list_capacity = 3u << 20;
 }
 
 void take_sizes_of_groups(DeviceTraits& traits) {
   traits.project_block = 256;
   traits.chunk_blocks = 4096;
-  traits.sorted_chunk = 1u << 20;
+  // Every chunk launches some twenty kernels.
+  traits.sorted_chunk = 1u << 21;
   traits.bin_blocks = 64;
   traits.sort_blocks = 4096;
   traits.segment_length = 4096;
+  traits.list_capacity = 8u << 20;
 }
 
 }  // namespace

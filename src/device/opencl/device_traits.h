@@ -10,17 +10,17 @@ namespace splotchcl {
 // that the same device always does the same sums in the same order.
 struct DeviceTraits {
   bool is_gpu = false;
-  bool shares_host_memory = false;         // buffers may lie in the caller's own memory
-  bool rows = true;                        // the shape: eight lanes, rows; not work-groups
-  bool rows_of_16 = false;                 // registers hold sixteen floats: wide splats take them
-  bool double_numbers = false;             // extended numbers are double precision, not pairs
-  std::uint32_t project_block = 0;         // particles per work-item of a projection
-  std::uint32_t chunk_blocks = 0;          // such blocks per chunk of a sum
-  std::uint32_t sorted_chunk = 0;          // splats per chunk where they are sorted
-  std::uint32_t bin_blocks = 0;            // blocks that a chunk's splats are binned in, in order
-  std::uint32_t sort_blocks = 0;           // blocks of the radix sort
-  std::uint32_t segment_length = 0;        // entries of a tile's list per work-item
-  std::uint64_t list_capacity = 3u << 20;  // entries of all lists of a band of the picture
+  bool shares_host_memory = false;   // buffers may lie in the caller's own memory
+  bool rows = true;                  // the shape: eight lanes, rows; not work-groups
+  bool rows_of_16 = false;           // registers hold sixteen floats: wide splats take them
+  bool double_numbers = false;       // extended numbers are double precision, not pairs
+  std::uint32_t project_block = 0;   // particles per work-item of a projection
+  std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum
+  std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted
+  std::uint32_t bin_blocks = 0;      // blocks that a chunk's splats are binned in, in order
+  std::uint32_t sort_blocks = 0;     // blocks of the radix sort
+  std::uint32_t segment_length = 0;  // entries of a tile's list per work-item
+  std::uint64_t list_capacity = 0;   // entries of all lists of a band of the picture
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }
 };
 

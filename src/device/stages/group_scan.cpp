@@ -15,7 +15,7 @@ GroupScan::GroupScan(DeviceContext& device)
 
 void GroupScan::scan(const char* stage, const Buffer<std::uint32_t>& values,
                      std::uint32_t count) const {
-  const shared::ScanParameters parameters{count};
+  shared::ScanParameters parameters{count, 0};
   const std::uint32_t groups = count / SCAN_STRETCH + (count % SCAN_STRETCH != 0 ? 1 : 0);
   // An empty list has a sum, too.
   if (groups <= 1) {
@@ -32,7 +32,11 @@ void GroupScan::scan(const char* stage, const Buffer<std::uint32_t>& values,
       .arg(values)
       .arg(sums)
       .run_groups(groups, GROUP_ITEMS);
-  scan(stage, sums, groups);
+  if (groups <= SCAN_STRETCH) {
+    parameters.adds_up_groups = 1;
+  } else {
+    scan(stage, sums, groups);
+  }
   Launch(device_, stage, program_.create_kernel("scan_stretches"))
       .value(parameters)
       .arg(values)

@@ -7,7 +7,8 @@
 namespace splotchcl {
 
 // Exclusive sums of lists in the shape for GPUs, in as many steps as their length has factors of
-// 2048: reduce, scan, add. No list is walked by a single work-item.
+// 2048: reduce, scan, add, of which the middle one is left out where it has no more than 2048 sums:
+// each group adds up those before it. No list is walked by a single work-item.
 class GroupScan {
  public:
   explicit GroupScan(DeviceContext& device);

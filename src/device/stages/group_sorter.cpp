@@ -22,14 +22,26 @@ std::uint32_t bits_of(std::uint32_t value) {
   return bits;
 }
 
+static_assert(std::uint64_t{SORT_DIGITS} * ((~0u / SORT_STRETCH) + 1) < ~0u,
+              "kernels count digits of all groups in 32 bits");
+
 shared::GroupSortParameters parameters_of(std::uint32_t count) {
   shared::GroupSortParameters parameters{};
   parameters.count = count;
-  parameters.group_count = ceil_divide(count, SORT_STRETCH);
+  parameters.group_count = sizes_of_sort(count).groups;
   return parameters;
 }
 
 }  // namespace
+
+SortSizes sizes_of_sort(std::uint32_t count) {
+  SortSizes sizes;
+  sizes.groups = ceil_divide(count, SORT_STRETCH);
+  sizes.counters = std::uint64_t{SORT_DIGITS} * sizes.groups;
+  sizes.pair_bytes = std::uint64_t{count} * 2 * sizeof(std::uint32_t);
+  sizes.counter_bytes = (sizes.counters + 1) * sizeof(std::uint32_t);
+  return sizes;
+}
 
 DigitPlan digits_of_bits(std::uint32_t bits) {
   DigitPlan plan;
@@ -65,8 +77,8 @@ KeyedValues GroupSorter::sort(const char* stage, KeyedValues pairs, std::uint32_
   if (count == 0 || plan.digits.empty()) return pairs;
   BufferPool& pool = device_.pool;
   shared::GroupSortParameters parameters = parameters_of(count);
-  const std::uint32_t counters = SORT_DIGITS * parameters.group_count;
-  const auto histograms = pool.get<std::uint32_t>(std::uint64_t{counters} + 1, "sort histogram");
+  const std::uint64_t counters = sizes_of_sort(count).counters;
+  const auto histograms = pool.get<std::uint32_t>(counters + 1, "sort histogram");
   KeyedValues to = {pool.get<std::uint32_t>(count, "sort keys"),
                     pool.get<std::uint32_t>(count, "order")};
   parameters.smallest = plan.smallest;

@@ -30,6 +30,15 @@ DigitPlan digits_of_bits(std::uint32_t bits);
 // the smallest.
 DigitPlan digits_of_range(const shared::KeyRange& range);
 
+// What sorting so many pairs takes, whatever their keys: without wrapping around up to the most
+// that 32 bits count.
+struct SortSizes {
+  std::uint32_t groups = 0;
+  std::uint64_t counters = 0;  // of all groups' digits
+  std::uint64_t pair_bytes = 0, counter_bytes = 0;
+};
+SortSizes sizes_of_sort(std::uint32_t count);
+
 // Sorter's work in the shape for GPUs: by work-groups, each of which sorts a stretch in local
 // memory.
 class GroupSorter {
