@@ -38,10 +38,10 @@ int parts_of(const float* entry, bool is_ellipse) {
 // Runs the stages of a frame one by one, and reads back what lists there are.
 class Counter {
  public:
-  Counter(DeviceContext& device, const Frame& frame)
+  Counter(DeviceContext& device, const Frame& frame, const PlanOptions& options)
       : device_(device),
         store_(device),
-        plan_(make_plan(frame)),
+        plan_(make_plan(frame, options)),
         pipeline_(device, store_, frame, plan_),
         certifier_(pipeline_.context()) {
     const Specialization& specialization = pipeline_.context().specialization;
@@ -178,11 +178,11 @@ class Counter {
 
 }  // namespace
 
-CountedWork count_frame(DeviceContext& device, const Frame& frame) {
+CountedWork count_frame(DeviceContext& device, const Frame& frame, const PlanOptions& options) {
   choose_shape(device.traits, false);
   CountedWork counted;
   device.launches = &counted.launches;
-  counted.work = Counter(device, frame).draw();
+  counted.work = Counter(device, frame, options).draw();
   device.launches = nullptr;
   device.timer.clear();
   return counted;

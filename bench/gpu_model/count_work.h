@@ -7,6 +7,7 @@
 #include "device/opencl/launch_record.h"
 #include "gpu_model/kernel_costs.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl::bench {
 
@@ -18,7 +19,7 @@ struct CountedWork {
 
 // Draws the frame once with the kernels and the sizes for GPUs, on any device. Tiles that stop
 // early are counted in full.
-CountedWork count_frame(DeviceContext& device, const Frame& frame);
+CountedWork count_frame(DeviceContext& device, const Frame& frame, const PlanOptions& options = {});
 
 // Sorts so many pairs with random keys.
 CountedWork count_sort(DeviceContext& device, std::uint32_t pairs);

@@ -19,6 +19,7 @@ namespace {
 struct ScaledFrame {
   std::string name;
   std::function<Frame(int scale)> make;  // particles and pixels grow with the scale
+  int slabs = 0;                         // PlanOptions
 };
 
 Frame universe(LightPlan light, int scale, std::size_t particles = 2000) {
@@ -62,6 +63,7 @@ std::vector<ScaledFrame> frames() {
   return {{"emission", [](int scale) { return universe(LightPlan::emission, scale); }},
           {"proportional", [](int scale) { return universe(LightPlan::proportional, scale); }},
           {"ordered", [](int scale) { return universe(LightPlan::ordered, scale); }},
+          {"slabs", [](int scale) { return universe(LightPlan::ordered, scale); }, 3},
           {"crowd", [](int scale) { return crowd(scale, 600, 1e-3); }},
           {"exact crowd", [](int scale) { return crowd(scale, 40, 0); }},
           {"all around", [](int scale) { return all_around(scale); }}};
@@ -74,7 +76,9 @@ CountedWork count(const ScaledFrame& frame, int scale) {
   DeviceContext device(choose_device(""));
   choose_shape(device.traits, false);
   device.traits.segment_length = segment_length;
-  return count_frame(device, frame.make(scale));
+  PlanOptions options;
+  options.slabs = frame.slabs;
+  return count_frame(device, frame.make(scale), options);
 }
 
 using Chains = std::map<std::string, double>;
