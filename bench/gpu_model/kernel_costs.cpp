@@ -99,7 +99,7 @@ KernelCost bin_find_tiles(const Launches& l) {
 }
 
 KernelCost bin_count_entries(const Launches& l) {
-  return {l.items * sizeof(shared::SplatTiles), l.items * word, l.items * 60, 1, 0};
+  return {l.items * sizeof(shared::SplatTiles), l.items * word, l.items * 30, 1, 0};
 }
 
 // Neighbors have the same slot or the next one, so that a group reads its slots once, and in a
