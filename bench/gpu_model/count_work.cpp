@@ -16,7 +16,8 @@ namespace {
 constexpr int tile_side = 16, part_width = 8, part_height = 4;
 
 // As reaches_part() there, but that splats that are cut count as if they were not.
-int parts_of(const float* entry, bool is_ellipse) {
+int parts_of(const float* entry, bool is_ellipse, float mean_sigma) {
+  const bool is_mean = entry[2] < mean_sigma || (is_ellipse && entry[4] < mean_sigma);
   const float radius = entry[3], radius_x = is_ellipse ? entry[5] : radius;
   int parts = 0;
   for (int y = 0; y < tile_side; y += part_height) {
@@ -29,7 +30,7 @@ int parts_of(const float* entry, bool is_ellipse) {
           0.5f * (part_height - 1);
       if (across > radius_x || along > radius) continue;
       const float dx = std::max(across, 0.0f) * radius / radius_x, dy = std::max(along, 0.0f);
-      parts += dx * dx + dy * dy <= radius * radius;
+      parts += is_mean || dx * dx + dy * dy <= radius * radius;
     }
   }
   return parts;
@@ -149,7 +150,7 @@ class Counter {
     const float sigma = entry[2];
     work_.bright_entries += sigma < 0;
     work_.mean_entries += sigma >= 0 && sigma < mean_sigma;
-    const int parts = parts_of(entry, plan_.has_ellipses);
+    const int parts = parts_of(entry, plan_.has_ellipses, mean_sigma);
     if (!work_.is_ordered || grid > 0) {
       (work_.is_ordered ? work_.slab_parts : work_.thin_parts) += parts;
       return;

@@ -69,15 +69,17 @@ inline int reaches_tile(const __local TileSplat* splat) {
          fabs(splat->y) <= 0.5f * (TILE_HEIGHT - 1) + splat->radius;
 }
 
-// ... of the part around (x, y). A splat ends at its radius all around, but for those that are cut:
-// they draw the pixel that holds their center, however small they are.
-inline int reaches_part(const __local TileSplat* splat, float x, float y) {
+// ... of the part around (x, y). A splat ends at its radius all around, but for those that are
+// taken as means over pixels, which have corners, or are cut, which draw the pixel that holds their
+// center.
+inline int reaches_part(const __local TileSplat* splat, float x, float y, float mean_sigma) {
   const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
   const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
   if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
 #ifdef KERNEL_CUT
   return 1;
 #else
+  if (splat->sigma < mean_sigma || SIGMA_X(*splat) < mean_sigma) return 1;
   const float dx = max(across, 0.0f), dy = max(along, 0.0f);
 #ifdef ELLIPSES
   const float round_dx = dx * (splat->radius / splat->along_x.radius);
@@ -148,7 +150,8 @@ INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
   const uint k = item % BATCH, part = item / BATCH;
   const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
   const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-  if (k < count && reaches_part(batch->splats + k, x, y)) atomic_or(&batch->drawn[part], BIT_OF(k));
+  if (k < count && reaches_part(batch->splats + k, x, y, mean_sigma))
+    atomic_or(&batch->drawn[part], BIT_OF(k));
 }
 
 #ifdef KERNEL_CUT
