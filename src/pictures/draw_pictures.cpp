@@ -56,7 +56,10 @@ class Views {
       drawn.is_black = !with_tone_of(scene_.finish, light);
     }
     for (const PictureSize& size : picture_sizes(scene_, frame_.crop.width, frame_.crop.height))
-      drawn.pictures.push_back({size.suffix, Image(size.width, size.height)});
+      drawn.pictures.push_back(
+          {size.suffix,
+           Image(size.width, size.height),
+           {frame_.crop.x, frame_.crop.y, frame_.crop.width, frame_.crop.height}});
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Image image =
           images.empty() ? draw(frame_of_view(scene_, frame_, places_[i])) : std::move(images[i]);
