@@ -50,7 +50,8 @@ TEST_P(SixteenBits, RoundByHalfAStepAtMost) {
   const Image read = read_image(path_);
   ASSERT_EQ(read.pixels.size(), image.pixels.size());
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (i % 4 != 3) EXPECT_NEAR(read.pixels[i], image.pixels[i], 1.0 / 131070 + 6e-8);
+    if (i % 4 == 3) continue;
+    EXPECT_NEAR(read.pixels[i], image.pixels[i], 1.0 / 131070 + 6e-8);
   }
   EXPECT_FALSE(read_image_info(path_).is_float);
   EXPECT_FALSE(read_image_info(path_).has_alpha);
