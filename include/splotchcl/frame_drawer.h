@@ -68,9 +68,9 @@ class FrameDrawer {
   std::unique_ptr<State> state_;
 };
 
-// How the pictures of a scene are stored: with its gamma, and with 8 bits as the original program
-// makes them where it has the original's convention. The program's version is added to the
-// metadata.
+// How the pictures of a scene are stored: with its gamma, bits and dither, and with 8 bits as the
+// original program makes them where it has the original's convention. The program's version is
+// added to the metadata.
 ImageFileOptions image_file_options(const Scene& scene,
                                     std::map<std::string, std::string> metadata = {});
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "splotchcl/image.h"
+#include "splotchcl/pixel_places.h"
 
 namespace splotchcl {
 
@@ -17,17 +18,28 @@ void check_image_path(const std::filesystem::path& path);
 // Throws UsageError when the format cannot hold so large a picture.
 void check_image_size(const std::filesystem::path& path, int width, int height);
 
-// How a picture is stored.
+// How a picture is stored. v = value^(1/gamma), from 0 to 1, is the display value.
 struct ImageFileOptions {
-  double gamma = 1;        // > 0: 8-bit formats store value^(1/gamma); float formats stay linear
-  bool truncates = false;  // 8-bit formats store floor(256 v), at most 255, not round(255 v)
-  std::map<std::string, std::string> metadata;  // kept by EXR, dropped by other formats
+  double gamma = 1;        // > 0; files of floats stay linear
+  bool truncates = false;  // 8 bits are floor(256 v), at most 255, not round(255 v)
+  std::map<std::string, std::string> metadata = {};  // kept by EXR, dropped by other formats
+  // 8 or 16, which PNG and TIFF can hold. Unset: 8, and TIFF holds floats.
+  std::optional<int> bits = std::nullopt;
+  // 8 bits are floor(255 v + t) with t from blue noise between 0 and 1 instead of 1/2 (unless they
+  // are truncated). What is a whole number stays one.
+  bool dithers = false;
+  PixelPlaces places = {};
 };
 
-// EXR and TIFF keep linear 32-bit floats and premultiplied alpha, HDR linear colour; the
-// others clamp to [0, 1] and store 8 bits without alpha. Written under a temporary name
-// in the same folder and renamed when complete. Throws as check_image_path and check_image_size
-// do, and DataError for a value that is not a number or a file that cannot be written.
+// Throws UsageError when a format of 8 bits alone shall hold more.
+void check_image_bits(const std::filesystem::path& path, std::optional<int> bits);
+
+// EXR, and TIFF unless bits are given, keep linear 32-bit floats and premultiplied alpha, HDR
+// linear colour; the others clamp to [0, 1] and store whole numbers without alpha. PNG and TIFF
+// files say which it is, sRGB or linear, EXR files that their primaries are those of sRGB, JPEG
+// files sRGB. Written under a temporary name in the same folder and renamed when complete. Throws
+// as check_image_path, check_image_size and check_image_bits do, and DataError for a value that is
+// not a number or a file that cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageFileOptions& options = {});
 
@@ -35,9 +47,12 @@ void write_image(const std::filesystem::path& path, const Image& image,
 // for messages. Throws DataError for a value that is not a number.
 std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
                                         const ImageFileOptions& options = {});
+// The same in 16 bits: round(65535 v).
+std::vector<std::uint16_t> display_words(const std::filesystem::path& path, const Image& image,
+                                         const ImageFileOptions& options = {});
 
-// Values as stored: 8 bits become value / 255, without a gamma. Gray becomes equal red,
-// green and blue; missing alpha becomes 1. Throws DataError.
+// Values as stored: 8 bits become value / 255, 16 bits value / 65535, without a gamma. Gray becomes
+// equal red, green and blue; missing alpha becomes 1. Throws DataError.
 Image read_image(const std::filesystem::path& path);
 
 // A picture as light, however large its file is.

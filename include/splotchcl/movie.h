@@ -14,6 +14,7 @@ struct MovieSettings {
   std::optional<Codec> codec;     // unset: VP9 for .webm, else H.264
   // The encoder's constant rate factor: from 0, which loses nothing, or nearly, to 51, nearly all.
   int rate_factor = 18;
+  int bits = 8;  // of each channel, or 10
 };
 
 }  // namespace splotchcl

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "splotchcl/image.h"
+#include "splotchcl/pixel_places.h"
 #include "splotchcl/views.h"
 
 namespace splotchcl {
@@ -16,6 +17,7 @@ class Snapshot;
 struct Picture {
   std::string suffix;  // "" for the only one, else what tells its file from the others
   Image image;
+  PixelPlaces places = {};  // in the views that it shows
 };
 
 // Everything between a scene and the pictures that are written: loads the frame, draws its

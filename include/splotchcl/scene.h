@@ -74,6 +74,10 @@ struct ImageSettings {
   // A picture that stands behind everything, instead of the colour; empty: none.
   std::string background_image;
   PixelConvention convention = PixelConvention::upright;
+  // Of files of whole numbers, 8 or 16. Unset: 8, and TIFF files hold floats.
+  std::optional<int> bits = std::nullopt;
+  // Whether 8 bits are dithered. Unset: yes, but not in the original's convention.
+  std::optional<bool> dither = std::nullopt;
 };
 
 // What a scene file says (docs/scene.md). Nothing in it depends on the data yet. Lengths and

@@ -17,8 +17,26 @@ enum class StereoEyes {
   centered,       // each eye half a step to its side of the camera
 };
 
-// Two files, or one picture of both, the left eye left or on top.
-enum class StereoLayout { files, side_by_side, top_bottom };
+// Two files; one picture of both, the left eye left or on top; or one picture in which each eye
+// sees its own through a red glass (left) and a cyan one (right): anaglyphs.
+//   anaglyph             by the least squares of Dubois (ICASSP 2001): colors as far as glasses let
+//                        them through, and the least of the other eye's picture
+//   anaglyph_half_color  red of the left eye's luminance, green and blue of the right eye
+//   anaglyph_gray        red of the left eye's luminance, green and blue of the right eye's
+enum class StereoLayout {
+  files,
+  side_by_side,
+  top_bottom,
+  anaglyph,
+  anaglyph_half_color,
+  anaglyph_gray
+};
+
+// Whether both eyes' pictures become one of the size of each.
+inline bool is_anaglyph(StereoLayout layout) {
+  return layout == StereoLayout::anaglyph || layout == StereoLayout::anaglyph_half_color ||
+         layout == StereoLayout::anaglyph_gray;
+}
 
 // Two eyes that lie angle * |look_at - position| apart (the angle in radians).
 struct Stereo {

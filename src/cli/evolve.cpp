@@ -195,6 +195,7 @@ class Evolution {
     const ImageSettings& image = scene_->scene().image;
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
       check_image_size(pictures_->at(0), size.width, size.height);
+    check_image_bits(pictures_->at(0), image.bits);
     drawer_.emplace(FrameDrawerOptions{options_.device, false, {}},
                     [this](const std::string& note) { console_.note(note); });
     scene_->decide();

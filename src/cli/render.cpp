@@ -90,6 +90,7 @@ std::vector<OutputFile> check_pictures(const std::filesystem::path& output, cons
     const std::filesystem::path path = picture_path(output, size.suffix);
     check_image_path(path);
     check_image_size(path, size.width, size.height);
+    check_image_bits(path, scene.image.bits);
     files.push_back({path, "--output"});
   }
   return files;

@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
@@ -47,6 +48,7 @@ Imf::Header make_header(const Image& image, const std::map<std::string, std::str
     header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
   for (const auto& [name, text] : metadata)
     header.insert(name, Imf::StringAttribute(text));
+  Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709's, which are sRGB's
   return header;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -37,16 +36,19 @@ std::vector<unsigned char> encode_light_as_hdr(const std::filesystem::path& path
   return encode_hdr(path, image);
 }
 
+constexpr int any_side = std::numeric_limits<int>::max();
+
 // A format that can be written, by the ending of a file's name.
 struct Format {
   const char* ending;
   EncodeLight* encode_light = nullptr;  // linear floats; null: 8 bits
-  int longest_side = std::numeric_limits<int>::max();
+  int longest_side = any_side;
+  bool holds_words = false;  // 8 or 16 bits, if asked for
 };
 
 // Those that can be encoded in memory: writing the bytes is then ours to check.
 // (On a full disk, and for a picture that is too large, libjpeg ends the whole program.)
-constexpr std::array<Format, 13> formats = {{{"png"},
+constexpr std::array<Format, 13> formats = {{{"png", nullptr, any_side, true},
                                              {"jpg", nullptr, 65500},
                                              {"jpeg", nullptr, 65500},
                                              {"tga", nullptr, 65535},
@@ -56,8 +58,8 @@ constexpr std::array<Format, 13> formats = {{{"png"},
                                              {"webp", nullptr, 16383},
                                              {"jp2"},
                                              {"exr", encode_exr},
-                                             {"tif", encode_light_as_tiff},
-                                             {"tiff", encode_light_as_tiff},
+                                             {"tif", encode_light_as_tiff, any_side, true},
+                                             {"tiff", encode_light_as_tiff, any_side, true},
                                              {"hdr", encode_light_as_hdr, 26754}}};
 
 std::string endings() {
@@ -78,19 +80,21 @@ const Format& format_of(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": " + problem + "; the ending chooses one of " + endings());
 }
 
-std::uint8_t to_byte(float value, float exponent, bool truncates) {
-  const float clamped = std::clamp(value, 0.0F, 1.0F);
-  const float displayed = exponent == 1 ? clamped : std::pow(clamped, exponent);
-  if (truncates) return static_cast<std::uint8_t>(std::min(256 * displayed, 255.0F));
-  return static_cast<std::uint8_t>(255 * displayed + 0.5F);  // rounds, since it is positive
-}
-
 // The whole file, as bytes.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Image& image,
                                   const ImageFileOptions& options) {
   const Format& format = format_of(path);
-  if (format.encode_light != nullptr) return format.encode_light(path, image, options.metadata);
+  const bool is_whole = format.holds_words && options.bits;
+  if (format.encode_light != nullptr && !is_whole) {
+    return format.encode_light(path, image, options.metadata);
+  }
+  if (options.bits == 16) {
+    const std::vector<std::uint16_t> words = display_words(path, image, options);
+    return format.encode_light != nullptr ? encode_tiff(path, image.width, image.height, words)
+                                          : encode_png(path, image.width, image.height, words);
+  }
   const std::vector<std::uint8_t> bytes = display_bytes(path, image, options);
+  if (format.encode_light != nullptr) return encode_tiff(path, image.width, image.height, bytes);
   if (std::string(format.ending) == "png") {
     return encode_png(path, image.width, image.height, bytes);
   }
@@ -121,29 +125,18 @@ void check_image_size(const std::filesystem::path& path, int width, int height) 
                    std::to_string(format.longest_side) + " a side; choose .png or .exr");
 }
 
-std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
-                                        const ImageFileOptions& options) {
-  const std::size_t pixels = image.pixels.size() / 4;
-  std::vector<std::uint8_t> bytes(3 * pixels);
-  const auto exponent = static_cast<float>(1 / options.gamma);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const float value = image.pixels[4 * pixel + channel];
-      if (std::isnan(value)) {
-        const auto width = static_cast<std::size_t>(image.width);
-        throw DataError(path.string() + ": the picture is not a number at pixel " +
-                        std::to_string(pixel % width) + "," + std::to_string(pixel / width) +
-                        ", which 8 bits cannot hold; an .exr file can");
-      }
-      bytes[3 * pixel + channel] = to_byte(value, exponent, options.truncates);
-    }
-  }
-  return bytes;
+void check_image_bits(const std::filesystem::path& path, std::optional<int> bits) {
+  const Format& format = format_of(path);
+  if (bits.value_or(8) == 8 || format.encode_light != nullptr || format.holds_words) return;
+  throw UsageError(path.string() + ": found image.bits = " + std::to_string(*bits) +
+                   ", expected 8, which is what ." + format.ending +
+                   " holds; choose .png or .tif for 16 bits");
 }
 
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageFileOptions& options) {
   check_image_size(path, image.width, image.height);
+  check_image_bits(path, options.bits);
   const std::vector<unsigned char> bytes = encode(path, image, options);
   UnfinishedFile file(path);
   file.write(bytes.data(), bytes.size());

@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 
+#include "image/color_profile.h"
 #include "image/picture_encoders.h"
 #include "splotchcl/error.h"
 
@@ -92,8 +93,22 @@ struct CloseTiff {
 };
 using Tiff = std::unique_ptr<TIFF, CloseTiff>;
 
-Tiff open(MemoryFile& file, const Image& image) {
-  const bool is_big = image.pixels.size() * sizeof(float) > most_bytes_of_plain_tiff;
+// Rows from the top of what a file shall hold.
+struct Samples {
+  int width = 0, height = 0;
+  int channels = 3;  // four: premultiplied alpha is the last
+  int bits = 8;      // 32: floats of linear light
+  const unsigned char* bytes = nullptr;
+
+  std::size_t row_bytes() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels * bits / 8);
+  }
+  bool is_linear() const { return bits == 32; }
+};
+
+Tiff open(MemoryFile& file, const Samples& samples) {
+  const bool is_big =
+      samples.row_bytes() * static_cast<std::size_t>(samples.height) > most_bytes_of_plain_tiff;
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
       TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_problem, &file);
@@ -102,52 +117,76 @@ Tiff open(MemoryFile& file, const Image& image) {
                                 seek, close_nothing, size_of, nullptr, nullptr, options.get()));
 }
 
-void describe(TIFF* tiff, const Image& image) {
+void describe(TIFF* tiff, const Samples& samples) {
   const std::uint16_t alpha_is_multiplied[] = {EXTRASAMPLE_ASSOCALPHA};
-  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, image.width);
-  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, image.height);
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 4);
-  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, alpha_is_multiplied);
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
-  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, samples.width);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, samples.height);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, samples.channels);
+  if (samples.channels == 4) TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, alpha_is_multiplied);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, samples.bits);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT,
+               samples.is_linear() ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
+  const std::vector<unsigned char> profile =
+      color_profile(samples.is_linear() ? ColorSpace::linear : ColorSpace::srgb);
+  TIFFSetField(tiff, TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile.size()),
+               profile.data());
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
   TIFFSetField(tiff, TIFFTAG_PREDICTOR, PREDICTOR_NONE);
-  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, std::min(rows_in_strip, image.height));
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, std::min(rows_in_strip, samples.height));
 }
 
-bool write_strips(TIFF* tiff, const Image& image) {
+bool write_strips(TIFF* tiff, const Samples& samples) {
   // libtiff may work in what it is given.
-  std::vector<float> strip;
-  const std::size_t row = 4 * static_cast<std::size_t>(image.width);
-  for (int first = 0; first < image.height; first += rows_in_strip) {
-    const int rows = std::min(rows_in_strip, image.height - first);
-    const float* const from = image.at(0, first);
-    strip.assign(from, from + row * static_cast<std::size_t>(rows));
-    const auto bytes = static_cast<tmsize_t>(strip.size() * sizeof(float));
+  std::vector<unsigned char> strip;
+  for (int first = 0; first < samples.height; first += rows_in_strip) {
+    const int rows = std::min(rows_in_strip, samples.height - first);
+    const unsigned char* const from =
+        samples.bytes + samples.row_bytes() * static_cast<std::size_t>(first);
+    strip.assign(from, from + samples.row_bytes() * static_cast<std::size_t>(rows));
+    const auto bytes = static_cast<tmsize_t>(strip.size());
     const auto number = static_cast<std::uint32_t>(first / rows_in_strip);
     if (TIFFWriteEncodedStrip(tiff, number, strip.data(), bytes) != bytes) return false;
   }
   return TIFFWriteDirectory(tiff) == 1;
 }
 
-}  // namespace
-
-std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image) {
+std::vector<unsigned char> encode(const std::filesystem::path& path, const Samples& samples) {
   MemoryFile file;
   bool is_written = false;
-  if (const Tiff tiff = open(file, image)) {
-    describe(tiff.get(), image);
-    is_written = write_strips(tiff.get(), image);
+  if (const Tiff tiff = open(file, samples)) {
+    describe(tiff.get(), samples);
+    is_written = write_strips(tiff.get(), samples);
   }  // which completes the file
   if (!is_written || !file.problem.empty()) {
-    throw DataError(path.string() + ": " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) + " pixels cannot be stored as .tif: " +
+    throw DataError(path.string() + ": " + std::to_string(samples.width) + "x" +
+                    std::to_string(samples.height) + " pixels cannot be stored as .tif: " +
                     (file.problem.empty() ? "libtiff does not say why" : file.problem));
   }
   return std::move(file.bytes);
+}
+
+template <class Value>
+const unsigned char* bytes_of(const std::vector<Value>& values) {
+  return reinterpret_cast<const unsigned char*>(values.data());
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image) {
+  return encode(path, {image.width, image.height, 4, 32, bytes_of(image.pixels)});
+}
+
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int width, int height,
+                                       const std::vector<std::uint8_t>& rgb) {
+  return encode(path, {width, height, 3, 8, bytes_of(rgb)});
+}
+
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int width, int height,
+                                       const std::vector<std::uint16_t>& rgb) {
+  return encode(path, {width, height, 3, 16, bytes_of(rgb)});
 }
 
 }  // namespace splotchcl

@@ -269,6 +269,7 @@ int splotchcl_write_image(const char* path, const float* rgba, int width, int he
     std::copy(rgba, rgba + image.pixels.size(), image.pixels.begin());
     splotchcl::ImageFileOptions options;
     options.gamma = gamma;
+    options.dithers = true;
     splotchcl::write_image(path, image, options);
   });
 }

@@ -10,6 +10,7 @@
 #include "load/check_particles.h"
 #include "load/decide_map.h"
 #include "load/periodic_wrap.h"
+#include "load/rounded_positions.h"
 #include "load/suggest_scene_camera.h"
 #include "scene/reference_column.h"
 #include "snapshot/load_memory.h"
@@ -166,6 +167,7 @@ Frame FrameLoader::load(const DecidedScene& decided) {
     drawn.color = numbers->color;
     drawn.intensity = numbers->intensity;
     drawn.reference_column = numbers->reference_column;
+    if (const auto note = tell_rounded_positions(drawn)) notes_.push_back(*note);
     frame.components.push_back(std::move(drawn));
     ++numbers;
   }

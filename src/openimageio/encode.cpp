@@ -15,6 +15,9 @@ OIIO::ImageSpec make_spec(const StoredPicture& picture) {
   // JPEG: little loss, and none of it by halving the resolution of colour.
   spec.attribute("CompressionQuality", 95);
   spec.attribute("jpeg:subsampling", "4:4:4");
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  constexpr int srgb = 1;
+  spec.attribute("Exif:ColorSpace", srgb);
   return spec;
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "finish/anaglyph.h"
 #include "finish/cross_fade.h"
 #include "finish/fade.h"
 #include "finish/finish_picture.h"
@@ -56,12 +57,23 @@ class Views {
       drawn.is_black = !with_tone_of(scene_.finish, light);
     }
     for (const PictureSize& size : picture_sizes(scene_, frame_.crop.width, frame_.crop.height))
-      drawn.pictures.push_back({size.suffix, Image(size.width, size.height)});
+      drawn.pictures.push_back(
+          {size.suffix,
+           Image(size.width, size.height),
+           {frame_.crop.x, frame_.crop.y, frame_.crop.width, frame_.crop.height}});
+    const bool overlaps = scene_.stereo && is_anaglyph(scene_.stereo->layout);
+    std::vector<Picture> of_right_eye;
+    if (overlaps) of_right_eye = drawn.pictures;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Image image =
           images.empty() ? draw(frame_of_view(scene_, frame_, places_[i])) : std::move(images[i]);
       finishes_[i].apply(image, drawn.finish, draw);
-      put(image, places_[i], drawn.pictures);
+      const bool is_over = overlaps && places_[i].eye == Eye::right;
+      put(image, places_[i], is_over ? of_right_eye : drawn.pictures);
+    }
+    for (std::size_t i = 0; i < of_right_eye.size(); ++i) {
+      Image& left = drawn.pictures[i].image;
+      left = anaglyph(left, of_right_eye[i].image, scene_.stereo->layout, scene_.image.gamma);
     }
     return drawn;
   }

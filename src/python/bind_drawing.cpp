@@ -68,9 +68,12 @@ py::dict describe(const RenderStats& stats) {
 }
 
 // As the program stores them.
-ImageFileOptions file_options(const Scene& scene, const RenderStats& stats) {
-  return image_file_options(
+ImageFileOptions file_options(const Scene& scene, const RenderStats& stats,
+                              const PixelPlaces& places) {
+  ImageFileOptions options = image_file_options(
       scene, {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:device", stats.device}});
+  options.places = places;
+  return options;
 }
 
 bool has_all_levels(const FinishSettings& finish) {
@@ -87,7 +90,7 @@ py::tuple draw(Drawer& drawer, const Scene& scene, const Source& source, py::obj
   py::dict pictures;
   for (Picture& picture : drawn.pictures) {
     pictures[py::str(picture.suffix)] =
-        PictureObject{std::move(picture.image), file_options(shown, drawn.stats)};
+        PictureObject{std::move(picture.image), file_options(shown, drawn.stats, picture.places)};
   }
   const bool is_decided = !has_all_levels(scene.finish) && has_all_levels(shown.finish);
   return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats),

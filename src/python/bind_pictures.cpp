@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "image/png_file.h"
 #include "python/picture.h"
@@ -36,8 +37,12 @@ std::vector<std::uint8_t> display(const PictureObject& picture) {
 }
 
 std::vector<std::uint8_t> png(const PictureObject& picture) {
-  const std::vector<std::uint8_t> rgb = display(picture);
-  return encode_png("the picture", picture.image.width, picture.image.height, rgb);
+  const char* const name = "the picture";
+  const auto [width, height] = std::pair(picture.image.width, picture.image.height);
+  if (picture.options.bits == 16) {
+    return encode_png(name, width, height, display_words(name, picture.image, picture.options));
+  }
+  return encode_png(name, width, height, display(picture));
 }
 
 py::dict compare(const PictureObject& picture, const PictureObject& reference, double limit) {

@@ -20,6 +20,10 @@ namespace {
 constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;
 
 void check_image(const ImageSettings& image, const Origins& origins) {
+  if (image.dither.value_or(false) && image.convention == PixelConvention::original) {
+    refuse(origins.at("image.dither"), "image.dither",
+           "true beside image.convention = \"original\", which truncates 8 bits", "false");
+  }
   const std::int64_t pixels = std::int64_t{image.width} * image.height;
   if (pixels <= largest_pixel_count) return;
   const char* label = origins.contains("image.width")    ? "image.width"

@@ -88,7 +88,19 @@ Keys image_keys() {
       not_written(key("image.height", integer(1, largest_side), &ImageSettings::height,
                       {"The height alone, instead of `size`.", "pixels"})),
       key("image.gamma", number(between(0.01, 100)), &ImageSettings::gamma,
-          {"Files of 8 bits store value^(1/gamma). EXR, TIFF and HDR always keep linear light."}),
+          {"Files of 8 and 16 bits store value^(1/gamma). EXR and HDR, and TIFF of floats, always "
+           "keep "
+           "linear light."}),
+      written_if_set(
+          key("image.bits", bits({8, 16}), &ImageSettings::bits,
+              {"What files of whole numbers store of each channel: 8 bits, or 16 in PNG and TIFF, "
+               "which then holds display values as PNG does. EXR and HDR always hold floats.",
+               "", "8; TIFF holds floats"})),
+      written_if_set(key(
+          "image.dither", boolean(), &ImageSettings::dither,
+          {"Whether 8 bits are rounded up or down by a pattern of blue noise, which follows from "
+           "a pixel's place alone, so that faint light has no steps.",
+           "", "true; false with `convention = \"original\"`"})),
       written_if_set(key(
           "image.convention",
           choice<PixelConvention>(

@@ -149,6 +149,10 @@ Keys movie_keys() {
       key("movie.rate_factor", integer(0, 51), &MovieSettings::rate_factor,
           {"The encoder's constant rate factor. 18 looks like the frames themselves; 6 more halve "
            "the file."}),
+      key("movie.bits", bits({8, 10}), &MovieSettings::bits,
+          {"Bits of each channel. 10 hold faint light without steps, where ffmpeg's encoder can; "
+           "many "
+           "players of `h264` cannot."}),
   };
 }
 

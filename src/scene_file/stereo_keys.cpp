@@ -28,10 +28,16 @@ Keys stereo_keys() {
       key("stereo.layout",
           choice<StereoLayout>({{"files", StereoLayout::files},
                                 {"side_by_side", StereoLayout::side_by_side},
-                                {"top_bottom", StereoLayout::top_bottom}}),
+                                {"top_bottom", StereoLayout::top_bottom},
+                                {"anaglyph", StereoLayout::anaglyph},
+                                {"anaglyph_half_color", StereoLayout::anaglyph_half_color},
+                                {"anaglyph_gray", StereoLayout::anaglyph_gray}}),
           &Stereo::layout,
-          {"`files`: two files whose names end in _left and _right. Else one picture, left eye "
-           "left or on top, twice as large as `image.size`."}),
+          {"`files`: two files whose names end in _left and _right. `side_by_side` and "
+           "`top_bottom`: "
+           "one picture, left eye left or on top, twice as large as `image.size`. The others are "
+           "for "
+           "glasses of red (left) and cyan; see projections.md."}),
   };
 }
 

@@ -176,6 +176,18 @@ ValueType<int> integer(int at_least, int at_most) {
           [](const int& value) { return std::to_string(value); }};
 }
 
+ValueType<int> bits(std::vector<int> numbers) {
+  return {fmt::format("{}", fmt::join(numbers, " or ")),
+          [numbers](const toml::node& node) -> std::optional<int> {
+            const auto value = node.value_exact<std::int64_t>();
+            for (const int number : numbers) {
+              if (value == number) return number;
+            }
+            return std::nullopt;
+          },
+          [](const int& value) { return std::to_string(value); }};
+}
+
 ValueType<bool> boolean() {
   return {"true or false", [](const toml::node& node) { return node.value_exact<bool>(); },
           [](const bool& value) { return std::string(value ? "true" : "false"); }};

@@ -33,6 +33,7 @@ struct Range {
 
 ValueType<double> number(const Range& range = {});
 ValueType<int> integer(int at_least, int at_most);
+ValueType<int> bits(std::vector<int> numbers);  // one of these
 ValueType<bool> boolean();
 ValueType<std::string> text();                                                 // not empty
 ValueType<std::string> words(std::size_t most_bytes, std::size_t most_lines);  // not empty either

@@ -51,6 +51,10 @@ ViewPlace seen_by(Eye eye, ViewPlace place, const Scene& scene) {
     case StereoLayout::top_bottom:
       if (second) place.row += is_sheet(scene) ? sheet_rows : 1;
       break;
+    case StereoLayout::anaglyph:
+    case StereoLayout::anaglyph_half_color:
+    case StereoLayout::anaglyph_gray:
+      break;  // both at the same place
   }
   return place;
 }

@@ -266,6 +266,20 @@ TEST_F(Movie, IsNotMuchOtherThanItsFrames) {
   EXPECT_NEAR(image.at(32, 16)[2], 0.1, 0.02);
 }
 
+TEST_F(Movie, HasTheLightOfItsFramesInTenBits) {
+  SKIP_WITHOUT_FFMPEG();
+  ASSERT_EQ(movie("-o film.mkv --set image.background=[0.8,0.3,0.1] --set image.size=[64,32] "
+                  "--set component.gas.brightness=0 --set movie.bits=10 --set movie.codec=h265")
+                .exit_code,
+            0);
+  ASSERT_EQ(run_in(folder_, "ffmpeg -loglevel error -i film.mkv -frames:v 1 first.png").exit_code,
+            0);
+  const Image image = read_image(folder_ / "first.png");
+  EXPECT_NEAR(image.at(32, 16)[0], 0.8, 0.01);
+  EXPECT_NEAR(image.at(32, 16)[1], 0.3, 0.01);
+  EXPECT_NEAR(image.at(32, 16)[2], 0.1, 0.01);
+}
+
 TEST_F(Movie, RefusesOutputsThatAreNeitherFilmNorNumbered) {
   for (const std::string name : {"film.png", "film_%s.png", "film", "a_%d_%d.png"}) {
     const ProgramResult result = movie("-o " + name);

@@ -23,11 +23,12 @@ Frame clouds(const Absorption& absorption, double column = 1) {
   return frame_of(setup.width, setup.height, {component});
 }
 
-// The same frame with an empty second component: a plan made from structure alone can no
-// longer see that one q serves all particles.
+// The same frame with an empty second component of another source: a plan made from structure alone
+// can no longer see that one q serves all particles.
 Frame with_empty_component(Frame frame) {
   DrawnComponent empty = frame.components.front();
   empty.particles = component_of({}, empty.palette).particles;
+  empty.brightness *= 2;
   frame.components.push_back(empty);
   return frame;
 }

@@ -28,6 +28,7 @@ inline Frame lit(Frame frame, LightPlan plan) {
 inline Frame ordered_by_two_components(Frame frame) {
   DrawnComponent nothing = frame.components.front();
   nothing.particles = component_of({}, nothing.palette).particles;
+  nothing.brightness *= 2;  // another source
   frame.components.push_back(nothing);
   return frame;
 }

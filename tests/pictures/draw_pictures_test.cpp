@@ -63,6 +63,19 @@ std::vector<std::string> suffixes(const std::vector<Picture>& pictures) {
   return all;
 }
 
+// Light that rises to the right, and doubles from drawing to drawing.
+DrawFrame rising_light() {
+  return [number = 0](const Frame& frame) mutable {
+    Image image(frame.crop.width, frame.crop.height);
+    const auto factor = static_cast<float>(1 << number++);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x)
+        std::fill_n(image.at(x, y), 3, factor * static_cast<float>(1 + frame.crop.x + x));
+    }
+    return image;
+  };
+}
+
 using Names = std::vector<std::string>;
 using Numbers = std::vector<int>;
 
@@ -92,6 +105,44 @@ TEST(Pictures, OfTheLeftEyeLieOnTop) {
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_EQ(pictures[0].image.height, 2 * height);
   EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2}));
+}
+
+TEST(Pictures, OfTwoEyesMayBeOneForRedAndCyanGlasses) {
+  for (const char* layout : {"anaglyph", "anaglyph_half_color", "anaglyph_gray"}) {
+    const Scene scene = scene_with({std::string("stereo.layout=") + layout});
+    int drawn = 0;
+    const auto draw = [&drawn](const Frame& frame) {
+      Image image(frame.crop.width, frame.crop.height);
+      std::fill(image.pixels.begin(), image.pixels.end(), drawn++ == 0 ? 0.0F : 0.75F);
+      return image;
+    };
+    std::vector<std::string> notes;
+    const auto pictures = draw_pictures(scene, frame_of(scene), SnapshotInfo(), draw, notes);
+    ASSERT_EQ(suffixes(pictures), Names{""});
+    EXPECT_EQ(pictures[0].image.width, width);
+    EXPECT_EQ(drawn, 2);
+    EXPECT_LT(pictures[0].image.at(3, 3)[0], 0.1F);  // of the left eye
+    EXPECT_GT(pictures[0].image.at(3, 3)[1], 0.6F);  // of the right
+  }
+}
+
+TEST(Pictures, OfACubeMayBeAnAnaglyph) {
+  const auto pictures = numbered(scene_with({"camera.projection=cube", "stereo.layout=anaglyph"}));
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_EQ(pictures[0].image.width, 3 * width);
+  EXPECT_EQ(pictures[0].image.height, 2 * height);
+}
+
+TEST(Pictures, KnowWhichPixelsTheyShow) {
+  const Scene scene = scene_with({"stereo.layout=side_by_side"});
+  Frame frame = frame_of(scene);
+  frame.crop = {1, 2, 3, 2};
+  std::vector<std::string> notes;
+  const auto pictures = draw_pictures(scene, frame, SnapshotInfo(), rising_light(), notes);
+  EXPECT_EQ(pictures[0].places.left, 1);
+  EXPECT_EQ(pictures[0].places.top, 2);
+  EXPECT_EQ(pictures[0].places.width, 3);
+  EXPECT_EQ(pictures[0].places.height, 2);
 }
 
 TEST(Pictures, OfTheSecondEyeAreSeenFromTheRight) {
@@ -175,19 +226,6 @@ TEST(Pictures, HaveTheSizesThatAreToldBefore) {
       EXPECT_EQ(sizes[i].height, pictures[i].image.height);
     }
   }
-}
-
-// Light that rises to the right, and doubles from drawing to drawing.
-DrawFrame rising_light() {
-  return [number = 0](const Frame& frame) mutable {
-    Image image(frame.crop.width, frame.crop.height);
-    const auto factor = static_cast<float>(1 << number++);
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x)
-        std::fill_n(image.at(x, y), 3, factor * static_cast<float>(1 + frame.crop.x + x));
-    }
-    return image;
-  };
 }
 
 TEST(Pictures, OfTwoEyesShareTheExposureThatTheyDecide) {

@@ -142,7 +142,7 @@ class RandomScenes {
     stereo.mode = coin() ? StereoMode::off_axis : StereoMode::parallel;
     if (projection == Projection::orthographic) stereo.mode = StereoMode::toe_in;
     stereo.eyes = coin() ? StereoEyes::right_shifted : StereoEyes::centered;
-    stereo.layout = static_cast<StereoLayout>(integer(0, 2));
+    stereo.layout = static_cast<StereoLayout>(integer(0, 5));
     return stereo;
   }
   static bool is_usable(Camera camera) {

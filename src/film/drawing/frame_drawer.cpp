@@ -148,6 +148,8 @@ ImageFileOptions image_file_options(const Scene& scene,
   ImageFileOptions options;
   options.gamma = scene.image.gamma;
   options.truncates = scene.image.convention == PixelConvention::original;
+  options.bits = scene.image.bits;
+  options.dithers = scene.image.dither.value_or(!options.truncates);
   options.metadata = std::move(metadata);
   options.metadata["splotchcl:version"] = SPLOTCHCL_VERSION;
   return options;
@@ -155,8 +157,11 @@ ImageFileOptions image_file_options(const Scene& scene,
 
 void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
                     const ImageFileOptions& options) {
-  for (const Picture& picture : pictures)
-    write_image(picture_path(output, picture.suffix), picture.image, options);
+  for (const Picture& picture : pictures) {
+    ImageFileOptions with_places = options;
+    with_places.places = picture.places;
+    write_image(picture_path(output, picture.suffix), picture.image, with_places);
+  }
 }
 
 }  // namespace splotchcl

@@ -39,19 +39,29 @@ void check_pictures(const FrameFiles& files, const Scene& scene) {
       check_film(files.film(size.suffix), scene.movie, size.width, size.height);
     } else {
       check_image_size(files.picture(0, size.suffix), size.width, size.height);
+      check_image_bits(files.picture(0, size.suffix), scene.image.bits);
     }
   }
 }
 
-// The bytes that a PNG file holds.
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+// What a PNG file of 8 or 16 bits holds, the lower byte first.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, int bits) {
   const Image image = read_image(path);
+  const float largest = bits == 16 ? 65535 : 255;
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.pixels.size() / 4 * 3);
+  bytes.reserve(image.pixels.size() / 4 * 3 * static_cast<std::size_t>(bits / 8));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>(255 * image.pixels[i] + 0.5F));
+    if (i % 4 == 3) continue;
+    const auto value = static_cast<std::uint32_t>(largest * image.pixels[i] + 0.5F);
+    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
+    if (bits == 16) bytes.push_back(static_cast<std::uint8_t>(value >> 8));
   }
   return bytes;
+}
+
+// Between drawing and joining, frames of a film of 10 bits have 16.
+int frame_bits(const MovieSettings& movie) {
+  return movie.bits == 10 ? 16 : 8;
 }
 
 // One film that is being made.
@@ -76,12 +86,18 @@ class Film {
     }
     status("reading");
     scene_.decide();
-    files_.open(film_manifest(scene_.scene(), scene_.path(), options_.by_reference));
+    files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference));
     if (!options_.only_join) draw(missing(part_));
     return complete();
   }
 
  private:
+  // Frames of a film have as many bits as the film needs, images as many as the scene says.
+  Scene as_stored(Scene scene) const {
+    if (files_.is_film()) scene.image.bits = frame_bits(start_.movie);
+    return scene;
+  }
+
   void status(const std::string& what) const {
     if (report_.status) report_.status(what);
   }
@@ -141,7 +157,7 @@ class Film {
     decide_tone(drawer);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (report_.frame) report_.frame(frames[i], i, frames.size());
-      const Scene scene = scene_.scene_at(frames[i]);
+      const Scene scene = as_stored(scene_.scene_at(frames[i]));
       const RenderStats stats = drawer.draw(frames[i], scene, *scene_.snapshot_at(scene),
                                             scene_.other_scenes(), files_.picture(frames[i], ""));
       if (report_.drawn) report_.drawn(frames[i], stats);
@@ -180,7 +196,7 @@ class Film {
           report_.progress("joining the frames",
                            static_cast<double>(i) / static_cast<double>(frames_.size()));
         }
-        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix)));
+        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix), frame_bits(start_.movie)));
       }
       encoder.finish();
     }

@@ -41,19 +41,47 @@ bool has_ffmpeg() {
   return false;
 }
 
+const char* encoder_of(Codec codec) {
+  switch (codec) {
+    case Codec::h264:
+      return "libx264";
+    case Codec::h265:
+      return "libx265";
+    case Codec::vp9:
+      break;
+  }
+  return "libvpx-vp9";
+}
+
 // The number of threads is part of what an encoder's bytes depend on.
 std::vector<std::string> codec_arguments(Codec codec, int rate_factor) {
   const std::string quality = std::to_string(rate_factor);
   switch (codec) {
     case Codec::h264:
-      return {"-c:v", "libx264", "-crf", quality, "-threads", "4"};
+      return {"-c:v", encoder_of(codec), "-crf", quality, "-threads", "4"};
     case Codec::h265:
-      return {"-c:v",   "libx265", "-crf",         quality,
-              "-tag:v", "hvc1",    "-x265-params", "log-level=error:pools=4:frame-threads=2"};
+      return {"-c:v",         encoder_of(codec),
+              "-crf",         quality,
+              "-tag:v",       "hvc1",
+              "-x265-params", "log-level=error:pools=4:frame-threads=2"};
     case Codec::vp9:
-      return {"-c:v", "libvpx-vp9", "-crf", quality, "-b:v", "0", "-threads", "4"};
+      return {"-c:v", encoder_of(codec), "-crf", quality, "-b:v", "0", "-threads", "4"};
   }
   return {};
+}
+
+constexpr const char* ten_bits = "yuv420p10le";
+
+// ffmpeg's own words on the encoder tell which pixels it takes.
+void check_ten_bits(const std::filesystem::path& path, Codec codec) {
+  const ScratchText help;
+  ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-h", std::string("encoder=") + encoder_of(codec)},
+                      {-1, help.descriptor(), -1});
+  ffmpeg.wait(std::chrono::seconds(10), [&] { return help.text().size(); });
+  if (help.text().find(ten_bits) != std::string::npos) return;
+  throw DataError(path.string() + ": found an ffmpeg whose " + encoder_of(codec) +
+                  " has no 10 bits, expected one that has; leave out movie.bits, or choose another "
+                  "movie.codec");
 }
 
 // ffmpeg takes what stands before a colon for a protocol.
@@ -65,13 +93,14 @@ std::vector<std::string> arguments(const std::filesystem::path& path, const Movi
                                    int width, int height, const std::filesystem::path& unfinished) {
   std::vector<std::string> all = {
       "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-f", "rawvideo", "-pixel_format",
-      "rgb24", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
-      fmt::format("{}", settings.frames_per_second), "-i", "pipe:0", "-an",
+      settings.bits == 10 ? "rgb48le" : "rgb24", "-video_size", fmt::format("{}x{}", width, height),
+      "-framerate", fmt::format("{}", settings.frames_per_second), "-i", "pipe:0", "-an",
       // The colours of high-definition television, and said to be those: without, players
       // guess from the picture's size.
       "-vf",
-      "scale=in_range=full:out_range=limited:out_color_matrix=bt709:"
-      "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=yuv420p",
+      std::string("scale=in_range=full:out_range=limited:out_color_matrix=bt709:"
+                  "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=") +
+          (settings.bits == 10 ? ten_bits : "yuv420p"),
       "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
       "tv"};
   const std::vector<std::string> codec =
@@ -141,6 +170,7 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
                     ": films are made by ffmpeg, which is not installed (on Debian: apt-get "
                     "install ffmpeg); numbered images such as -o frame_%04d.png need none");
   }
+  if (settings.bits == 10) check_ten_bits(path, codec_of(path, settings));
 }
 
 struct Encoder::Process {

@@ -1,7 +1,9 @@
 #include "scene/plan/light_structure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace splotchcl {
 namespace {
@@ -13,15 +15,31 @@ bool all_of_kind(const Frame& frame, Kind kind) {
                      [kind](const DrawnComponent& c) { return c.absorption.kind == kind; });
 }
 
-bool any_own_absorption_colors(const Frame& frame) {
-  return std::any_of(frame.components.begin(), frame.components.end(),
-                     [](const DrawnComponent& c) { return c.palette.has_own_absorption(); });
+// The one E / A of all particles of a component that absorbs by the colours by which it emits, as
+// the scene's own numbers say it. Nothing where it may differ from particle to particle.
+std::optional<double> source_of_all(const DrawnComponent& component) {
+  if (component.palette.has_own_absorption()) return std::nullopt;
+  if (component.absorption.kind == Kind::as_emission) return 1;
+  if (component.absorption.kind != Kind::factor) return std::nullopt;
+  const double source = component.brightness / component.absorption.factor;
+  return std::isfinite(source) ? std::optional(source) : std::nullopt;
 }
 
-// A factor on the same palette is one q for the component; two components would need
-// their floats compared.
-bool one_factor_on_the_emission_palette(const Frame& frame) {
-  return frame.components.size() == 1 && all_of_kind(frame, Kind::factor);
+// 0.6 / 0.2 is 3, whatever divisions round to: pictures err by as little.
+bool is_same_source(double a, double b) {
+  constexpr double roundings = 1e-14;
+  return std::abs(a - b) <= roundings * std::max(a, b);
+}
+
+// The one E / A of all components.
+std::optional<double> common_source(const Frame& frame) {
+  std::optional<double> common;
+  for (const DrawnComponent& component : frame.components) {
+    const std::optional<double> source = source_of_all(component);
+    if (!source || (common && !is_same_source(*common, *source))) return std::nullopt;
+    if (!common) common = source;
+  }
+  return common;
 }
 
 // Between two knots of both palettes E and A are linear, so E / A is largest at a knot.
@@ -46,13 +64,9 @@ double brightest_quotient(const Palette& palette) {
 LightStructure find_light_structure(const Frame& frame) {
   if (all_of_kind(frame, Kind::none)) return {LightPlan::emission, {1, 1, 1}};
   LightStructure structure;
-  if (any_own_absorption_colors(frame)) return structure;
-  if (all_of_kind(frame, Kind::as_emission)) {
+  if (const std::optional<double> source = common_source(frame)) {
     structure.light = LightPlan::proportional;
-  } else if (one_factor_on_the_emission_palette(frame)) {
-    const DrawnComponent& component = frame.components.front();
-    structure.light = LightPlan::proportional;
-    structure.source.fill(component.brightness / component.absorption.factor);
+    structure.source.fill(*source);
   }
   return structure;
 }

@@ -96,10 +96,15 @@ TEST_F(FrameDrawing, StoresPicturesAsTheSceneSays) {
   const ImageFileOptions usual = image_file_options(scene({"image.gamma=2"}));
   EXPECT_EQ(usual.gamma, 2);
   EXPECT_FALSE(usual.truncates);
+  EXPECT_TRUE(usual.dithers);
+  EXPECT_FALSE(usual.bits);
+  EXPECT_EQ(image_file_options(scene({"image.bits=16"})).bits, 16);
+  EXPECT_FALSE(image_file_options(scene({"image.dither=false"})).dithers);
   EXPECT_EQ(usual.metadata.count("splotchcl:version"), 1U);
   const Scene original = scene({"image.convention=original"});
   const ImageFileOptions options = image_file_options(original, {{"splotchcl:frame", "7"}});
   EXPECT_TRUE(options.truncates);
+  EXPECT_FALSE(options.dithers);
   EXPECT_EQ(options.metadata.at("splotchcl:frame"), "7");
 }
 

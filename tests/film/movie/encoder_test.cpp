@@ -82,6 +82,31 @@ TEST_F(FakeEncoder, ThatFailsSaysWhy) {
   EXPECT_TRUE(left_nothing());
 }
 
+TEST_F(FakeEncoder, WithoutTenBitsIsRefusedBeforeAnythingIsDrawn) {
+  make_ffmpeg("echo Supported pixel formats: yuv420p yuv444p");
+  MovieSettings settings;
+  settings.bits = 10;
+  EXPECT_THAT([&] { check_film(folder_ / "film.mp4", settings, 64, 48); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("movie.bits")));
+}
+
+TEST(RealEncoder, MakesAFilmOfTenBits) {
+  if (std::system("ffmpeg -hide_banner -h encoder=libx265 | grep -q yuv420p10le") != 0)
+    GTEST_SKIP() << "no ffmpeg, or none with 10 bits";
+  const testing::TemporaryFolder folder;
+  MovieSettings settings;
+  settings.bits = 10;
+  settings.codec = Codec::h265;
+  check_film(folder / "film.mp4", settings, 64, 48);
+  Encoder encoder(folder / "film.mp4", settings, 64, 48);
+  for (int i = 0; i < 3; ++i)
+    encoder.add(std::vector<std::uint8_t>(6 * 64 * 48));
+  encoder.finish();
+  const std::string probe =
+      "ffmpeg -hide_banner -i " + (folder / "film.mp4").string() + " 2>&1 | grep -q yuv420p10le";
+  EXPECT_EQ(std::system(probe.c_str()), 0);
+}
+
 TEST(RealEncoder, MakesAFilmWhoseNameLooksLikeAnAddress) {
   if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
   const testing::TemporaryFolder folder;

@@ -62,8 +62,27 @@ TEST(Plan, NeedsNoOrderWhereOneComponentAbsorbsAFactorOfWhatItEmits) {
   EXPECT_EQ(plan.source, (std::array<double, 3>{0.75, 0.75, 0.75}));
 }
 
-TEST(Plan, NeverComparesTheFactorsOfTwoComponents) {
-  EXPECT_EQ(light_of({component(Kind::factor, 4), component(Kind::factor, 4)}), LightPlan::ordered);
+TEST(Plan, NeedsNoOrderWhereAllComponentsHaveTheSameSource) {
+  DrawnComponent gas = component(Kind::factor, 4);
+  gas.brightness = 12;
+  DrawnComponent dust = component(Kind::factor, 0.2);
+  dust.brightness = 0.6;  // 0.6 / 0.2 is not quite 3 in binary digits
+  const FramePlan plan = make_plan(frame_of({gas, dust}));
+  EXPECT_EQ(plan.light, LightPlan::proportional);
+  EXPECT_EQ(plan.source, (std::array<double, 3>{3, 3, 3}));
+}
+
+TEST(Plan, NeedsNoOrderWhereAFactorIsWhatIsEmitted) {
+  DrawnComponent gas = component(Kind::factor, 4);
+  gas.brightness = 4;
+  EXPECT_EQ(light_of({gas, component(Kind::as_emission)}), LightPlan::proportional);
+}
+
+TEST(Plan, OrdersComponentsOfDifferentSources) {
+  EXPECT_EQ(light_of({component(Kind::factor, 4), component(Kind::factor, 4.0001)}),
+            LightPlan::ordered);
+  EXPECT_EQ(light_of({component(Kind::factor, 4), component(Kind::as_emission)}),
+            LightPlan::ordered);
 }
 
 TEST(Plan, OrdersWhatEmitsAndAbsorbsByItsOwnColors) {

@@ -1,0 +1,92 @@
+// What files of whole numbers store of light.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "image/blue_noise.h"
+#include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl {
+namespace {
+
+// Where on the tile of blue noise a pixel lies.
+class DitherPlaces {
+ public:
+  DitherPlaces(const PixelPlaces& places, const Image& image)
+      : places_(places),
+        width_(places.width > 0 ? places.width : std::max(1, image.width)),
+        height_(places.height > 0 ? places.height : std::max(1, image.height)) {}
+
+  // Between 0 and 1, neither of which it is: whole numbers and their roundings stay.
+  float threshold(std::size_t x, std::size_t y) const {
+    const std::size_t column = along(places_.left, x, width_), row = along(places_.top, y, height_);
+    const auto rank = static_cast<float>(blue_noise_ranks[row * blue_noise_side + column]);
+    return (rank + 0.5F) / static_cast<float>(blue_noise_ranks.size());
+  }
+
+ private:
+  static std::size_t along(int first, std::size_t place, int length) {
+    return (static_cast<std::size_t>(first) + place % static_cast<std::size_t>(length)) %
+           blue_noise_side;
+  }
+
+  PixelPlaces places_;
+  int width_, height_;
+};
+
+[[noreturn]] void refuse_not_a_number(const std::filesystem::path& path, const Image& image,
+                                      std::size_t pixel, int bits) {
+  const auto width = static_cast<std::size_t>(image.width);
+  throw DataError(path.string() + ": the picture is not a number at pixel " +
+                  std::to_string(pixel % width) + "," + std::to_string(pixel / width) + ", which " +
+                  std::to_string(bits) + " bits cannot hold; an .exr file can");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
+                                        const ImageFileOptions& options) {
+  const std::size_t pixels = image.pixels.size() / 4;
+  std::vector<std::uint8_t> bytes(3 * pixels);
+  const auto exponent = static_cast<float>(1 / options.gamma);
+  const bool dithers = options.dithers && !options.truncates;
+  const float scale = options.truncates ? 256 : 255;
+  const DitherPlaces places(options.places, image);
+  const auto width = static_cast<std::size_t>(std::max(1, image.width));
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    float added = options.truncates ? 0 : 0.5F;
+    if (dithers) added = places.threshold(pixel % width, pixel / width);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const float value = image.pixels[4 * pixel + channel];
+      if (std::isnan(value)) refuse_not_a_number(path, image, pixel, 8);
+      const float clamped = std::clamp(value, 0.0F, 1.0F);
+      const float displayed = exponent == 1 ? clamped : std::pow(clamped, exponent);
+      const float stored = std::min(scale * displayed + added, 255.0F);
+      bytes[3 * pixel + channel] = static_cast<std::uint8_t>(stored);
+    }
+  }
+  return bytes;
+}
+
+std::vector<std::uint16_t> display_words(const std::filesystem::path& path, const Image& image,
+                                         const ImageFileOptions& options) {
+  const std::size_t pixels = image.pixels.size() / 4;
+  std::vector<std::uint16_t> words(3 * pixels);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const float value = image.pixels[4 * pixel + channel];
+      if (std::isnan(value)) refuse_not_a_number(path, image, pixel, 16);
+      // In double precision, since a float's last digit is a 256th of the last bit.
+      const double clamped = std::clamp(static_cast<double>(value), 0.0, 1.0);
+      const double displayed = options.gamma == 1 ? clamped : std::pow(clamped, 1 / options.gamma);
+      words[3 * pixel + channel] = static_cast<std::uint16_t>(65535 * displayed + 0.5);
+    }
+  }
+  return words;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,95 @@
+#include <png.h>
+
+#include <csetjmp>
+#include <cstddef>
+#include <exception>
+#include <string>
+
+#include "image/png_file.h"
+#include "splotchcl/error.h"
+
+// libpng's simple interface, which png_file.cpp uses, takes 16 bits for linear light.
+namespace splotchcl {
+namespace {
+
+// What libpng writes to, and what it says of its failures.
+struct MemoryFile {
+  std::vector<unsigned char> bytes;
+  std::string problem;
+};
+
+// libpng is written in C: no exception passes it, and it goes on after a failure by a jump.
+[[noreturn]] void fail(png_structp png, png_const_charp message) {
+  auto& file = *static_cast<MemoryFile*>(png_get_error_ptr(png));
+  if (file.problem.empty()) file.problem = message;
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+void write_bytes(png_structp png, png_bytep from, png_size_t count) {
+  auto& file = *static_cast<MemoryFile*>(png_get_io_ptr(png));
+  bool is_full = false;
+  try {
+    file.bytes.insert(file.bytes.end(), from, from + count);
+  } catch (const std::exception&) {
+    is_full = true;
+  }
+  if (is_full) png_error(png, "out of memory");
+}
+
+void flush_nothing(png_structp) {}
+
+// Nothing with a destructor is made here: a jump would pass it by. False: it failed.
+bool write(png_structp png, png_infop info, int width, int height, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  constexpr int fast = 3;  // as the simple interface has it
+  png_set_compression_level(png, fast);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 16,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, info);
+  png_write_image(png, rows);
+  png_write_end(png, info);
+  return true;
+}
+
+// The upper byte first.
+std::vector<unsigned char> as_bytes(const std::vector<std::uint16_t>& words) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(2 * words.size());
+  for (const std::uint16_t word : words) {
+    bytes.push_back(static_cast<unsigned char>(word >> 8));
+    bytes.push_back(static_cast<unsigned char>(word & 0xFF));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_png(const std::filesystem::path& path, int width, int height,
+                                      const std::vector<std::uint16_t>& rgb) {
+  std::vector<unsigned char> bytes = as_bytes(rgb);
+  std::vector<png_bytep> rows;
+  for (int row = 0; row < height; ++row)
+    rows.push_back(bytes.data() +
+                   6 * static_cast<std::size_t>(width) * static_cast<std::size_t>(row));
+  MemoryFile file;
+  bool is_written = false;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &file, fail, ignore_warning);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  if (info != nullptr) {
+    png_set_write_fn(png, &file, write_bytes, flush_nothing);
+    is_written = write(png, info, width, height, rows.data());
+  }
+  png_destroy_write_struct(&png, &info);
+  if (!is_written) {
+    throw DataError(path.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
+                    " pixels of 16 bits cannot be stored as .png: " +
+                    (file.problem.empty() ? "out of memory" : file.problem));
+  }
+  return std::move(file.bytes);
+}
+
+}  // namespace splotchcl

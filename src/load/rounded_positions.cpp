@@ -1,0 +1,49 @@
+#include "load/rounded_positions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace splotchcl {
+namespace {
+
+constexpr double too_coarse = 0.1;  // of h
+
+// Between neighbouring floats about as large as the offset, along its longest axis.
+double spacing_at(const float* offset) {
+  const float largest = std::max({std::abs(offset[0]), std::abs(offset[1]), std::abs(offset[2])});
+  if (!std::isfinite(largest)) return 0;  // counted as bad elsewhere
+  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::max()) - largest);
+}
+
+}  // namespace
+
+std::optional<std::string> tell_rounded_positions(const DrawnComponent& component) {
+  const Particles& particles = component.particles;
+  const auto& origin = particles.origin.a;
+  if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return std::nullopt;
+  std::uint64_t count = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    const float offset[3] = {particles.position[3 * i], particles.position[3 * i + 1],
+                             particles.position[3 * i + 2]};
+    const double h = component.size_factor * static_cast<double>(particles.smoothing_length[i]);
+    if (!(h > 0)) continue;
+    const double part = spacing_at(offset) / h;
+    if (!(part > too_coarse)) continue;
+    ++count;
+    worst = std::max(worst, part);
+  }
+  if (count == 0) return std::nullopt;
+  return fmt::format(
+      "component {}: {} of {} particles lie so far from the others that single precision rounds "
+      "their positions to more than {} of their smoothing length, at worst {:.2g}; objects far "
+      "apart keep their shapes in snapshots of their own",
+      component.name, count, particles.count, too_coarse, worst);
+}
+
+}  // namespace splotchcl
