@@ -147,6 +147,10 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   EXPECT_EQ(size_on_device(Specialization::sort(), "SortParameters"),
             sizeof(shared::SortParameters));
   EXPECT_EQ(size_on_device(Specialization::sort(), "KeyBits"), sizeof(shared::KeyBits));
+  const ProgramSource between = Specialization::interpolate(true);
+  EXPECT_EQ(size_on_device(between, "InterpolateParameters"),
+            sizeof(shared::InterpolateParameters));
+  EXPECT_EQ(size_on_device(between, "PathParameters"), sizeof(shared::PathParameters));
 }
 
 }  // namespace
