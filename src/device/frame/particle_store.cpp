@@ -148,10 +148,12 @@ ParticleBuffers ParticleStore::get(const Particles& particles) {
   buffers.intensity = buffer_of(particles.intensity, 1, buffers.intensity_stride);
   buffers.sort_field = buffer_of(particles.sort_field, 0, buffers.sort_stride);
   buffers.own_color = buffer_of(particles.color_vector, 1, buffers.own_color_stride);
+  if (columns_stay_) buffers.boxes = boxes_.find(device_, particles, buffers, frame_);
   return buffers;
 }
 
 void ParticleStore::end_frame() {
+  boxes_.forget_all_but(frame_);
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     if (entry->second.frame == frame_) {
       ++entry;

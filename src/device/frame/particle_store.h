@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "between/interpolated_column.h"
+#include "device/frame/block_boxes.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/particles.h"
 
@@ -18,6 +19,7 @@ struct ParticleBuffers {
   compute::buffer position, smoothing_length, weight, color, intensity, sort_field, own_color;
   int smoothing_length_stride = 0, weight_stride = 0, color_stride = 0, intensity_stride = 0,
       sort_stride = 0, own_color_stride = 0;
+  const BlockBoxes::Boxes* boxes = nullptr;  // until the frame ends; none in a first frame
 };
 
 // Keeps columns on the device from frame to frame: a second frame of the same data moves
@@ -25,7 +27,9 @@ struct ParticleBuffers {
 // made on the device from theirs, which stay as long as frames between them are drawn.
 class ParticleStore {
  public:
-  explicit ParticleStore(DeviceContext& device) : device_(device) {}
+  // `columns_stay` as in RendererOptions.
+  explicit ParticleStore(DeviceContext& device, bool columns_stay = false)
+      : device_(device), columns_stay_(columns_stay) {}
 
   ParticleBuffers get(const Particles& particles);
   // Bytes on the device, without those that lie in the caller's memory.
@@ -65,8 +69,10 @@ class ParticleStore {
   Entry new_or_stale(Kind kind, std::size_t bytes);
 
   DeviceContext& device_;
+  bool columns_stay_;
   std::map<Key, Entry> entries_;
   std::map<float, compute::buffer> constants_;
+  BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;
 };
