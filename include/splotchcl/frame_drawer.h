@@ -25,6 +25,7 @@ struct FrameDrawerOptions {
   std::function<void(const std::string& what, double fraction)> progress;
   bool certify = false;  // as in RendererOptions
   CompositeShape shape = CompositeShape::automatic;
+  bool columns_stay = false;  // as in RendererOptions: not for arrays that change in place
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

@@ -9,6 +9,17 @@
 
 namespace splotchcl {
 
+// What makes the values of a column when they are first wanted. Devices make those of the kinds
+// that they know by themselves, to the same bits, so that the host need not.
+class ColumnSource {
+ public:
+  virtual ~ColumnSource() = default;
+  virtual std::size_t size() const = 0;  // values
+  // Values [begin, end); each is the same however it is asked for. Several threads may ask.
+  virtual void make(std::size_t begin, std::size_t end, float* values) const = 0;
+  virtual std::vector<float> make_all() const;
+};
+
 // Values of one quantity: one per particle, one for all, or none at all.
 // The memory may be a vector, a mapped file, or a simulation's own array; whoever
 // owns it is kept alive by the column. Copies are cheap and share the memory.
@@ -33,24 +44,35 @@ class Column {
   // `owner` (may be null for memory that outlives the column) keeps `data` alive.
   Column(std::shared_ptr<const void> owner, const float* data, std::size_t size)
       : owner_(std::move(owner)), data_(data), size_(size), is_array_(true) {}
+  // An array whose values are made when they are first wanted: all at once for data(), one by one
+  // for [], until so many have been that all are made. Copies share them. Several threads may ask.
+  static Column made_by(std::shared_ptr<const ColumnSource> source);
 
   bool is_absent() const { return !is_uniform_ && !is_array_; }
   bool is_uniform() const { return is_uniform_; }
   bool is_array() const { return is_array_; }
   // Of a uniform column.
   float uniform_value() const { return uniform_; }
-  const float* data() const { return data_; }  // of an array, else null
-  std::size_t size() const { return size_; }   // values in the array, 0 otherwise
+  const float* data() const { return is_made_ ? made() : data_; }  // of an array, else null
+  std::size_t size() const { return size_; }  // values in the array, 0 otherwise
   // Value i of an array, else the uniform one; of an absent column 0.
-  float operator[](std::size_t i) const { return is_array_ ? data_[i] : uniform_; }
+  float operator[](std::size_t i) const {
+    return is_made_ ? made(i) : is_array_ ? data_[i] : uniform_;
+  }
+  // Of made_by(), else null.
+  std::shared_ptr<const ColumnSource> source() const;
 
  private:
+  const float* made() const;
+  float made(std::size_t i) const;
+
   std::shared_ptr<const void> owner_;
   const float* data_ = nullptr;
   std::size_t size_ = 0;
   float uniform_ = 0;
   bool is_uniform_ = false;
   bool is_array_ = false;
+  bool is_made_ = false;  // the owner is what makes the values
 };
 
 // The particles of one component: structure of arrays, as the device takes them. Columns are

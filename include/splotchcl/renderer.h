@@ -49,6 +49,10 @@ struct RendererOptions {
   // FrameCheck.
   bool certify = false;
   int slabs = -1;  // PlanOptions, for tests
+  // The values of columns never change while the columns live, as those of files. Blocks of
+  // particles are then looked at once for where they lie, when they are drawn a second time, and
+  // those out of view are not projected. Pictures have the same bits.
+  bool columns_stay = false;
   // Told from part to part of a frame how much of it is drawn, from 0 to 1, once for each time that
   // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
   // is drawn as if nothing had been. Must not use the renderer.
@@ -66,12 +70,21 @@ struct RenderStats {
   std::uint64_t bad_particles = 0;  // left out: as reference::count_bad counts them
   std::uint64_t drawn_particles = 0;
   std::uint64_t tile_entries = 0;  // splats summed over tiles
+  // Blocks of particles that were not projected, since none of them is in view; of data that was
+  // drawn in the frame before.
+  std::uint64_t blocks_left_out = 0;
   // Particles were too sharp for the plan's precision: drawn again in extended precision.
   bool drawn_most_exactly = false;
   std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded
   double build_seconds = 0;        // of the total: compiling kernels, or finding them compiled
   double total_seconds = 0;
   std::vector<StageTime> stages;
+  // What more cores would not shorten, part by part: of each stage the commands that one thread
+  // runs on a processor, `copies` between the host's memory and the device's, and the calling
+  // thread's processor time for `check` (with its share of what several threads do there) and in
+  // the `host` for all else. Commands are timed by the device's clock, which runs on while a busy
+  // machine lets them wait. Where kernels were compiled, `host` is too small.
+  std::vector<StageTime> serial;
   FrameCheck check;
   std::string note;  // what the user should know of the device; empty: nothing
 };

@@ -5,16 +5,16 @@
 // splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
 // the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
 // tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
-// tiles[slot] which they are.
-__kernel void project(const ProjectParameters p, const ExtendedParameters e,
-                      __global const float* positions, __global const float* smoothing_lengths,
-                      __global const float* weights, __global const float* colors,
-                      __global const float* intensities, __global const float* sort_fields,
-                      __global const uint* offsets, __global BlockCounts* counts,
-                      __global Splat* splats, __global uint* keys, __global ushort* key_ends,
-                      __global uint* order,
-                      __global const WidthNeeds* width_needs OWN_COLORS_PARAMETER
-                          EXTENDED_PARAMETERS TILE_PARAMETERS) {
+// tiles[slot] which they are. Of a block that no part of the picture shows, left_out[b] is the
+// number of its bad particles and 1 more, else 0.
+__kernel void project(
+    const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
+    __global const float* smoothing_lengths, __global const float* weights,
+    __global const float* colors, __global const float* intensities,
+    __global const float* sort_fields, __global const uint* offsets, __global BlockCounts* counts,
+    __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
+    __global const WidthNeeds* width_needs,
+    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS TILE_PARAMETERS) {
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);
   const uint block = get_global_id(0);
@@ -28,6 +28,12 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
 #endif
+  if (p.leaves_out_blocks && left_out[block] != 0) {
+    counts[numbered].visible = 0;
+    counts[numbered].bad = left_out[block] - 1;
+    counts[numbered].too_sharp = 0;
+    return;
+  }
 #ifdef OUTPUT_KEYS
   const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
 #endif

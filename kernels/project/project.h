@@ -131,12 +131,20 @@ struct ProjectParameters {
   int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
   int own_color_stride;
   int sort_by_field, sort_descending;
+  int leaves_out_blocks;  // some: left_out says which
 };
 
 // What one block of particles became.
 struct BlockCounts {
   unsigned int visible, bad;
   unsigned int too_sharp;  // for the frame's precision, of all in the whole picture
+};
+
+// What a block of particles is wherever the camera stands (boxes.cl).
+struct BlockBox {
+  float lower[3], upper[3];  // around the good ones; lower > upper where none is
+  float largest_h;
+  unsigned int bad;
 };
 
 // Constants of the projection of one component in extended numbers, beside ProjectParameters:
@@ -163,6 +171,7 @@ typedef struct WideInteger WideInteger;
 typedef struct DepthKeyParameters DepthKeyParameters;
 typedef struct WidthNeeds WidthNeeds;
 typedef struct ProjectParameters ProjectParameters;
+typedef struct BlockBox BlockBox;
 typedef struct BlockCounts BlockCounts;
 typedef struct ExtendedParameters ExtendedParameters;
 #endif

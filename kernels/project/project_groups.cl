@@ -3,17 +3,27 @@
 // the order of the file.
 
 // As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
-// that counts, and counts[0] those of all groups.
+// that counts, and counts[0] those of all groups. left_out[b] is that of a launch's group b.
 __kernel OF_GROUPS void project(
     const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
     __global const float* colors, __global const float* intensities,
     __global const float* sort_fields, __global uint* offsets, __global BlockCounts* counts,
     __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
-    __global const WidthNeeds* width_needs OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
+    __global const WidthNeeds* width_needs,
+    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+  if (p.leaves_out_blocks && left_out[get_group_id(0)] != 0) {
+#ifndef OUTPUT_SPLATS
+    if (item == 0) {
+      offsets[group] = 0;
+      if (left_out[get_group_id(0)] > 1) atomic_add(&counts->bad, left_out[get_group_id(0)] - 1);
+    }
+#endif
+    return;
+  }
   if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = 0;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);

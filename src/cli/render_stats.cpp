@@ -1,6 +1,7 @@
 #include "cli/render_stats.h"
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "common/unfinished_file.h"
 
@@ -31,16 +32,22 @@ Json check_to_json(const FrameCheck& check) {
           {"rest", check.worst.rest}};
 }
 
+double sum_of(const std::vector<StageTime>& times) {
+  return std::accumulate(times.begin(), times.end(), 0.0,
+                         [](double sum, const StageTime& time) { return sum + time.seconds; });
+}
+
 Json seconds_to_json(const RenderReport& report) {
   return {{"read", report.read_seconds},
           {"draw", report.draw_seconds},
+          {"serial", sum_of(report.stats.serial)},
           {"compile", report.stats.build_seconds},
           {"write", report.write_seconds}};
 }
 
-Json stages_to_json(const RenderStats& stats) {
+Json stages_to_json(const std::vector<StageTime>& times) {
   Json stages = Json::array();
-  for (const StageTime& stage : stats.stages) {
+  for (const StageTime& stage : times) {
     stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
   }
   return stages;
@@ -70,19 +77,25 @@ Json to_json(const RenderReport& report) {
           {"particles", particles_to_json(report.stats)},
           {"drawn_most_exactly", report.stats.drawn_most_exactly},
           {"tile_entries", report.stats.tile_entries},
+          {"blocks_left_out", report.stats.blocks_left_out},
           {"device_bytes", report.stats.device_bytes},
           {"seconds", seconds_to_json(report)},
-          {"stages", stages_to_json(report.stats)}};
+          {"stages", stages_to_json(report.stats.stages)},
+          {"serial", stages_to_json(report.stats.serial)}};
 }
 
 Json to_json(const FilmFrameStats& frame) {
-  return {
-      {"frame", frame.frame},
-      {"particles", particles_to_json(frame.stats)},
-      {"tile_entries", frame.stats.tile_entries},
-      {"device_bytes", frame.stats.device_bytes},
-      {"seconds", {{"draw", frame.stats.total_seconds}, {"compile", frame.stats.build_seconds}}},
-      {"stages", stages_to_json(frame.stats)}};
+  return {{"frame", frame.frame},
+          {"particles", particles_to_json(frame.stats)},
+          {"tile_entries", frame.stats.tile_entries},
+          {"blocks_left_out", frame.stats.blocks_left_out},
+          {"device_bytes", frame.stats.device_bytes},
+          {"seconds",
+           {{"draw", frame.stats.total_seconds},
+            {"serial", sum_of(frame.stats.serial)},
+            {"compile", frame.stats.build_seconds}}},
+          {"stages", stages_to_json(frame.stats.stages)},
+          {"serial", stages_to_json(frame.stats.serial)}};
 }
 
 Json to_json(const FilmStats& film) {

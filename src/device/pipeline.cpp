@@ -60,6 +60,7 @@ Planes Pipeline::draw_sums(Planes planes) {
 
 Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   SplatBlocks blocks = project(chunk);
+  counts_.blocks_left_out += blocks.left_out;
   planes = draw_lists(binner_.count(blocks), std::move(planes));
   // Read last: the device has long counted them.
   const ParticleCounts particles = projector_.count(blocks);
@@ -72,6 +73,7 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
 // Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
 Planes Pipeline::draw_ordered(Planes planes) {
   KeyedSplats keyed = project_all();
+  counts_.blocks_left_out = keyed.left_out;
   counts_.visible = keyed.particles.visible;
   counts_.bad = keyed.particles.bad;
   counts_.too_sharp = keyed.particles.too_sharp;

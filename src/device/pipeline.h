@@ -22,8 +22,9 @@ namespace splotchcl {
 struct DrawCounts {
   std::uint64_t particles = 0;  // in the components
   std::uint64_t visible = 0, bad = 0;
-  std::uint64_t too_sharp = 0;     // for the plan's precision
-  std::uint64_t tile_entries = 0;  // splats summed over tiles
+  std::uint64_t too_sharp = 0;        // for the plan's precision
+  std::uint64_t blocks_left_out = 0;  // of particles, out of view
+  std::uint64_t tile_entries = 0;     // splats summed over tiles
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests

@@ -13,6 +13,7 @@
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
+#include "parallel/thread_seconds.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -96,7 +97,7 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 
 struct Renderer::State {
   explicit State(const RendererOptions& options)
-      : device(choose_device(options.device)), particles(device) {
+      : device(choose_device(options.device)), particles(device, options.columns_stay) {
     // The shape decides for all stages: a processor that is asked for groups runs the kernels and
     // the sizes of a GPU.
     if (options.shape != CompositeShape::automatic) {
@@ -120,6 +121,7 @@ struct Renderer::State {
   DeviceContext device;
   ParticleStore particles;
   RenderStats stats;
+  double check_seconds = 0;  // of the frame, by the thread that draws
   PlanOptions plan_options;
   std::function<void(double)> progress;
 };
@@ -127,8 +129,10 @@ struct Renderer::State {
 Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   check_frame(frame);
   const auto start = std::chrono::steady_clock::now();
+  const double host_start = thread_seconds();
   const double built_before = device.programs.build_seconds();
   stats = {};
+  check_seconds = 0;
   stats.device = device.device.name();
   stats.note = device.programs.note();
   device.timer.clear();
@@ -141,9 +145,13 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
   stats.stages = device.timer.times();
   stats.build_seconds = device.programs.build_seconds() - built_before;
-  device.timer.clear();
   stats.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double host_seconds = thread_seconds() - host_start - stats.build_seconds - check_seconds;
+  stats.serial = device.timer.serial_times();
+  stats.serial.push_back({"check", check_seconds});
+  stats.serial.push_back({"host", std::max(0.0, host_seconds)});
+  device.timer.clear();
   return image;
 }
 
@@ -159,9 +167,11 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
       drawn = extend_plan(frame, drawn);
       continue;
     }
+    const double before = thread_seconds();
     picture.certificate = drawn.is_extended()
                               ? certify_extended(picture.image, frame)
                               : certify(splats.collected, picture.image, frame, drawn);
+    check_seconds += thread_seconds() - before;
     note_check(picture.certificate, stats.check);
     if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
     if (drawn.slabs > 0 && mend_in_order(frame, drawn, picture)) {
@@ -205,8 +215,10 @@ Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSpla
   Pipeline pipeline(device, particles, frame, plan, progress);
   Image image = pipeline.draw();
   splats.counts = pipeline.counts();
-  if (splats.counts.too_sharp == 0) splats.collected = pipeline.collected();
   device.queue.finish();
+  const double before = thread_seconds();
+  if (splats.counts.too_sharp == 0) splats.collected = pipeline.collected();
+  check_seconds += thread_seconds() - before;
   return image;
 }
 
@@ -215,6 +227,7 @@ void Renderer::State::note(const DrawCounts& counts) {
   stats.drawn_particles = counts.visible;
   stats.bad_particles = counts.bad;
   stats.tile_entries = counts.tile_entries;
+  stats.blocks_left_out = counts.blocks_left_out;
 }
 
 Renderer::Renderer(const RendererOptions& options) {

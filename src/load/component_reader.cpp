@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "between/interpolated_column.h"
 #include "load/choose_palette.h"
 
 namespace splotchcl {
@@ -12,10 +13,7 @@ namespace {
 void apply_fade(const ComponentFields& fields, Particles& particles) {
   const Column fade = fields.fade();
   if (fade.is_absent()) return;
-  std::vector<float> faded(particles.count);
-  for (std::size_t i = 0; i < faded.size(); ++i)
-    faded[i] = fade[i] * (particles.weight.is_absent() ? 1 : particles.weight[i]);
-  particles.weight = Column::owning(std::move(faded));
+  particles.weight = faded(particles.weight, fade, particles.count);
 }
 
 // Lengths of the snapshot are scaled with it; a fixed size is a length of the scene.

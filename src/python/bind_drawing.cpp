@@ -51,9 +51,11 @@ class Drawer {
 };
 
 py::dict describe(const RenderStats& stats) {
-  py::dict stages;
+  py::dict stages, serial;
   for (const StageTime& stage : stats.stages)
     stages[py::str(stage.stage)] = stage.seconds;
+  for (const StageTime& part : stats.serial)
+    serial[py::str(part.stage)] = part.seconds;
   py::dict text;
   text["device"] = stats.device;
   text["particles"] = stats.particles;
@@ -64,6 +66,7 @@ py::dict describe(const RenderStats& stats) {
   text["build_seconds"] = stats.build_seconds;
   text["total_seconds"] = stats.total_seconds;
   text["stages"] = stages;
+  text["serial"] = serial;
   return text;
 }
 

@@ -44,7 +44,9 @@ inline bool is_bad(const Particles& particles, std::size_t i) {
   const auto is_finite = [i](const Column& column) {
     return column.is_absent() || std::isfinite(column[i]);
   };
-  if (!is_finite_position(particles.position.data() + 3 * i)) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(particles.position[3 * i + axis])) return true;
+  }
   if (!is_smoothing_length(particles.smoothing_length[i])) return true;
   if (!is_finite(particles.weight) || particles.weight[i] < 0) return true;
   if (!particles.color_vector.is_absent()) {

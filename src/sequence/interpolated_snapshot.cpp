@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "between/interpolated_column.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
@@ -47,7 +48,7 @@ InterpolatedSnapshot::InterpolatedSnapshot(std::shared_ptr<const SnapshotPair> p
     : pair_(std::move(pair)), fraction_(fraction) {
   describe_moment();
   for (const auto& [type, match] : pair_->matches)
-    describe_type(type, match);
+    describe_type(type, *match);
 }
 
 void InterpolatedSnapshot::describe_moment() {
@@ -100,25 +101,34 @@ Column InterpolatedSnapshot::read(int type, const std::string& name) const {
 }
 
 Column InterpolatedSnapshot::interpolate(int type, const FieldInfo& field) const {
-  const IdMatch& match = pair_->matches.at(type);
+  const std::shared_ptr<const IdMatch>& match = pair_->matches.at(type);
   if (field.name == "position") {
-    const TypePath& path = pair_->path(type);
-    return interpolate_positions(path.first, path.second, match, fraction_, path.period);
+    return column_between(interpolate_positions(pair_->path(type), match, fraction_));
   }
-  if (field.name == fade_field && field.file_name.empty()) return fade(match, fraction_);
-  const Column first = read_or_nothing(*pair_->first, type, field.name);
-  const Column second = read_or_nothing(*pair_->second, type, field.name);
+  ColumnBetween column;
+  column.match = match;
+  column.fraction = static_cast<float>(fraction_);
+  if (field.name == fade_field && field.file_name.empty()) {
+    column.first = column.second = Column::uniform(1);
+    column.fades = true;
+    column.vanishing = static_cast<float>(1 - fraction_);
+    column.appearing = column.fraction;
+    return column_between(std::move(column));
+  }
+  column.first = read_or_nothing(*pair_->first, type, field.name);
+  column.second = read_or_nothing(*pair_->second, type, field.name);
+  column.values_per_particle = field.values_per_particle;
   // There is nothing between two ids.
-  const double fraction = field.name == "id" ? 0 : fraction_;
-  return interpolate_values(first, second, field.values_per_particle, match, fraction,
-                            is_logarithmic(field.name));
+  if (field.name == "id") column.fraction = 0;
+  if (is_logarithmic(field.name)) column.kind = ColumnBetween::Kind::logarithmic;
+  return column_between(std::move(column));
 }
 
 std::vector<std::uint64_t> InterpolatedSnapshot::read_ids(int type) const {
   require_type(info_, type);
   std::vector<std::uint64_t> ids;
   if (pair_->first->info().find_type(type) != nullptr) ids = pair_->first->read_ids(type);
-  const std::vector<std::uint32_t>& appearing = pair_->matches.at(type).appearing;
+  const std::vector<std::uint32_t>& appearing = pair_->matches.at(type)->appearing;
   if (appearing.empty()) return ids;
   const std::vector<std::uint64_t> of_second = pair_->second->read_ids(type);
   for (const std::uint32_t place : appearing)

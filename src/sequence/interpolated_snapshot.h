@@ -4,7 +4,6 @@
 #include <memory>
 #include <mutex>
 
-#include "sequence/interpolate.h"
 #include "sequence/snapshot_pair.h"
 
 namespace splotchcl {

@@ -51,7 +51,7 @@ void note_strangers(int type, const IdMatch& match, SnapshotPair& pair) {
 void check_tangents(int type, SnapshotPair& pair) {
   constexpr double impossible = 300, doubtful = 2;
   const TypePath& path = pair.path(type);
-  const auto ratio = tangent_ratio(path.first, path.second, pair.matches.at(type), path.period);
+  const auto ratio = tangent_ratio(path, *pair.matches.at(type));
   if (!ratio) return;
   const SnapshotInfo& info = pair.first->info();
   if (*ratio > impossible || *ratio < 1 / impossible) {
@@ -94,8 +94,7 @@ const TypePath& SnapshotPair::path(int type) const {
   path.second = path_end(*second, type, motion ? motion->second_rate : 0);
   const std::optional<double> box = first->info().box_size;
   if (box && *box > 0 && box == second->info().box_size) {
-    path.period = find_periodic_range(*box, path.first.position, path.first.origin,
-                                      path.second.position, path.second.origin);
+    path.period = find_periodic_range(*box, path.first, path.second);
   }
   return paths_[type] = std::move(path);
 }
@@ -128,9 +127,10 @@ std::shared_ptr<const SnapshotPair> make_pair(std::shared_ptr<const SequenceMemb
   }
   std::size_t in_common = 0;
   for (const int type : types) {
-    IdMatch match = match_ids(ids_of(*pair->first, type), ids_of(*pair->second, type));
-    in_common += match.in_common;
-    note_strangers(type, match, *pair);
+    auto match = std::make_shared<const IdMatch>(
+        match_ids(ids_of(*pair->first, type), ids_of(*pair->second, type)));
+    in_common += match->in_common;
+    note_strangers(type, *match, *pair);
     pair->matches.emplace(type, std::move(match));
   }
   if (in_common == 0) refuse_strangers(before, after);

@@ -7,18 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "sequence/interpolate.h"
-#include "sequence/match_ids.h"
+#include "between/id_match.h"
 #include "sequence/motion.h"
 #include "sequence/sequence_member.h"
+#include "sequence/type_path.h"
 
 namespace splotchcl {
-
-// How one type's particles get from one snapshot to the other.
-struct TypePath {
-  PathEnd first, second;
-  std::optional<PeriodicRange> period;
-};
 
 // Two snapshots that follow each other, with their particles matched.
 class SnapshotPair {
@@ -27,8 +21,8 @@ class SnapshotPair {
   const TypePath& path(int type) const;  // read at the first call
 
   std::shared_ptr<const SequenceMember> first, second;
-  std::map<int, IdMatch> matches;  // of every type that either has
-  std::optional<Motion> motion;    // with hermite
+  std::map<int, std::shared_ptr<const IdMatch>> matches;  // of every type that either has
+  std::optional<Motion> motion;                           // with hermite
   std::vector<std::string> notes;
 
  private:

@@ -39,6 +39,15 @@ struct Ahead {
   Pair pair;  // null: not interpolated
 };
 
+// Reads a mapped file's pages, so that no frame waits for them.
+void touch(const Column& column) {
+  constexpr std::size_t values_per_page = 1024;
+  volatile float seen = 0;
+  for (std::size_t i = 0; i < column.size(); i += values_per_page)
+    seen = column[i];
+  static_cast<void>(seen);
+}
+
 // What the last frame needed of a snapshot the next one will need of its neighbour.
 void read_fields(const SequenceMember& member, const std::set<TypeField>& fields) {
   for (const auto& [type, field] : fields) {
@@ -47,7 +56,7 @@ void read_fields(const SequenceMember& member, const std::set<TypeField>& fields
     const bool has_field =
         std::any_of(info->fields.begin(), info->fields.end(),
                     [&name = field](const FieldInfo& f) { return f.name == name; });
-    if (has_field) member.read(type, field);
+    if (has_field) touch(member.read(type, field));
   }
 }
 

@@ -134,6 +134,7 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   EXPECT_EQ(size_on_device(project, "ExtendedSplat"), sizeof(shared::ExtendedSplat));
   EXPECT_EQ(size_on_device(project, "ComponentColors"), sizeof(shared::ComponentColors));
   EXPECT_EQ(size_on_device(project, "BlockCounts"), sizeof(shared::BlockCounts));
+  EXPECT_EQ(size_on_device(project, "BlockBox"), sizeof(shared::BlockBox));
   EXPECT_EQ(size_on_device(project, "Grid"), sizeof(shared::Grid));
   EXPECT_EQ(size_on_device(variant.bin(), "BinParameters"), sizeof(shared::BinParameters));
   EXPECT_EQ(size_on_device(variant.bin(), "Segment"), sizeof(shared::Segment));
@@ -147,6 +148,10 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   EXPECT_EQ(size_on_device(Specialization::sort(), "SortParameters"),
             sizeof(shared::SortParameters));
   EXPECT_EQ(size_on_device(Specialization::sort(), "KeyBits"), sizeof(shared::KeyBits));
+  const ProgramSource between = Specialization::interpolate(true);
+  EXPECT_EQ(size_on_device(between, "InterpolateParameters"),
+            sizeof(shared::InterpolateParameters));
+  EXPECT_EQ(size_on_device(between, "PathParameters"), sizeof(shared::PathParameters));
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ TEST_F(RealSequences, OfTheUniverseAreBetterPredictedWithVelocities) {
 TEST_F(RealSequences, OfTwoGalaxiesMatchEveryParticle) {
   const auto pair = make_pair(open("galaxy_collision/snapshot_000.hdf5"),
                               open("galaxy_collision/snapshot_005.hdf5"), SequenceSettings());
-  EXPECT_EQ(pair->matches.at(1).in_common, 40000U);
-  EXPECT_EQ(pair->matches.at(2).in_common, 20000U);
+  EXPECT_EQ(pair->matches.at(1)->in_common, 40000U);
+  EXPECT_EQ(pair->matches.at(2)->in_common, 20000U);
   EXPECT_TRUE(pair->notes.empty());
 }
 

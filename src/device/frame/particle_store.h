@@ -2,8 +2,12 @@
 
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <memory>
+#include <tuple>
+#include <vector>
 
+#include "between/interpolated_column.h"
+#include "device/frame/block_boxes.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/particles.h"
 
@@ -15,33 +19,60 @@ struct ParticleBuffers {
   compute::buffer position, smoothing_length, weight, color, intensity, sort_field, own_color;
   int smoothing_length_stride = 0, weight_stride = 0, color_stride = 0, intensity_stride = 0,
       sort_stride = 0, own_color_stride = 0;
+  const BlockBoxes::Boxes* boxes = nullptr;  // until the frame ends; none in a first frame
 };
 
 // Keeps columns on the device from frame to frame: a second frame of the same data moves
-// nothing. A column is known by its memory, which it keeps alive.
+// nothing. A column is known by its memory, which it keeps alive. Columns between two snapshots are
+// made on the device from theirs, which stay as long as frames between them are drawn.
 class ParticleStore {
  public:
-  explicit ParticleStore(DeviceContext& device) : device_(device) {}
+  // `columns_stay` as in RendererOptions.
+  explicit ParticleStore(DeviceContext& device, bool columns_stay = false)
+      : device_(device), columns_stay_(columns_stay) {}
 
   ParticleBuffers get(const Particles& particles);
-  // Bytes copied to the device, without those that lie in the caller's memory.
+  // Bytes on the device, without those that lie in the caller's memory.
   std::uint64_t device_bytes() const { return device_bytes_; }
   // Forgets columns that the frame now drawn has not asked for since begin_frame().
   void begin_frame() { ++frame_; }
   void end_frame();
 
  private:
+  enum class Kind {
+    given,    // by the host
+    ordered,  // of a second snapshot, in the order of a pair's particles
+    between,  // two snapshots
+  };
   struct Entry {
-    Column column;
+    std::shared_ptr<const void> owner;  // of the memory that the buffer stands for
     compute::buffer buffer;
     std::uint64_t bytes = 0;
     std::uint64_t frame = 0;
+    Kind kind = Kind::given;
   };
+  // Where it lies and how many bytes it has; of what the device makes, its source and 0; of a
+  // column that it has put in another order, where it lies and the order.
+  using Key = std::tuple<const void*, std::size_t, const IdMatch*>;
+
   compute::buffer buffer_of(const Column& column, float value_if_absent, int& stride);
+  compute::buffer constant(float value);
+  // That of an entry, which is wanted by this frame then; null where there is none.
+  const compute::buffer* find(const Key& key);
+  compute::buffer keep(const Key& key, std::shared_ptr<const void> owner);
+  compute::buffer buffer_of(const std::vector<std::uint32_t>& places,
+                            const std::shared_ptr<const IdMatch>& match);
+  compute::buffer ordered_buffer(const Column& second, int values_per_particle,
+                                 const std::shared_ptr<const IdMatch>& match, int& stride);
+  compute::buffer interpolated_buffer(const std::shared_ptr<const InterpolatedColumn>& column);
+  void require_room(std::size_t bytes) const;
+  Entry new_or_stale(Kind kind, std::size_t bytes);
 
   DeviceContext& device_;
-  std::map<std::pair<const float*, std::size_t>, Entry> entries_;
+  bool columns_stay_;
+  std::map<Key, Entry> entries_;
   std::map<float, compute::buffer> constants_;
+  BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;
 };

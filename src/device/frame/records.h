@@ -28,6 +28,7 @@ struct SplatBlocks {
   Buffer<std::uint32_t> tiles;
   std::uint32_t block_count = 0;
   std::uint32_t stride = 0;
+  std::uint32_t left_out = 0;  // blocks out of view
 };
 
 // What became of particles.
@@ -43,6 +44,7 @@ struct KeyedSplats {
   Buffer<std::uint16_t> key_ends;  // the 16 bits below them; none where a field is the key
   Buffer<std::uint32_t> order;     // 0, 1, 2, ...
   std::uint32_t count = 0;
+  std::uint32_t left_out = 0;  // blocks out of view
   ParticleCounts particles;
 };
 

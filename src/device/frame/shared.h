@@ -13,6 +13,7 @@ namespace splotchcl::shared {
 #include "kernels/bin/bin.h"
 #include "kernels/certify/certify.h"
 #include "kernels/composite/composite.h"
+#include "kernels/interpolate/interpolate.h"
 #include "kernels/project/project.h"
 #include "kernels/resolve/resolve.h"
 #include "kernels/scan/scan.h"
@@ -34,9 +35,12 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 129>);
+static_assert(has_words<ProjectParameters, 130>);
+static_assert(has_words<BlockBox, 8>);
 static_assert(has_words<BlockCounts, 3>);
 static_assert(has_words<ExtendedParameters, 72>);
+static_assert(has_words<InterpolateParameters, 10>);
+static_assert(has_words<PathParameters, 26>);
 static_assert(has_words<SortParameters, 4>);
 static_assert(has_words<KeyBits, 2>);
 static_assert(has_words<GroupSortParameters, 5>);

@@ -139,6 +139,16 @@ std::string Specialization::extended_defines() const {
          define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
 }
 
+ProgramSource Specialization::interpolate(bool rows) {
+  return {define_if(rows, "LANES_8"),
+          {"splat.h", "interpolate.h", "common.cl", "lanes.cl", "interpolate.cl"}};
+}
+
+ProgramSource Specialization::boxes(bool rows, bool vector_colors) {
+  return {define_if(rows, "LANES_8") + define_if(vector_colors, "VECTOR_COLORS"),
+          {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "boxes.cl"}};
+}
+
 ProgramSource Specialization::scan_blocks() {
   return {"", {"splat.h", "project.h", "scan.cl"}};
 }

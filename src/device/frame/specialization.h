@@ -57,7 +57,9 @@ class Specialization {
   static ProgramSource lay_slab();
   ProgramSource certify() const;
   ProgramSource resolve() const;
-  // These are the same for all frames.
+  // These are the same for all frames; rows as the device has them.
+  static ProgramSource interpolate(bool rows);
+  static ProgramSource boxes(bool rows, bool vector_colors);
   static ProgramSource scan_blocks();
   static ProgramSource sort();
   static ProgramSource sort_groups();

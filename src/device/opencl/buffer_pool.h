@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/opencl/opencl.h"
+#include "device/opencl/stage_timer.h"
 
 namespace splotchcl {
 
@@ -53,8 +54,10 @@ class Buffer {
 // in all never exceeds what has been in use at one time.
 class BufferPool {
  public:
-  BufferPool(const compute::context& context, const compute::command_queue& queue)
-      : context_(context), queue_(queue) {}
+  // `timer` is told of what is copied.
+  BufferPool(const compute::context& context, const compute::command_queue& queue,
+             StageTimer& timer)
+      : context_(context), queue_(queue), timer_(timer) {}
   BufferPool(const BufferPool&) = delete;
   BufferPool& operator=(const BufferPool&) = delete;
 
@@ -68,7 +71,8 @@ class BufferPool {
   Buffer<T> upload(const std::vector<T>& values, const char* what) {
     Buffer<T> buffer = get<T>(values.size(), what);
     if (!values.empty()) {
-      queue_.enqueue_write_buffer(buffer.memory(), 0, values.size() * sizeof(T), values.data());
+      timer_.add_copy(queue_.enqueue_write_buffer(buffer.memory(), 0, values.size() * sizeof(T),
+                                                  values.data()));
     }
     return buffer;
   }
@@ -77,7 +81,8 @@ class BufferPool {
   std::vector<T> download(const Buffer<T>& buffer, std::size_t count) {
     std::vector<T> values(count);
     if (count > 0) {
-      queue_.enqueue_read_buffer(buffer.memory(), 0, count * sizeof(T), values.data());
+      timer_.add_copy(
+          queue_.enqueue_read_buffer(buffer.memory(), 0, count * sizeof(T), values.data()));
     }
     return values;
   }
@@ -94,6 +99,7 @@ class BufferPool {
 
   compute::context context_;
   compute::command_queue queue_;
+  StageTimer& timer_;
   std::vector<compute::buffer> free_;
   std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free
   std::uint64_t most_used_bytes_ = 0, peak_bytes_ = 0;

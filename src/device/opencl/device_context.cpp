@@ -8,6 +8,6 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       queue(context, chosen, compute::command_queue::enable_profiling),
       traits(traits_of(chosen)),
       programs(context),
-      pool(context, queue) {}
+      pool(context, queue, timer) {}
 
 }  // namespace splotchcl

@@ -24,8 +24,8 @@ struct DeviceContext {
   compute::command_queue queue;  // in order
   DeviceTraits traits;
   ProgramCache programs;
-  BufferPool pool;
   StageTimer timer;
+  BufferPool pool;
   std::vector<LaunchRecord>* launches = nullptr;  // takes all launches, where there is one
 };
 

@@ -1,5 +1,7 @@
 #include "device/opencl/launch.h"
 
+#include <algorithm>
+
 namespace splotchcl {
 namespace {
 
@@ -11,8 +13,10 @@ std::size_t round_up(std::size_t value, std::size_t step) {
 
 void Launch::enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local) {
   if (device_.launches != nullptr) note(dimensions, global, local);
+  const bool is_one_group = std::equal(global, global + dimensions, local);
   device_.timer.add(
-      stage_, device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local));
+      stage_, device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local),
+      is_one_group ? StageTimer::Kind::serial : StageTimer::Kind::parallel);
 }
 
 void Launch::note(std::size_t dimensions, const std::size_t* global,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "device/opencl/opencl.h"
@@ -12,13 +11,30 @@ namespace splotchcl {
 // Adds up the device's own times of the commands of each stage.
 class StageTimer {
  public:
-  void add(const char* stage, const compute::event& event) { events_.emplace_back(stage, event); }
+  // What several cores may share, or not: on a processor a fill or a copy is one thread's work.
+  enum class Kind { parallel, serial, copy };
+
+  void add(const char* stage, const compute::event& event, Kind kind) {
+    commands_.push_back({stage, event, kind});
+  }
+  // Between the host's memory and the device's: of no stage.
+  void add_copy(const compute::event& event) { add("copies", event, Kind::copy); }
   // Call when the queue has finished: stages in the order of their first command.
   std::vector<StageTime> times() const;
-  void clear() { events_.clear(); }
+  // Of commands that one thread runs, likewise.
+  std::vector<StageTime> serial_times() const;
+  void clear() { commands_.clear(); }
 
  private:
-  std::vector<std::pair<const char*, compute::event>> events_;
+  struct Command {
+    const char* stage;
+    compute::event event;
+    Kind kind;
+  };
+  template <class IsCounted>
+  std::vector<StageTime> sum(IsCounted is_counted) const;
+
+  std::vector<Command> commands_;
 };
 
 }  // namespace splotchcl

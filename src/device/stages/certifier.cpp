@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 
 namespace splotchcl {
@@ -116,10 +117,7 @@ void Certifier::start() {
   const std::uint64_t floats =
       std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile;
   cells_ = context_.device.pool.get<float>(floats, "peak cells");
-  const cl_float zero = 0;
-  context_.device.timer.add(
-      "certify", context_.device.queue.enqueue_fill_buffer(cells_.memory(), &zero, sizeof(zero), 0,
-                                                           floats * sizeof(float)));
+  clear_memory(context_.device, "certify", cells_.memory(), 0, floats * sizeof(float));
   has_started_ = true;
 }
 

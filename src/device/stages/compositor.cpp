@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 
 namespace splotchcl {
@@ -35,11 +36,7 @@ void Compositor::clear_grid(std::size_t g, Planes& planes) const {
   const std::size_t first =
       grid.first_float_low | (static_cast<std::size_t>(grid.first_float_high) << 32);
   const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
-  const cl_float zero = 0;
-  DeviceContext& device = context_.device;
-  device.timer.add("composite",
-                   device.queue.enqueue_fill_buffer(planes.light.memory(), &zero, sizeof(zero),
-                                                    4 * first, 4 * floats));
+  clear_memory(context_.device, "composite", planes.light.memory(), 4 * first, 4 * floats);
   planes.used_grids |= 1u << g;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 #include "device/stages/binner.h"
 
@@ -77,10 +78,7 @@ void GroupBinner::count(CountedSplats& counted) const {
   const std::uint64_t counters = 2 * std::uint64_t{counted.parameters.tile_count};
   counted.tiles_of_slots = device.pool.get<shared::SplatTiles>(slots, "tiles of splats");
   counted.tile_counts = device.pool.get<std::uint32_t>(counters, "tile counts");
-  const cl_uint zero = 0;
-  device.timer.add(
-      "bin", device.queue.enqueue_fill_buffer(counted.tile_counts.memory(), &zero, sizeof(zero), 0,
-                                              counters * sizeof(std::uint32_t)));
+  clear_memory(device, "bin", counted.tile_counts.memory(), 0, counters * sizeof(std::uint32_t));
   Launch(device, "bin", program_.create_kernel("bin_find_tiles"))
       .value(parameters)
       .arg(context_.grids)

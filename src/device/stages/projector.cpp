@@ -1,5 +1,9 @@
 #include "device/stages/projector.h"
 
+#include <algorithm>
+
+#include "device/frame/view_bounds.h"
+#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
@@ -19,10 +23,13 @@ std::uint32_t block_count(const shared::ProjectParameters& parameters) {
 // Of all groups, added up on the device.
 Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
   Buffer<shared::BlockCounts> counts = device.pool.get<shared::BlockCounts>(1, "counts of splats");
-  const cl_uint zero = 0;
-  device.timer.add("project", device.queue.enqueue_fill_buffer(counts.memory(), &zero, sizeof(zero),
-                                                               0, sizeof(shared::BlockCounts)));
+  clear_memory(device, "project", counts.memory(), 0, sizeof(shared::BlockCounts));
   return counts;
+}
+
+std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
+  return static_cast<std::uint32_t>(
+      std::count_if(blocks.begin(), blocks.end(), [](std::uint32_t block) { return block != 0; }));
 }
 
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
@@ -101,9 +108,26 @@ SplatMemory Projector::splat_memory(std::uint64_t splats) const {
   return memory;
 }
 
-void Projector::launch(ProjectOutput output, const shared::ProjectParameters& parameters,
-                       const ParticleBuffers& particles, const Targets& targets) const {
+std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParameters& parameters,
+                                                      const ParticleBuffers& particles) const {
+  if (particles.boxes == nullptr) return {};
+  const DrawnComponent& component = context_.frame.components[parameters.component];
+  const ViewBounds bounds(context_.frame, component, parameters);
+  const std::size_t first = parameters.first_particle / parameters.block_particles;
+  std::vector<std::uint32_t> blocks(block_count(parameters));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const shared::BlockBox& box = particles.boxes->at(first + b);
+    if (bounds.leave_out(box)) blocks[b] = box.bad + 1;
+  }
+  return count_left_out(blocks) > 0 ? blocks : std::vector<std::uint32_t>();
+}
+
+void Projector::launch(ProjectOutput output, shared::ProjectParameters parameters,
+                       const ParticleBuffers& particles, const std::vector<std::uint32_t>& left_out,
+                       const Targets& targets) const {
   DeviceContext& device = context_.device;
+  parameters.leaves_out_blocks = !left_out.empty();
+  const Buffer<std::uint32_t> left_out_buffer = device.pool.upload(left_out, "blocks out of view");
   const compute::program program = device.programs.get(context_.specialization.project(output));
   Launch launch(device, "project", program.create_kernel("project"));
   const DrawnComponent& component = context_.frame.components[parameters.component];
@@ -121,7 +145,8 @@ void Projector::launch(ProjectOutput output, const shared::ProjectParameters& pa
       .arg(targets.keys)
       .arg(targets.key_ends)
       .arg(targets.order)
-      .arg(width_needs_);
+      .arg(width_needs_)
+      .arg(left_out_buffer);
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   if (context_.specialization.is_extended()) {
     launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
@@ -154,9 +179,11 @@ SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
   blocks.splats = splat_memory(blocks.stride);
   const auto offsets = pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
   const Targets targets = {offsets, blocks.counts, blocks.splats, unused_, unused_ends_, unused_};
-  launch(ProjectOutput::counts, parameters, particles, targets);
+  const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
+  blocks.left_out = count_left_out(left_out);
+  launch(ProjectOutput::counts, parameters, particles, left_out, targets);
   scan_->scan("project", offsets, groups);
-  launch(ProjectOutput::splats, parameters, particles, targets);
+  launch(ProjectOutput::splats, parameters, particles, left_out, targets);
   return blocks;
 }
 
@@ -177,7 +204,9 @@ SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
   std::vector<std::uint32_t> offsets(blocks.block_count);
   for (std::uint32_t b = 0; b < blocks.block_count; ++b)
     offsets[b] = b * blocks.stride;
-  launch(ProjectOutput::splats, parameters, particles,
+  const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
+  blocks.left_out = count_left_out(left_out);
+  launch(ProjectOutput::splats, parameters, particles, left_out,
          {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_,
           unused_ends_, unused_, &blocks});
   return blocks;
@@ -190,21 +219,24 @@ ParticleCounts Projector::count(const SplatBlocks& blocks) const {
 KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
   DeviceContext& device = context_.device;
   std::vector<shared::ProjectParameters> components;
+  std::vector<std::vector<std::uint32_t>> left_out;
+  KeyedSplats keyed;
   std::uint32_t blocks = 0;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
     components.push_back(parameters_for({c, 0, static_cast<std::uint32_t>(count)}, particles[c]));
     components.back().first_block = blocks;
     blocks += block_count(components.back());
+    left_out.push_back(left_out_blocks(components.back(), particles[c]));
+    keyed.left_out += count_left_out(left_out.back());
   }
-  KeyedSplats keyed;
   if (blocks == 0) return keyed;
   const auto counts =
       scan_ ? no_counts(device) : device.pool.get<shared::BlockCounts>(blocks, "block counts");
   const auto offsets = device.pool.get<std::uint32_t>(blocks + 1, "block offsets");
   const auto pass = [&](ProjectOutput output, const Targets& targets) {
     for (std::size_t c = 0; c < components.size(); ++c)
-      launch(output, components[c], particles[c], targets);
+      launch(output, components[c], particles[c], left_out[c], targets);
   };
   pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
   scan_counts(blocks, counts, offsets);

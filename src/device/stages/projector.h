@@ -36,8 +36,13 @@ class Projector {
   SplatMemory splat_memory(std::uint64_t splats) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;
-  void launch(ProjectOutput output, const shared::ProjectParameters& parameters,
-              const ParticleBuffers& particles, const Targets& targets) const;
+  // Per block of the launch: 0, or out of view and how many of it are bad, and 1; or nothing, where
+  // all are projected.
+  std::vector<std::uint32_t> left_out_blocks(const shared::ProjectParameters& parameters,
+                                             const ParticleBuffers& particles) const;
+  void launch(ProjectOutput output, shared::ProjectParameters parameters,
+              const ParticleBuffers& particles, const std::vector<std::uint32_t>& left_out,
+              const Targets& targets) const;
 
   const StageContext& context_;
   const Buffer<shared::WidthNeeds> width_needs_;

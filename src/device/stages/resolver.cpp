@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 #include "scene/plan/blur_filter.h"
 #include "splotchcl/frame_check.h"
@@ -160,12 +161,8 @@ SlabLight Resolver::start_slabs() const {
   // Rows of eight may reach beyond the last plane.
   slab.before = context_.device.pool.get<float>(floats + 8, "planes before a slab");
   slab.errors = context_.device.pool.get<float>(eights, "errors of slabs");
-  const cl_float zero = 0;
-  for (const Buffer<float>* buffer : {&slab.before, &slab.errors}) {
-    context_.device.timer.add(
-        "resolve", context_.device.queue.enqueue_fill_buffer(buffer->memory(), &zero, sizeof(zero),
-                                                             0, buffer->size() * sizeof(float)));
-  }
+  for (const Buffer<float>* buffer : {&slab.before, &slab.errors})
+    clear_memory(context_.device, "resolve", buffer->memory(), 0, buffer->size() * sizeof(float));
   return slab;
 }
 
@@ -231,8 +228,8 @@ Image Resolver::resolve(Planes light) const {
   } else {
     const auto pixels = context_.device.pool.get<float>(image.pixels.size(), "image");
     write_pixels(planes, pixels.memory());
-    context_.device.queue.enqueue_read_buffer(
-        pixels.memory(), 0, image.pixels.size() * sizeof(float), image.pixels.data());
+    context_.device.timer.add_copy(context_.device.queue.enqueue_read_buffer(
+        pixels.memory(), 0, image.pixels.size() * sizeof(float), image.pixels.data()));
   }
   return image;
 }

@@ -22,6 +22,18 @@ void add(const FrameCheck& frame, FrameCheck& total) {
   if (is_worse) total = frame;
 }
 
+void add(const std::vector<StageTime>& frame, std::vector<StageTime>& total) {
+  for (const StageTime& stage : frame) {
+    const auto known = std::find_if(total.begin(), total.end(),
+                                    [&](const StageTime& s) { return s.stage == stage.stage; });
+    if (known == total.end()) {
+      total.push_back(stage);
+    } else {
+      known->seconds += stage.seconds;
+    }
+  }
+}
+
 // The frames of one picture share their particles.
 void add(const RenderStats& frame, RenderStats& total) {
   total.device = frame.device;
@@ -30,20 +42,14 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.bad_particles = std::max(total.bad_particles, frame.bad_particles);
   total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
   total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
+  total.blocks_left_out += frame.blocks_left_out;
   total.drawn_most_exactly |= frame.drawn_most_exactly;
   total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
   add(frame.check, total.check);
   total.build_seconds += frame.build_seconds;
   total.total_seconds += frame.total_seconds;
-  for (const StageTime& stage : frame.stages) {
-    const auto known = std::find_if(total.stages.begin(), total.stages.end(),
-                                    [&](const StageTime& s) { return s.stage == stage.stage; });
-    if (known == total.stages.end()) {
-      total.stages.push_back(stage);
-    } else {
-      known->seconds += stage.seconds;
-    }
-  }
+  add(frame.stages, total.stages);
+  add(frame.serial, total.serial);
 }
 
 std::optional<std::string> tell_of_bad_particles(const RenderStats& stats) {
@@ -71,6 +77,7 @@ struct FrameDrawer::State {
       of_renderer.device = options.device;
       of_renderer.certify = options.certify;
       of_renderer.shape = options.shape;
+      of_renderer.columns_stay = options.columns_stay;
       of_renderer.progress = [this](double fraction) {
         if (progress) progress("drawing", fraction);
       };

@@ -152,7 +152,11 @@ class Film {
     files_.remove_leftovers(frames);
     if (frames.empty()) return;
     if (!options_.by_reference) status("starting the device");
-    FilmDrawer drawer({options_.device, options_.by_reference, {}}, report_.note);
+    FrameDrawerOptions of_drawer;
+    of_drawer.device = options_.device;
+    of_drawer.by_reference = options_.by_reference;
+    of_drawer.columns_stay = true;
+    FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());
     decide_tone(drawer);
     for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -18,9 +18,12 @@ struct IdMatch {
   // Particles, of both, that share their id with others of their snapshot: which of them is
   // which cannot be told, so they vanish and appear.
   std::size_t ambiguous = 0;
+
+  std::size_t particles() const { return place_in_second.size() + appearing.size(); }
 };
 
-// Sorts both. Up to 2^32 - 1 particles each, else throws DataError.
+// On all cores; the same for any number of them. Up to 2^32 - 2 particles each, else throws
+// DataError.
 IdMatch match_ids(const std::vector<std::uint64_t>& first,
                   const std::vector<std::uint64_t>& second);
 

@@ -1,0 +1,205 @@
+// Columns between two snapshots, bit for bit as src/between/interpolation.cpp has them: one
+// operation after the other, and none that devices round in their own ways. LANES particles at a
+// time.
+#pragma OPENCL FP_CONTRACT OFF
+
+#define NOBODY 0xffffffffu
+
+// Once for all frames of a pair: a column of the second snapshot in the order of the particles
+// between the two. Frames then read memory one after the other.
+__kernel void order_second(const InterpolateParameters p, __global const float* second,
+                           __global const uint* place_in_second, __global const uint* appearing,
+                           __global float* ordered) {
+  const size_t begin = get_global_id(0) * (size_t)p.particles_of_item;
+  const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
+  for (uint i = (uint)min(begin, (size_t)p.particles); i < end; ++i) {
+    const uint place = i < p.in_first ? place_in_second[i] : appearing[i - p.in_first];
+    for (uint k = 0; k < p.width; ++k) {
+      ordered[(size_t)i * p.width + k] =
+          place == NOBODY ? 0.0f : second[(size_t)place * p.width + k];
+    }
+  }
+}
+
+// In which of the snapshots LANES particles are.
+typedef struct MemberLanes {
+  INTEGER in_first, in_second;
+} MemberLanes;
+
+INLINED MemberLanes find_members(uint begin, const InterpolateParameters p,
+                                 __global const uint* place_in_second) {
+  int in_first[LANES], in_second[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    const uint i = begin + k;
+    in_first[k] = i < p.in_first ? -1 : 0;
+    in_second[k] = i >= p.in_first || place_in_second[i] != NOBODY ? -1 : 0;
+  }
+  MemberLanes of;
+  of.in_first = LOAD(in_first);
+  of.in_second = LOAD(in_second);
+  return of;
+}
+
+// Of particles from `begin` on; those at or beyond `end` have the last one's value.
+INLINED VALUE load_component(__global const float* values, uint begin, uint end, uint width,
+                             uint component, int stride) {
+  if (stride == 0 || end == 0) return (VALUE)(values[0]);
+  if (width == 1 && begin + LANES <= end) return LOAD(values + begin);
+  float found[LANES];
+  for (uint k = 0; k < LANES; ++k)
+    found[k] = values[(size_t)min(begin + k, end - 1) * width + component];
+  return LOAD(found);
+}
+
+INLINED void write(VALUE between, uint begin, uint width, uint component, uint particles,
+                   __global float* values) {
+  float found[LANES];
+  STORE(between, found);
+  const uint count = min((uint)LANES, particles - begin);
+  for (uint k = 0; k < count; ++k)
+    values[(size_t)(begin + k) * width + component] = found[k];
+}
+
+inline VALUE mean_of(VALUE a, VALUE b, float fraction) {
+  return choose(a + fraction * (b - a), a, a == b);
+}
+
+inline VALUE log2_of_mantissa(VALUE m) {
+  const VALUE x = m - 1.0f;
+  VALUE p = 0.1292618f;
+  p = p * x - 0.20893268f;
+  p = p * x + 0.21521264f;
+  p = p * x - 0.23867586f;
+  p = p * x + 0.28793907f;
+  p = p * x - 0.36071625f;
+  p = p * x + 0.48091027f;
+  p = p * x - 0.7213472f;
+  p = p * x + 1.442695f;
+  return p * x;
+}
+
+inline VALUE exp2_of_rest(VALUE x) {
+  VALUE p = 0.00015469728f;
+  p = p * x + 0.0013390867f;
+  p = p * x + 0.009618031f;
+  p = p * x + 0.05550357f;
+  p = p * x + 0.2402265f;
+  p = p * x + 0.6931472f;
+  return p * x + 1.0f;
+}
+
+// Of a normal number > 0, as m 2^e with m from sqrt(1/2) to sqrt(2).
+inline INTEGER exponent_of(VALUE value) {
+  return (AS_INTEGER(value) - 0x3f3504f3) >> 23;
+}
+inline VALUE mantissa_of(VALUE value) {
+  return AS_VALUE(((AS_INTEGER(value) - 0x3f3504f3) & 0x007fffff) + 0x3f3504f3);
+}
+
+inline VALUE exact_power_of_two(INTEGER exponent) {
+  return AS_VALUE((exponent + 127) << 23);
+}
+
+inline INTEGER is_normal_and_positive(VALUE value) {
+  return value >= FLT_MIN & value <= FLT_MAX;
+}
+
+INLINED VALUE geometric_mean_of(VALUE any_a, VALUE any_b, float fraction) {
+  const INTEGER has_logarithms = is_normal_and_positive(any_a) & is_normal_and_positive(any_b);
+  const VALUE a = choose((VALUE)(1.0f), any_a, has_logarithms);
+  const VALUE b = choose((VALUE)(1.0f), any_b, has_logarithms);
+  const VALUE octaves =
+      fraction * TO_VALUE(exponent_of(b) - exponent_of(a)) +
+      fraction * (log2_of_mantissa(mantissa_of(b)) - log2_of_mantissa(mantissa_of(a)));
+  const VALUE whole = floor(octaves + 0.5f);
+  const INTEGER steps = TO_INTEGER(whole), part = steps >> 1;
+  const VALUE mean = (a * exp2_of_rest(octaves - whole)) * exact_power_of_two(part) *
+                     exact_power_of_two(steps - part);
+  const VALUE inside = min(max(mean, min(a, b)), max(a, b));
+  return choose(mean_of(any_a, any_b, fraction), inside, has_logarithms);
+}
+
+// Those that vanish and appear have their own.
+inline VALUE of_members(VALUE both, VALUE vanishing, VALUE appearing, const MemberLanes of) {
+  return choose(appearing, choose(vanishing, both, of.in_second), of.in_first);
+}
+
+INLINED VALUE value_between(uint i, const InterpolateParameters p, const MemberLanes of,
+                            uint component, __global const float* first,
+                            __global const float* second) {
+  const VALUE a = load_component(first, i, p.in_first, p.width, component, p.first_stride);
+  const VALUE b = load_component(second, i, p.particles, p.width, component, p.second_stride);
+  const VALUE both =
+      p.logarithmic ? geometric_mean_of(a, b, p.fraction) : mean_of(a, b, p.fraction);
+  return of_members(both, a * p.vanishing, b * p.appearing, of);
+}
+
+// `second` as order_second() has it.
+__kernel void interpolate_values(const InterpolateParameters p, __global const float* first,
+                                 __global const float* second, __global const uint* place_in_second,
+                                 __global float* values) {
+  const size_t begin = get_global_id(0) * (size_t)p.particles_of_item;
+  const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
+  for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
+    const MemberLanes of = find_members(i, p, place_in_second);
+    for (uint k = 0; k < p.width; ++k)
+      write(value_between(i, p, of, k, first, second), i, p.width, k, p.particles, values);
+  }
+}
+
+inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
+  return (x - periods * path.size_high) - periods * path.size_low;
+}
+
+inline VALUE wrapped(VALUE x, uint axis, const PathParameters path) {
+  if (!path.is_periodic) return x;
+  const INTEGER is_inside = x >= path.lower[axis] & x < path.upper[axis];
+  const VALUE moved = less_periods(x, floor((x - path.lower[axis]) * path.inverse_size), path);
+  return choose(moved, x, is_inside);
+}
+
+// The columns that paths follow from; those of the second as order_second() has them.
+typedef struct PathColumns {
+  __global const float *first, *second, *first_velocity, *second_velocity;
+} PathColumns;
+
+INLINED VALUE position_between(uint i, const InterpolateParameters p, const PathParameters path,
+                               const MemberLanes of, uint axis, const PathColumns columns) {
+  const VALUE x = load_component(columns.first, i, p.in_first, 3, axis, p.first_stride);
+  const VALUE y = load_component(columns.second, i, p.particles, 3, axis, p.second_stride);
+  // Without velocities their columns hold one 0.
+  const VALUE m =
+      load_component(columns.first_velocity, i, p.in_first, 3, axis, path.first_velocity_stride) *
+      path.first_rate;
+  const VALUE n = load_component(columns.second_velocity, i, p.particles, 3, axis,
+                                 path.second_velocity_stride) *
+                  path.second_rate;
+  VALUE way = ((y - x) + path.shift_high[axis]) + path.shift_low[axis];
+  if (path.is_periodic) way = less_periods(way, floor(way * path.inverse_size + 0.5f), path);
+  const VALUE moved = path.is_straight ? p.fraction * way
+                                       : (path.of_way * way + path.of_first_tangent * m) +
+                                             path.of_second_tangent * n;
+  const VALUE appeared = (y + path.shift_high[axis]) + path.shift_low[axis];
+  return wrapped(
+      of_members(x + moved, x + path.from_first * m, appeared + path.from_second * n, of), axis,
+      path);
+}
+
+__kernel void interpolate_positions(const InterpolateParameters p, const PathParameters path,
+                                    __global const float* first, __global const float* second,
+                                    __global const float* first_velocity,
+                                    __global const float* second_velocity,
+                                    __global const uint* place_in_second, __global float* values) {
+  PathColumns columns;
+  columns.first = first;
+  columns.second = second;
+  columns.first_velocity = first_velocity;
+  columns.second_velocity = second_velocity;
+  const size_t begin = get_global_id(0) * (size_t)p.particles_of_item;
+  const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
+  for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
+    const MemberLanes of = find_members(i, p, place_in_second);
+    for (uint axis = 0; axis < 3; ++axis)
+      write(position_between(i, p, path, of, axis, columns), i, 3, axis, p.particles, values);
+  }
+}

@@ -1,0 +1,197 @@
+#include "between/interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+// Single precision, one operation after the other, none of which may be joined with another or
+// reordered: kernels/interpolate/interpolate.cl has the same ones, and division, roots and the
+// functions of mathematics, which devices round in their own ways, are not among them.
+namespace splotchcl {
+namespace {
+
+struct Members {
+  std::uint32_t in_first, in_second;  // places, or nobody
+};
+
+Members members_of(const IdMatch& match, std::size_t particle) {
+  const std::size_t in_first = match.place_in_second.size();
+  if (particle >= in_first) return {IdMatch::nobody, match.appearing[particle - in_first]};
+  return {static_cast<std::uint32_t>(particle), match.place_in_second[particle]};
+}
+
+float mean_of(float a, float b, float fraction) {
+  return a == b ? a : a + fraction * (b - a);
+}
+
+// A number as m 2^e with m from sqrt(1/2) to sqrt(2).
+struct Octaves {
+  explicit Octaves(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    const auto from_root = static_cast<std::int32_t>(bits - 0x3f3504f3u);
+    exponent = from_root >> 23;
+    const std::uint32_t rest = (static_cast<std::uint32_t>(from_root) & 0x007fffffu) + 0x3f3504f3u;
+    std::memcpy(&mantissa, &rest, sizeof mantissa);
+  }
+  std::int32_t exponent = 0;
+  float mantissa = 1;
+};
+
+// log2(m), sqrt(1/2) <= m <= sqrt(2): minimax, to 2e-8 beside roundings.
+float log2_of_mantissa(float m) {
+  const float x = m - 1.0F;
+  float p = 0.1292618F;
+  p = p * x - 0.20893268F;
+  p = p * x + 0.21521264F;
+  p = p * x - 0.23867586F;
+  p = p * x + 0.28793907F;
+  p = p * x - 0.36071625F;
+  p = p * x + 0.48091027F;
+  p = p * x - 0.7213472F;
+  p = p * x + 1.442695F;
+  return p * x;
+}
+
+// 2^x, -1/2 <= x <= 1/2: minimax, to 1e-8 beside roundings.
+float exp2_of_rest(float x) {
+  float p = 0.00015469728F;
+  p = p * x + 0.0013390867F;
+  p = p * x + 0.009618031F;
+  p = p * x + 0.05550357F;
+  p = p * x + 0.2402265F;
+  p = p * x + 0.6931472F;
+  return p * x + 1.0F;
+}
+
+// -126 <= exponent <= 127.
+float power_of_two(std::int32_t exponent) {
+  const auto bits = static_cast<std::uint32_t>(exponent + 127) << 23;
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+bool is_normal_and_positive(float value) {
+  return value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max();
+}
+
+float geometric_mean_of(float a, float b, float fraction) {
+  if (!is_normal_and_positive(a) || !is_normal_and_positive(b)) return mean_of(a, b, fraction);
+  if (a == b) return a;
+  const Octaves from(a), to(b);
+  const float octaves =
+      fraction * static_cast<float>(to.exponent - from.exponent) +
+      fraction * (log2_of_mantissa(to.mantissa) - log2_of_mantissa(from.mantissa));
+  const float whole = std::floor(octaves + 0.5F);
+  const auto steps = static_cast<std::int32_t>(whole);
+  // In two steps: their product may be no number by itself.
+  const std::int32_t half = steps >> 1;
+  const float mean =
+      (a * exp2_of_rest(octaves - whole)) * power_of_two(half) * power_of_two(steps - half);
+  return std::min(std::max(mean, std::min(a, b)), std::max(a, b));
+}
+
+float value_between(const ColumnBetween& column, Members of, std::size_t component) {
+  const auto width = static_cast<std::size_t>(column.values_per_particle);
+  if (of.in_first == IdMatch::nobody) {
+    const float value = column.second[of.in_second * width + component];
+    return column.fades ? value * column.appearing : value;
+  }
+  const float a = column.first[of.in_first * width + component];
+  if (of.in_second == IdMatch::nobody) return column.fades ? a * column.vanishing : a;
+  const float b = column.second[of.in_second * width + component];
+  return column.kind == ColumnBetween::Kind::logarithmic ? geometric_mean_of(a, b, column.fraction)
+                                                         : mean_of(a, b, column.fraction);
+}
+
+float periods_in(float way, const PathNumbers& path) {
+  return std::floor(way * path.inverse_size + 0.5F);
+}
+
+float less_periods(float x, float periods, const PathNumbers& path) {
+  return (x - periods * path.size_high) - periods * path.size_low;
+}
+
+// Only what has left the period is moved, so that nothing else is rounded.
+float wrapped(float x, int axis, const PathNumbers& path) {
+  if (!path.is_periodic || (x >= path.lower[axis] && x < path.upper[axis])) return x;
+  return less_periods(x, std::floor((x - path.lower[axis]) * path.inverse_size), path);
+}
+
+float tangent(const Column& velocity, std::size_t place, int axis, float rate) {
+  if (velocity.is_absent()) return 0;
+  return velocity[3 * place + static_cast<std::size_t>(axis)] * rate;
+}
+
+float position_between(const ColumnBetween& column, Members of, int axis) {
+  const PathNumbers& path = column.path;
+  const auto coordinate = [axis](const Column& position, std::size_t place) {
+    return position[3 * place + static_cast<std::size_t>(axis)];
+  };
+  if (of.in_first == IdMatch::nobody) {
+    const float x =
+        (coordinate(column.second, of.in_second) + path.shift_high[axis]) + path.shift_low[axis];
+    const float m = tangent(column.second_velocity, of.in_second, axis, path.second_rate);
+    return wrapped(x + path.from_second * m, axis, path);
+  }
+  const float x = coordinate(column.first, of.in_first);
+  const float m = tangent(column.first_velocity, of.in_first, axis, path.first_rate);
+  if (of.in_second == IdMatch::nobody) return wrapped(x + path.from_first * m, axis, path);
+  float way = ((coordinate(column.second, of.in_second) - x) + path.shift_high[axis]) +
+              path.shift_low[axis];
+  if (path.is_periodic) way = less_periods(way, periods_in(way, path), path);
+  if (path.is_straight) return wrapped(x + column.fraction * way, axis, path);
+  const float n = tangent(column.second_velocity, of.in_second, axis, path.second_rate);
+  const float moved = (path.of_way * way + path.of_first_tangent * m) + path.of_second_tangent * n;
+  return wrapped(x + moved, axis, path);
+}
+
+void set_period(const PathSetting& setting, PathNumbers& path) {
+  if (!setting.period) return;
+  const double size = setting.period->size;
+  path.is_periodic = true;
+  path.size_high = static_cast<float>(size);
+  path.size_low = static_cast<float>(size - static_cast<double>(path.size_high));
+  path.inverse_size = static_cast<float>(1 / size);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double lower = setting.period->lower - setting.first_origin.a[axis];
+    path.lower[axis] = static_cast<float>(lower);
+    path.upper[axis] = static_cast<float>(lower + size);
+  }
+}
+
+}  // namespace
+
+PathNumbers make_path_numbers(const PathSetting& setting, double f) {
+  PathNumbers path;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double shift = setting.second_origin.a[axis] - setting.first_origin.a[axis];
+    path.shift_high[axis] = static_cast<float>(shift);
+    path.shift_low[axis] = static_cast<float>(shift - static_cast<double>(path.shift_high[axis]));
+  }
+  set_period(setting, path);
+  path.first_rate = static_cast<float>(setting.first_rate);
+  path.second_rate = static_cast<float>(setting.second_rate);
+  path.is_straight = setting.is_straight;
+  path.of_way = static_cast<float>(f * f * (3 - 2 * f));
+  path.of_first_tangent = static_cast<float>(f * (1 - f) * (1 - f));
+  path.of_second_tangent = static_cast<float>(f * f * (f - 1));
+  path.from_first = static_cast<float>(f);
+  path.from_second = static_cast<float>(f - 1);
+  return path;
+}
+
+void interpolate(const ColumnBetween& column, std::size_t begin, std::size_t end, float* values) {
+  const auto width = static_cast<std::size_t>(column.values_per_particle);
+  const bool is_position = column.kind == ColumnBetween::Kind::position;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Members of = members_of(*column.match, i / width);
+    const std::size_t component = i % width;
+    values[i - begin] = is_position ? position_between(column, of, static_cast<int>(component))
+                                    : value_between(column, of, component);
+  }
+}
+
+}  // namespace splotchcl

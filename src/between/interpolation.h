@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "between/id_match.h"
+#include "splotchcl/particles.h"
+
+namespace splotchcl {
+
+// One period of positions on every axis, [lower, lower + size), in the true coordinates.
+struct PeriodicRange {
+  double lower = 0;
+  double size = 0;
+};
+
+// The numbers of a path between two snapshots, in single precision: what host and kernels compute
+// with them, they compute bit for bit alike (kernels/interpolate/).
+struct PathNumbers {
+  // What is added to the second's positions to count from the first's origin, as a sum of two.
+  float shift_high[3] = {0, 0, 0}, shift_low[3] = {0, 0, 0};
+  // The period, as a sum of two, and where it begins and ends; is_periodic is false without one.
+  bool is_periodic = false;
+  float size_high = 0, size_low = 0, inverse_size = 0;
+  float lower[3] = {0, 0, 0}, upper[3] = {0, 0, 0};
+  // From stored velocities to tangents: the path's change over the interval.
+  float first_rate = 0, second_rate = 0;
+  // Of a cubic by values and tangents.
+  bool is_straight = true;
+  float of_way = 0, of_first_tangent = 0, of_second_tangent = 0;
+  // For those that vanish and appear: how far along their tangent.
+  float from_first = 0, from_second = 0;
+};
+
+// How a column between two snapshots follows from theirs.
+struct ColumnBetween {
+  enum class Kind {
+    linear,       // a + f (b - a)
+    logarithmic,  // a^(1-f) b^f where both are normal numbers > 0, else linear
+    position,     // along paths
+  };
+
+  std::shared_ptr<const IdMatch> match;
+  Kind kind = Kind::linear;
+  int values_per_particle = 1;  // 1 or 3; of positions 3
+  Column first, second;         // as the snapshots have them; absent where a type is not in one
+  float fraction = 0;           // f, of the way
+  // Particles that vanish or appear are there only in part: their values are multiplied by these.
+  bool fades = false;
+  float vanishing = 1, appearing = 1;
+  // Of positions.
+  Column first_velocity, second_velocity;  // absent: without tangents
+  PathNumbers path;
+};
+
+// What a path's numbers follow from.
+struct PathSetting {
+  Vec3 first_origin = {{0, 0, 0}}, second_origin = {{0, 0, 0}};
+  double first_rate = 0, second_rate = 0;
+  bool is_straight = true;
+  std::optional<PeriodicRange> period;
+};
+PathNumbers make_path_numbers(const PathSetting& setting, double fraction);
+
+// Values [begin, end), those of the first snapshot's particles in its order, then of those that
+// appear. Particles that vanish or appear keep the value that they have, or move on along their
+// tangent.
+void interpolate(const ColumnBetween& column, std::size_t begin, std::size_t end, float* values);
+
+}  // namespace splotchcl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <vector>
+
+#include "device/frame/shared.h"
+#include "device/opencl/device_context.h"
+#include "splotchcl/particles.h"
+
+namespace splotchcl {
+
+struct ParticleBuffers;
+
+// Boxes around the blocks of particles that a projection walks, for leaving out what no camera of a
+// film sees. A single frame is drawn without: they are made when the same particles, whose values
+// stay, are drawn in a second one, and kept as long as frames show them.
+class BlockBoxes {
+ public:
+  using Boxes = std::vector<shared::BlockBox>;
+
+  // Of particles that the device has in `buffers`, one box for each DeviceTraits::project_block of
+  // them; null where there are none. `frame` counts frames.
+  const Boxes* find(DeviceContext& device, const Particles& particles,
+                    const ParticleBuffers& buffers, std::uint64_t frame);
+  // Forgets those that `frame` has not asked for.
+  void forget_all_but(std::uint64_t frame);
+
+ private:
+  struct Known {
+    Particles particles;  // keeps their memory, by which they are known
+    std::uint64_t first_frame = 0, last_frame = 0;
+    Boxes boxes;
+  };
+  std::list<Known> known_;
+};
+
+}  // namespace splotchcl

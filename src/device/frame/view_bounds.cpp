@@ -1,0 +1,91 @@
+#include "device/frame/view_bounds.h"
+
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+
+namespace splotchcl {
+namespace {
+
+// Single precision knows an offset from the camera to a few times 1e-7 of the coordinates it is
+// the difference of, and the projection is three products and sums of that.
+constexpr double rounding = 1e-5;
+// Beyond that coordinates, or their squares, may be no numbers in the kernels.
+constexpr double most = 1e18;
+
+}  // namespace
+
+ViewBounds::ViewBounds(const Frame& frame, const DrawnComponent& component,
+                       const shared::ProjectParameters& p)
+    : camera_(), sigma_per_h_(frame.kernel.width * component.size_factor) {
+  using namespace boost::qvm;
+  const Vec3 camera = frame.camera.position - component.particles.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    camera_[axis] = camera.a[axis];
+  if (is_wide_angle(frame.projection)) return;
+  add_edges(frame, p);
+  add_limits(frame, p);
+}
+
+void ViewBounds::add(const Vec3& normal, double of_sigma, double constant) {
+  planes_.push_back({{normal.a[0], normal.a[1], normal.a[2]}, of_sigma, constant});
+}
+
+// may_be_seen() in kernels/project/splat_lanes.cl, times the depth: a splat at x pixels from the
+// picture's middle, which are f X / Z, is not looked at where x + reach < left.
+void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& p) {
+  using namespace boost::qvm;
+  const CameraFrame& camera = frame.camera;
+  const bool is_perspective = frame.projection != Projection::orthographic;
+  const double f = static_cast<double>(p.pixels_per_length);
+  // In extended precision ten sigma and some roundings are looked at.
+  const double reach = 1.01 * std::max(static_cast<double>(p.reach), 10.0);
+  const double least_sigma = frame.kernel.width * frame.kernel.min_radius_pixels + 1e-5;
+  const double pixels = reach * least_sigma + 6 + 1e-3 * (frame.width + frame.height);
+  const auto edge = [&](const Vec3& across, double center_to_edge) {
+    const double room = center_to_edge + pixels;
+    if (is_perspective) {
+      add(f * across + room * camera.forward, f * reach, 0);
+    } else {
+      add(f * across, f * reach, room);
+    }
+  };
+  const auto number = [](float value) { return static_cast<double>(value); };
+  edge(camera.right, number(p.center_x) - number(p.seen_left));
+  edge(-camera.right, number(p.seen_right_end) - number(p.center_x));
+  edge(camera.down, number(p.center_y) - number(p.seen_top));
+  edge(-camera.down, number(p.seen_bottom) - number(p.center_y));
+}
+
+void ViewBounds::add_limits(const Frame& frame, const shared::ProjectParameters& p) {
+  using namespace boost::qvm;
+  const double nearest = static_cast<double>(p.near_limit);
+  add(frame.camera.forward, 0, 1e-3 * std::abs(nearest) - nearest);
+  const double farthest = static_cast<double>(p.far_limit);
+  if (std::isfinite(farthest)) add(-frame.camera.forward, 0, farthest + 1e-3 * std::abs(farthest));
+}
+
+bool ViewBounds::leave_out(const shared::BlockBox& box) const {
+  if (box.lower[0] > box.upper[0]) return !planes_.empty();  // none is good
+  std::array<double, 3> middle, half;
+  double coordinates = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double lower = static_cast<double>(box.lower[axis]);
+    const double upper = static_cast<double>(box.upper[axis]);
+    middle[axis] = 0.5 * (lower + upper) - camera_[axis];
+    half[axis] = 0.5 * (upper - lower);
+    coordinates += std::abs(camera_[axis]) + std::max(std::abs(lower), std::abs(upper));
+  }
+  if (!(coordinates < most)) return false;
+  const double sigma = sigma_per_h_ * static_cast<double>(box.largest_h);
+  return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+    double highest = plane.of_sigma * sigma + plane.constant, size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      highest += plane.normal[axis] * middle[axis] + std::abs(plane.normal[axis]) * half[axis];
+      size += std::abs(plane.normal[axis]);
+    }
+    return highest + rounding * size * coordinates < 0;
+  });
+}
+
+}  // namespace splotchcl

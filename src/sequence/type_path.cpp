@@ -1,0 +1,122 @@
+#include "sequence/type_path.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "parallel/for_blocks.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr std::size_t block_size = 65536;
+
+using Point = std::array<double, 3>;
+
+Point position_of(const PathEnd& end, std::size_t i) {
+  Point point;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point[axis] = end.origin.a[axis] + static_cast<double>(end.position[3 * i + axis]);
+  return point;
+}
+
+Point tangent_of(const PathEnd& end, std::size_t i) {
+  if (end.velocity.is_absent()) return {0, 0, 0};
+  Point tangent;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    tangent[axis] = static_cast<double>(end.velocity[3 * i + axis]) * end.rate;
+  return tangent;
+}
+
+double shorter_way(double displacement, const std::optional<PeriodicRange>& period) {
+  if (!period) return displacement;
+  return displacement - period->size * std::round(displacement / period->size);
+}
+
+bool lies_within(const PathEnd& of, const PeriodicRange& range) {
+  std::atomic<bool> all{true};
+  for_blocks(of.position.size(), 3 * block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && all.load(std::memory_order_relaxed); ++i) {
+      if (!std::isfinite(of.position[i])) continue;
+      const double x = of.origin.a[i % 3] + static_cast<double>(of.position[i]);
+      if (x < range.lower || x > range.lower + range.size) all = false;
+    }
+  });
+  return all;
+}
+
+// Sums of squares of particles in both.
+struct Squares {
+  double of_tangents = 0, of_ways = 0;
+};
+
+Squares squares_of(const TypePath& path, std::size_t a, std::size_t b) {
+  const Point x0 = position_of(path.first, a), x1 = position_of(path.second, b);
+  const Point m0 = tangent_of(path.first, a), m1 = tangent_of(path.second, b);
+  Squares squares;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    squares.of_tangents += std::pow(0.5 * (m0[axis] + m1[axis]), 2);
+    squares.of_ways += std::pow(shorter_way(x1[axis] - x0[axis], path.period), 2);
+  }
+  return squares;
+}
+
+}  // namespace
+
+ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const IdMatch> match,
+                                    double fraction) {
+  PathSetting setting;
+  setting.first_origin = path.first.origin;
+  setting.second_origin = path.second.origin;
+  setting.first_rate = path.first.rate;
+  setting.second_rate = path.second.rate;
+  setting.is_straight = path.first.velocity.is_absent() || path.second.velocity.is_absent();
+  setting.period = path.period;
+  ColumnBetween positions;
+  positions.match = std::move(match);
+  positions.kind = ColumnBetween::Kind::position;
+  positions.values_per_particle = 3;
+  positions.first = path.first.position;
+  positions.second = path.second.position;
+  positions.fraction = static_cast<float>(fraction);
+  positions.first_velocity = path.first.velocity;
+  positions.second_velocity = path.second.velocity;
+  positions.path = make_path_numbers(setting, fraction);
+  return positions;
+}
+
+std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& first,
+                                                 const PathEnd& second) {
+  for (const double lower : {0.0, -0.5 * box}) {
+    const PeriodicRange range = {lower, box};
+    if (lies_within(first, range) && lies_within(second, range)) return range;
+  }
+  return std::nullopt;
+}
+
+// Blocks are added up in their order, so that the sum is the same on any number of cores.
+std::optional<double> tangent_ratio(const TypePath& path, const IdMatch& match) {
+  const std::size_t count = match.place_in_second.size();
+  std::vector<Squares> blocks((count + block_size - 1) / block_size);
+  for_blocks(count, block_size, [&](std::size_t begin, std::size_t end) {
+    Squares& sum = blocks[begin / block_size];
+    for (std::size_t a = begin; a < end; ++a) {
+      if (match.place_in_second[a] == IdMatch::nobody) continue;
+      const Squares squares = squares_of(path, a, match.place_in_second[a]);
+      if (!std::isfinite(squares.of_tangents) || !std::isfinite(squares.of_ways)) continue;
+      sum.of_tangents += squares.of_tangents;
+      sum.of_ways += squares.of_ways;
+    }
+  });
+  Squares all;
+  for (const Squares& block : blocks) {
+    all.of_tangents += block.of_tangents;
+    all.of_ways += block.of_ways;
+  }
+  if (!(all.of_tangents > 0) || !(all.of_ways > 0)) return std::nullopt;
+  return std::sqrt(all.of_tangents / all.of_ways);
+}
+
+}  // namespace splotchcl

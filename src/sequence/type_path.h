@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "between/interpolation.h"
+
+namespace splotchcl {
+
+// One snapshot's part of a path.
+struct PathEnd {
+  Column position;
+  Vec3 origin = {{0, 0, 0}};
+  Column velocity;  // absent: straight lines
+  double rate = 0;  // velocity * rate is the tangent: the path's change over the interval
+};
+
+// How one type's particles get from one snapshot to the other. With a period, each particle takes
+// the shorter way and stays inside. With velocities, the path is the cubic with the tangents m of
+// both ends:
+//   x0 + (3 f^2 - 2 f^3) (x1 - x0) + (f - 2 f^2 + f^3) m0 + (f^3 - f^2) m1
+// and particles that vanish or appear move on straight along their tangent.
+struct TypePath {
+  PathEnd first, second;
+  std::optional<PeriodicRange> period;
+};
+
+// Positions at a fraction of the way, relative to first.origin.
+ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const IdMatch> match,
+                                    double fraction);
+
+// The period in which both columns lie, from 0 or around 0; none where they lie in neither:
+// the header's box is then not that of the particles. `box` as the header has it.
+std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& first,
+                                                 const PathEnd& second);
+
+// How well velocities fit displacements: the root mean square of the mean tangents over that
+// of the displacements, of particles in both. Nothing where none moves.
+std::optional<double> tangent_ratio(const TypePath& path, const IdMatch& match);
+
+}  // namespace splotchcl
