@@ -48,7 +48,7 @@ Frame one_opaque_particle(LightPlan plan) {
 Frame clouds_of_brightness(double brightness, double factor, LightPlan plan) {
   Frame frame = clouds_absorbing(factor, plan);
   for (DrawnComponent& component : frame.components)
-    component.brightness = brightness;
+    component.brightness *= brightness;
   return frame;
 }
 
