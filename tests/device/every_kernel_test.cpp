@@ -68,6 +68,21 @@ TEST_P(EveryKernel, HoldsItsToleranceWithPairsOfFloats) {
   }
 }
 
+// Clouds so dim that the wide ones are added up in slabs and laid among the narrow ones.
+TEST_P(EveryKernel, LaysSlabs) {
+  Frame frame = small_frame(LightPlan::ordered);
+  for (DrawnComponent& component : frame.components)
+    component.brightness = 0.02;
+  frame.tolerance = 1e-3;
+  RendererOptions options;
+  options.shape = GetParam();
+  options.slabs = 2;
+  Renderer renderer(options);
+  EXPECT_LE(largest_error(renderer.render(frame), reference::render(frame)), frame.tolerance);
+  EXPECT_EQ(renderer.stats().check.errors_of_promise.size(), 1U) << "drawn again in order";
+  EXPECT_GT(renderer.stats().check.worst.slabs, 0);
+}
+
 // Light of stars beside them and behind them: their shapes and transmittances keep all digits.
 TEST_P(EveryKernel, DrawsBrightStars) {
   for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
