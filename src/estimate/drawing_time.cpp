@@ -40,12 +40,12 @@ double estimate_seconds(const Frame& frame, const FramePlan& plan, const SplatWo
   const Rates& rates = plan.needs_sort() ? rates_in_order : rates_of_sums;
   const double pixels =
       static_cast<double>(frame.crop.width) * static_cast<double>(frame.crop.height);
-  const double nanoseconds =
-      (plan.is_extended() ? rates.extended_particle : rates.particle) *
-          static_cast<double>(particle_count(frame)) +
-      rates.sorted * work.splats + (rates.binned + rates.entry) * work.tile_entries +
-      row_part(rates, plan.precision) * work.row_parts +
-      (rates.pixel + laid_pixel * plan.slabs) * pixels;
+  const double nanoseconds = (plan.is_extended() ? rates.extended_particle : rates.particle) *
+                                 static_cast<double>(particle_count(frame)) +
+                             rates.sorted * work.splats +
+                             (rates.binned + rates.entry) * work.tile_entries +
+                             row_part(rates, plan.precision) * work.row_parts +
+                             (rates.pixel + laid_pixel * plan.slabs) * pixels;
   return 1e-9 * nanoseconds * 2 / std::max(cores, 1);
 }
 
