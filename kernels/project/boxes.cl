@@ -23,21 +23,10 @@ inline float least_of(VALUE values) {
 __kernel void find_boxes(const ProjectParameters p, __global const float* positions,
                          __global const float* smoothing_lengths, __global const float* weights,
                          __global const float* colors, __global const float* intensities,
-                         __global const float* sort_fields,
-#ifdef VECTOR_COLORS
-                         __global const float* own_colors,
-#endif
+                         __global const float* sort_fields OWN_COLORS_PARAMETER,
                          __global BlockBox* boxes) {
-  Columns columns;
-  columns.positions = positions;
-  columns.smoothing_lengths = smoothing_lengths;
-  columns.weights = weights;
-  columns.colors = colors;
-  columns.intensities = intensities;
-  columns.sort_fields = sort_fields;
-#ifdef VECTOR_COLORS
-  columns.own_colors = own_colors;
-#endif
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields OWN_COLORS_ARGUMENT);
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);

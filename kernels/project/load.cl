@@ -67,6 +67,31 @@ typedef struct Columns {
 #endif
 } Columns;
 
+#ifdef VECTOR_COLORS
+#define OWN_COLORS_PARAMETER , __global const float* own_colors
+#define OWN_COLORS_ARGUMENT , own_colors
+#else
+#define OWN_COLORS_PARAMETER
+#define OWN_COLORS_ARGUMENT
+#endif
+
+INLINED Columns columns_of(__global const float* positions, __global const float* smoothing_lengths,
+                           __global const float* weights, __global const float* colors,
+                           __global const float* intensities,
+                           __global const float* sort_fields OWN_COLORS_PARAMETER) {
+  Columns columns;
+  columns.positions = positions;
+  columns.smoothing_lengths = smoothing_lengths;
+  columns.weights = weights;
+  columns.colors = colors;
+  columns.intensities = intensities;
+  columns.sort_fields = sort_fields;
+#ifdef VECTOR_COLORS
+  columns.own_colors = own_colors;
+#endif
+  return columns;
+}
+
 typedef struct ParticleLanes {
   INTEGER exists;
   Vectors position;

@@ -100,32 +100,7 @@ inline uint field_key(float value) {
 }
 #endif
 
-#ifdef VECTOR_COLORS
-#define OWN_COLORS_PARAMETER , __global const float* own_colors
-#define OWN_COLORS_ARGUMENT , own_colors
-#else
-#define OWN_COLORS_PARAMETER
-#define OWN_COLORS_ARGUMENT
-#endif
-
-INLINED Columns columns_of(__global const float* positions, __global const float* smoothing_lengths,
-                           __global const float* weights, __global const float* colors,
-                           __global const float* intensities,
-                           __global const float* sort_fields OWN_COLORS_PARAMETER) {
-  Columns columns;
-  columns.positions = positions;
-  columns.smoothing_lengths = smoothing_lengths;
-  columns.weights = weights;
-  columns.colors = colors;
-  columns.intensities = intensities;
-  columns.sort_fields = sort_fields;
-#ifdef VECTOR_COLORS
-  columns.own_colors = own_colors;
-#endif
-  return columns;
-}
-
-// What extended precision needs beyond that (project_extended.cl).
+// What extended precision needs beyond the columns (project_extended.cl).
 #ifdef EXTENDED_NUMBERS
 #define EXTENDED_PARAMETERS                                                        \
   , __global const ComponentColors *component_colors, __global const float *knots, \
