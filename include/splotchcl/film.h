@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,8 +19,9 @@ struct FilmOptions {
   std::vector<std::string> settings;  // "key=value" strings of scene keys
   std::string device;                 // as in FrameDrawerOptions
   bool by_reference = false;
-  std::string frames;  // FIRST:END:STEP; empty: all of the path
-  std::string part;    // K/N, the K-th of N runs of frames; empty: all
+  std::uint64_t memory_bytes = 0;  // as in RendererOptions
+  std::string frames;              // FIRST:END:STEP; empty: all of the path
+  std::string part;                // K/N, the K-th of N runs of frames; empty: all
   // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
   std::optional<std::filesystem::path> stats;
   bool only_join = false;  // makes the film of frames that are drawn already

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -25,7 +26,8 @@ struct FrameDrawerOptions {
   std::function<void(const std::string& what, double fraction)> progress;
   bool certify = false;  // as in RendererOptions
   CompositeShape shape = CompositeShape::automatic;
-  bool columns_stay = false;  // as in RendererOptions: not for arrays that change in place
+  bool columns_stay = false;       // as in RendererOptions: not for arrays that change in place
+  std::uint64_t memory_bytes = 0;  // as in RendererOptions
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

@@ -49,6 +49,11 @@ struct RendererOptions {
   // FrameCheck.
   bool certify = false;
   int slabs = -1;  // PlanOptions, for tests
+  // Of the device, for an ordered frame's splats, lists and planes together; columns of particles
+  // are counted apart. A frame with more splats than have room is drawn in windows of its depth, to
+  // the same bits. 0: three quarters of what a processor's machine has left, half of a GPU's
+  // memory.
+  std::uint64_t memory_bytes = 0;
   // The values of columns never change while the columns live, as those of files. Blocks of
   // particles are then looked at once for where they lie, when they are drawn a second time, and
   // those out of view are not projected. Pictures have the same bits.
@@ -73,6 +78,8 @@ struct RenderStats {
   // Blocks of particles that were not projected, since none of them is in view; of data that was
   // drawn in the frame before.
   std::uint64_t blocks_left_out = 0;
+  // An ordered frame was drawn in so many windows of its depth; 0: in one piece.
+  std::uint64_t windows = 0;
   // Particles were too sharp for the plan's precision: drawn again in extended precision.
   bool drawn_most_exactly = false;
   std::uint64_t device_bytes = 0;  // largest total of device buffers, mapped input excluded

@@ -5,24 +5,32 @@
 // splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
 // the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
 // tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
-// tiles[slot] which they are. Of a block that no part of the picture shows, left_out[b] is the
-// number of its bad particles and 1 more, else 0.
-__kernel void project(
-    const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
-    __global const float* smoothing_lengths, __global const float* weights,
-    __global const float* colors, __global const float* intensities,
-    __global const float* sort_fields, __global const uint* offsets, __global BlockCounts* counts,
-    __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
-    __global const WidthNeeds* width_needs,
-    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS TILE_PARAMETERS) {
+// tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
+// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
+// a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
+// more, else 0.
+__kernel void project(const ProjectParameters p, const ExtendedParameters e,
+                      __global const float* positions, __global const float* smoothing_lengths,
+                      __global const float* weights, __global const float* colors,
+                      __global const float* intensities, __global const float* sort_fields,
+                      __global const uint* offsets, __global BlockCounts* counts,
+                      __global Splat* splats, __global uint* keys, __global ushort* key_ends,
+                      __global uint* order, __global const WidthNeeds* width_needs,
+                      __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS
+                          KEY_PARAMETERS TILE_PARAMETERS) {
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
   const uint numbered = p.first_block + block;
-  const uint first_slot = offsets[numbered];
+  const uint first_slot = p.first_slot + offsets[numbered];
   uint slot = first_slot, bad_count = 0, too_sharp_count = 0;
+#ifdef COUNT_KEYS
+  KeyBins bins;
+  bins.least = ~0u;
+  bins.most = 0;
+#endif
 #ifdef COUNT_TILES
   __global uint* count = tile_counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
@@ -32,11 +40,11 @@ __kernel void project(
     counts[numbered].visible = 0;
     counts[numbered].bad = left_out[block] - 1;
     counts[numbered].too_sharp = 0;
+#ifdef COUNT_KEYS
+    key_bins[block] = bins;
+#endif
     return;
   }
-#ifdef OUTPUT_KEYS
-  const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
-#endif
   for (uint i = begin; i < end; i += LANES) {
     SplatLanes lanes = project_lanes(i, end, p, width_needs, e, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
@@ -55,6 +63,12 @@ __kernel void project(
 #endif
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
+#ifdef SORT_KEYS
+      const ulong key = sort_key_of(positions, i + k, found.sort_field[k], p);
+#endif
+#ifdef KEY_WINDOW
+      if (!is_in_window(key, p)) continue;
+#endif
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
       Splat splat = splat_of(&found, k);
 #endif
@@ -90,14 +104,15 @@ __kernel void project(
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-        if (p.sort_by_field) {
-          keys[slot] = field_key(found.sort_field[k]) ^ keys_turned_round;
-        } else {
-          const ulong key = depth_of(positions + (size_t)(i + k) * 3, p.depth_key).key;
-          keys[slot] = (uint)(key >> 16) ^ keys_turned_round;
-          key_ends[slot] = (ushort)((uint)key ^ keys_turned_round);
-        }
+        keys[slot] = (uint)(key >> 16);
+        if (!p.sort_by_field) key_ends[slot] = (ushort)key;
         order[slot] = slot;
+#endif
+#ifdef COUNT_KEYS
+        const uint bin = bin_of(key, p);
+        atomic_inc(&key_counts[bin]);
+        bins.least = min(bins.least, bin);
+        bins.most = max(bins.most, bin);
 #endif
 #ifdef COUNT_TILES
         const Grid grid = grids[grid_of(listed)];
@@ -118,4 +133,7 @@ __kernel void project(
   counts[numbered].visible = slot - first_slot;
   counts[numbered].bad = bad_count;
   counts[numbered].too_sharp = too_sharp_count;
+#ifdef COUNT_KEYS
+  key_bins[block] = bins;
+#endif
 }

@@ -25,6 +25,9 @@ struct FieldScaling {
   float inverse_range;         // 0 where the range is empty
 };
 
+// Sort keys are counted by 16 of their bits.
+#define KEY_BINS 65536
+
 // An integer of 64 bits.
 struct WideInteger {
   unsigned int low, high;
@@ -127,17 +130,27 @@ struct ProjectParameters {
   unsigned int first_particle, end_particle;  // of the component, this launch
   unsigned int block_particles;               // per work-item
   unsigned int first_block;                   // of the component, in offsets and counts
+  unsigned int first_slot;                    // of the launch: offsets count from there
   // 0 where one value serves all particles.
   int smoothing_length_stride, weight_stride, color_stride, intensity_stride, sort_stride;
   int own_color_stride;
   int sort_by_field, sort_descending;
   int leaves_out_blocks;  // some: left_out says which
+  // Sort keys of 48 bits from first to before end, those of a field with zeros below its 32; and
+  // the lowest bit of what numbers the bins in which such keys are counted.
+  struct WideInteger window_first, window_end;
+  int bin_shift;
 };
 
 // What one block of particles became.
 struct BlockCounts {
   unsigned int visible, bad;
   unsigned int too_sharp;  // for the frame's precision, of all in the whole picture
+};
+
+// The bins of the keys of one block's splats; least > most where it has none.
+struct KeyBins {
+  unsigned int least, most;
 };
 
 // What a block of particles is wherever the camera stands (boxes.cl).
@@ -173,6 +186,7 @@ typedef struct WidthNeeds WidthNeeds;
 typedef struct ProjectParameters ProjectParameters;
 typedef struct BlockBox BlockBox;
 typedef struct BlockCounts BlockCounts;
+typedef struct KeyBins KeyBins;
 typedef struct ExtendedParameters ExtendedParameters;
 #endif
 

@@ -11,15 +11,25 @@ __kernel OF_GROUPS void project(
     __global const float* sort_fields, __global uint* offsets, __global BlockCounts* counts,
     __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
     __global const WidthNeeds* width_needs,
-    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS) {
+    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+#ifdef COUNT_KEYS
+  __local KeyBins bins;
+  if (item == 0) {
+    bins.least = ~0u;
+    bins.most = 0;
+  }
+#endif
   if (p.leaves_out_blocks && left_out[get_group_id(0)] != 0) {
 #ifndef OUTPUT_SPLATS
     if (item == 0) {
       offsets[group] = 0;
       if (left_out[get_group_id(0)] > 1) atomic_add(&counts->bad, left_out[get_group_id(0)] - 1);
+#ifdef COUNT_KEYS
+      key_bins[get_group_id(0)] = bins;
+#endif
     }
 #endif
     return;
@@ -41,6 +51,13 @@ __kernel OF_GROUPS void project(
     lanes.too_sharp &= within;
   }
   uint count = lanes.visible != 0;
+#ifdef SORT_KEYS
+  ulong key = 0;
+  if (count) key = sort_key_of(positions, i, lanes.sort_field, p);
+#endif
+#ifdef KEY_WINDOW
+  count = count && is_in_window(key, p);
+#endif
 #ifdef EXTENDED_NUMBERS
   Splat splat;
   ExtendedSplat extended;
@@ -66,7 +83,7 @@ __kernel OF_GROUPS void project(
 #endif
   uint total;
 #ifdef OUTPUT_SPLATS
-  uint slot = offsets[group] + group_scan(count, sums, &total);
+  uint slot = p.first_slot + offsets[group] + group_scan(count, sums, &total);
   for (uint k = 0; k < count; ++k, ++slot) {
     Splat listed = splat;
 #ifdef WHOLE_SECTORS
@@ -84,14 +101,8 @@ __kernel OF_GROUPS void project(
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-    const uint keys_turned_round = p.sort_descending ? ~0u : 0u;
-    if (p.sort_by_field) {
-      keys[slot] = field_key(lanes.sort_field) ^ keys_turned_round;
-    } else {
-      const ulong key = depth_of(positions + (size_t)i * 3, p.depth_key).key;
-      keys[slot] = (uint)(key >> 16) ^ keys_turned_round;
-      key_ends[slot] = (ushort)((uint)key ^ keys_turned_round);
-    }
+    keys[slot] = (uint)(key >> 16);
+    if (!p.sort_by_field) key_ends[slot] = (ushort)key;
     order[slot] = slot;
 #endif
   }
@@ -99,8 +110,19 @@ __kernel OF_GROUPS void project(
   group_scan(count, sums, &total);
   if (lanes.bad & exists) atomic_inc(&of_group.bad);
   if (lanes.too_sharp) atomic_inc(&of_group.too_sharp);
+#ifdef COUNT_KEYS
+  if (count > 0) {
+    const uint bin = bin_of(key, p);
+    atomic_add(&key_counts[bin], count);
+    atomic_min(&bins.least, bin);
+    atomic_max(&bins.most, bin);
+  }
+#endif
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {
+#ifdef COUNT_KEYS
+    key_bins[get_group_id(0)] = bins;
+#endif
     offsets[group] = total;
     if (total > 0) atomic_add(&counts->visible, total);
     if (of_group.bad > 0) atomic_add(&counts->bad, of_group.bad);

@@ -26,7 +26,7 @@ typedef struct SplatArrays {
 
 INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.visible, a->visible);
-#ifdef OUTPUT_KEYS
+#ifdef SORT_KEYS
   STORE(s.sort_field, a->sort_field);
 #endif
 #ifndef EXTENDED_NUMBERS
@@ -92,14 +92,6 @@ inline uint count_true(INTEGER mask) {
   return count;
 }
 
-#ifdef OUTPUT_KEYS
-// Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
-inline uint field_key(float value) {
-  const uint bits = as_uint(value == 0.0f ? 0.0f : value);
-  return bits ^ ((bits >> 31) ? 0xffffffffu : 0x80000000u);
-}
-#endif
-
 // What extended precision needs beyond the columns (project_extended.cl).
 #ifdef EXTENDED_NUMBERS
 #define EXTENDED_PARAMETERS                                                        \
@@ -107,6 +99,13 @@ inline uint field_key(float value) {
       __global ExtendedSplat *extended_splats
 #else
 #define EXTENDED_PARAMETERS
+#endif
+
+// Where sort keys are counted (sort_keys.cl).
+#ifdef COUNT_KEYS
+#define KEY_PARAMETERS , __global uint *key_counts, __global KeyBins *key_bins
+#else
+#define KEY_PARAMETERS
 #endif
 
 // Where splats are binned as they come.

@@ -58,6 +58,14 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_flag("--explain", options.explain,
                wrapped("Print how it is drawn, the memory and the time that it will take, and the "
                        "equivalent scene file; draws nothing unless there is an --output"));
+  sub.add_option(
+         "--memory", options.memory_bytes,
+         wrapped(
+             "Memory of the device for drawing, such as 1500MB or 2GiB. Ordered pictures of more "
+             "particles than fit are drawn in parts of their depth. Default: what there "
+             "is room for"))
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("SIZE");
   sub.add_option("--stats", options.stats,
                  wrapped("Write times in seconds, counts and memory as JSON"))
       ->type_name("FILE");

@@ -26,6 +26,7 @@ struct DrawOptions {
   bool cache_smoothing_lengths = false;
   bool reference = false;
   bool explain = false;
+  std::uint64_t memory_bytes = 0;  // 0: as much as the device has room for
   std::optional<std::filesystem::path> stats;
 };
 // All that is set, as key=value.

@@ -115,6 +115,7 @@ FilmOptions film_options(const MovieOptions& options) {
   film.settings = settings_of(options);
   film.device = options.device;
   film.by_reference = options.reference;
+  film.memory_bytes = options.memory_bytes;
   film.frames = options.frames;
   film.part = options.part;
   film.only_join = options.join;

@@ -158,7 +158,8 @@ int run_render(const RenderOptions& options, Console& console) {
   if (output) {
     if (!options.reference) console.status("starting the device");
     drawer.emplace(FrameDrawerOptions{options.device, options.reference, show_progress(console),
-                                      options.certify || options.error_map, options.shape});
+                                      options.certify || options.error_map, options.shape, false,
+                                      options.memory_bytes});
   }
 
   RenderReport report;

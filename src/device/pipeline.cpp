@@ -37,7 +37,7 @@ std::vector<ParticleChunk> Pipeline::particle_chunks() const {
 
 SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
   const Particles& particles = context_.frame.components[chunk.component].particles;
-  return projector_.project(chunk, particles_.get(particles));
+  return projector_.project(chunk, particles_.get(particles, chunk));
 }
 
 KeyedSplats Pipeline::project_all() {
@@ -70,8 +70,19 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   return planes;
 }
 
+bool Pipeline::has_room_for_all_splats() const {
+  std::uint64_t splats = 0;
+  for (const DrawnComponent& component : context_.frame.components) {
+    if (!particles_.are_whole(component.particles)) return false;
+    splats +=
+        component.particles.count * static_cast<std::uint64_t>(context_.plan.splats_per_particle);
+  }
+  return splats <= splat_capacity(context_);
+}
+
 // Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
 Planes Pipeline::draw_ordered(Planes planes) {
+  if (!has_room_for_all_splats()) return draw_windows(std::move(planes));
   KeyedSplats keyed = project_all();
   counts_.blocks_left_out = keyed.left_out;
   counts_.visible = keyed.particles.visible;
@@ -82,10 +93,46 @@ Planes Pipeline::draw_ordered(Planes planes) {
   const std::vector<SplatChunk> chunks =
       splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    tell(i, chunks.size());
-    planes = draw_lists(binner_.count(sorted, chunks[i]), std::move(planes));
-    if (chunks[i].ends_slab) planes = resolver_.lay_slab(std::move(planes), slab_light_);
+  std::size_t next = 0;
+  return draw_chunks(sorted, 0, chunks, next, std::move(planes));
+}
+
+// The same chunks, of splats that are projected and sorted window by window: what a window has
+// left of a chunk stands before the next one's.
+Planes Pipeline::draw_windows(Planes planes) {
+  WindowProjector windows(context_, projector_, sorter_, particles_);
+  windows.count_keys();
+  counts_.blocks_left_out = windows.left_out();
+  counts_.visible = windows.particles().visible;
+  counts_.bad = windows.particles().bad;
+  counts_.too_sharp = windows.particles().too_sharp;
+  counts_.windows = windows.steps();
+  if (counts_.too_sharp > 0) return planes;
+  const std::vector<SplatChunk> chunks =
+      splat_chunks(counts_.visible, context_.plan.slabs, context_.device.traits);
+  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
+  SortedSplats sorted;
+  std::uint64_t first = 0, drawn = 0;
+  std::size_t next = 0;
+  for (std::size_t step = 0; step < windows.steps(); ++step) {
+    sorted = windows.next(step, sorted, static_cast<std::uint32_t>(drawn - first));
+    first = drawn;
+    planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
+    drawn = next < chunks.size() ? chunks[next].first : counts_.visible;
+  }
+  return planes;
+}
+
+Planes Pipeline::draw_chunks(const SortedSplats& sorted, std::uint64_t first,
+                             const std::vector<SplatChunk>& chunks, std::size_t& next,
+                             Planes planes) {
+  for (; next < chunks.size(); ++next) {
+    SplatChunk chunk = chunks[next];
+    chunk.first -= first;
+    if (chunk.first + chunk.count > sorted.count) break;
+    tell(next, chunks.size());
+    planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
+    if (chunk.ends_slab) planes = resolver_.lay_slab(std::move(planes), slab_light_);
   }
   return planes;
 }

@@ -15,6 +15,7 @@
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
 #include "device/stages/sorter.h"
+#include "device/stages/window_projector.h"
 #include "splotchcl/image.h"
 
 namespace splotchcl {
@@ -25,6 +26,7 @@ struct DrawCounts {
   std::uint64_t too_sharp = 0;        // for the plan's precision
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
+  std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
@@ -58,6 +60,11 @@ class Pipeline {
   Planes add_chunk(const ParticleChunk& chunk, Planes planes);
   Planes draw_sums(Planes planes);
   Planes draw_ordered(Planes planes);
+  bool has_room_for_all_splats() const;
+  Planes draw_windows(Planes planes);
+  // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
+  Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,
+                     const std::vector<SplatChunk>& chunks, std::size_t& next, Planes planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
   void tell(std::size_t done, std::size_t total) const;
 

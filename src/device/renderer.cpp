@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,12 +33,6 @@ void check_frame(const Frame& frame) {
     throw UsageError("background_image: found " + std::to_string(background->width) + " x " +
                      std::to_string(background->height) + " pixels, expected the picture's " +
                      std::to_string(frame.width) + " x " + std::to_string(frame.height));
-  }
-  const std::uint64_t total = particle_count(frame);
-  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - (1u << 20);
-  if (total > most) {
-    throw DataError("found " + std::to_string(total) + " particles, expected at most " +
-                    std::to_string(most) + " in one frame: draw a subset");
   }
   if (frame.components.size() > 0xffff) {
     throw UsageError("found " + std::to_string(frame.components.size()) +
@@ -104,6 +97,7 @@ struct Renderer::State {
       choose_shape(device.traits, options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
+    if (options.memory_bytes > 0) device.memory.total = options.memory_bytes;
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
     progress = options.progress;
@@ -228,6 +222,7 @@ void Renderer::State::note(const DrawCounts& counts) {
   stats.bad_particles = counts.bad;
   stats.tile_entries = counts.tile_entries;
   stats.blocks_left_out = counts.blocks_left_out;
+  stats.windows = counts.windows;
 }
 
 Renderer::Renderer(const RendererOptions& options) {

@@ -14,17 +14,20 @@ namespace splotchcl {
 
 // Particles [first, end) of one component, in file order: a step of a sum.
 struct ParticleChunk {
-  std::uint32_t component = 0, first = 0, end = 0;
+  std::uint32_t component = 0;
+  std::uint64_t first = 0, end = 0;
+  std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
 };
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
 
 // Splats [first, first + count) of the sorted order: a step of an ordered frame.
 struct SplatChunk {
-  std::uint32_t first = 0, count = 0;
+  std::uint64_t first = 0;
+  std::uint32_t count = 0;
   bool ends_slab = false;  // FramePlan::slabs
 };
-std::vector<SplatChunk> splat_chunks(std::uint32_t count, const DeviceTraits& traits);
+std::vector<SplatChunk> splat_chunks(std::uint64_t count, const DeviceTraits& traits);
 // The same in slabs of as many splats each, which chunks do not cross.
-std::vector<SplatChunk> splat_chunks(std::uint32_t count, int slabs, const DeviceTraits& traits);
+std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const DeviceTraits& traits);
 
 }  // namespace splotchcl

@@ -9,6 +9,22 @@
 
 namespace splotchcl {
 
+namespace {
+
+// Made as they are wanted, but by the host.
+bool is_streamed(const Column& column) {
+  return column.source() != nullptr && interpolated(column) == nullptr;
+}
+
+bool has_streamed_column(const Particles& particles) {
+  return is_streamed(particles.position) || is_streamed(particles.smoothing_length) ||
+         is_streamed(particles.weight) || is_streamed(particles.color) ||
+         is_streamed(particles.intensity) || is_streamed(particles.sort_field) ||
+         is_streamed(particles.color_vector);
+}
+
+}  // namespace
+
 compute::buffer ParticleStore::constant(float value) {
   const auto found = constants_.find(value);
   if (found != constants_.end()) return found->second;
@@ -19,7 +35,7 @@ compute::buffer ParticleStore::constant(float value) {
 }
 
 void ParticleStore::require_room(std::size_t bytes) const {
-  const std::uint64_t largest = device_.device.max_memory_alloc_size();
+  const std::uint64_t largest = device_.traits.largest_buffer;
   if (bytes <= largest) return;
   throw DeviceError("device " + device_.device.name() + ": one field of the particles has " +
                     std::to_string(bytes >> 20) + " MiB, expected at most " +
@@ -31,6 +47,7 @@ const compute::buffer* ParticleStore::find(const Key& key) {
   const auto found = entries_.find(key);
   if (found == entries_.end()) return nullptr;
   found->second.frame = frame_;
+  found->second.use = ++uses_;
   return &found->second.buffer;
 }
 
@@ -41,18 +58,35 @@ compute::buffer ParticleStore::keep(const Key& key, std::shared_ptr<const void> 
   Entry entry;
   entry.owner = std::move(owner);
   entry.frame = frame_;
+  entry.use = ++uses_;
   // OpenCL's interface takes host memory as non-const; a read-only buffer is not written.
   void* const at = const_cast<void*>(memory);
   if (device_.traits.shares_host_memory) {
     entry.buffer =
         compute::buffer(device_.context, bytes, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, at);
   } else {
+    make_room(bytes);
     entry.buffer =
         compute::buffer(device_.context, bytes, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, at);
     entry.bytes = bytes;
     device_bytes_ += bytes;
   }
   return entries_.emplace(key, std::move(entry)).first->second.buffer;
+}
+
+// Of a device that has not room for all of a frame's columns, those go that were wanted first: the
+// next pass over the particles wants them last.
+void ParticleStore::make_room(std::size_t bytes) {
+  while (device_bytes_ + bytes > device_.memory.columns) {
+    auto oldest = entries_.end();
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+      if (entry->second.kind != Kind::given || entry->second.bytes == 0) continue;
+      if (oldest == entries_.end() || entry->second.use < oldest->second.use) oldest = entry;
+    }
+    if (oldest == entries_.end()) return;
+    device_bytes_ -= oldest->second.bytes;
+    entries_.erase(oldest);
+  }
 }
 
 compute::buffer ParticleStore::buffer_of(const Column& column, float value_if_absent, int& stride) {
@@ -65,6 +99,30 @@ compute::buffer ParticleStore::buffer_of(const Column& column, float value_if_ab
   const Key key = {column.data(), column.size() * sizeof(float), nullptr};
   if (const compute::buffer* const known = find(key)) return *known;
   return keep(key, std::make_shared<const Column>(column));
+}
+
+// Of a piece of an array, of which the rest may be on the device as well or not.
+compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t values_per_particle,
+                                         const Piece& piece, float value_if_absent, int& stride) {
+  const std::size_t first = piece.first * values_per_particle;
+  const std::size_t end = piece.end * values_per_particle;
+  const bool is_whole = first == 0 && end >= column.size();
+  const auto source = column.source();
+  if (!column.is_array() || (is_whole && !source) || interpolated(column))
+    return buffer_of(column, value_if_absent, stride);
+  stride = 1;
+  if (source) return streamed_buffer(*source, first, end);
+  const Key key = {column.data() + first, (end - first) * sizeof(float), nullptr};
+  if (const compute::buffer* const known = find(key)) return *known;
+  return keep(key, std::make_shared<const Column>(column));
+}
+
+compute::buffer ParticleStore::streamed_buffer(const ColumnSource& source, std::size_t first,
+                                               std::size_t end) {
+  std::vector<float> values(end - first);
+  source.make(first, end, values.data());
+  streamed_.push_back(device_.pool.upload(values, "chunk of a column"));
+  return streamed_.back().memory();
 }
 
 compute::buffer ParticleStore::buffer_of(const std::vector<std::uint32_t>& places,
@@ -137,18 +195,52 @@ compute::buffer ParticleStore::interpolated_buffer(
   return entries_.emplace(key, std::move(entry)).first->second.buffer;
 }
 
+bool ParticleStore::are_whole(const Particles& particles) const {
+  const Piece piece = piece_of(particles, {0, 0, 0});
+  return piece.end == particles.count;
+}
+
+// Whole columns where they can be: a second frame finds them.
+ParticleStore::Piece ParticleStore::piece_of(const Particles& particles,
+                                             const ParticleChunk& chunk) const {
+  const std::uint64_t chunk_length = device_.traits.chunk_length();
+  const std::uint64_t largest = device_.traits.largest_buffer / (3 * sizeof(float));
+  const bool is_streamed = has_streamed_column(particles);
+  if (!is_streamed && particles.count <= largest) return {0, particles.count};
+  const std::uint64_t length =
+      is_streamed ? chunk_length
+                  : std::max<std::uint64_t>(1, largest / chunk_length) * chunk_length;
+  const std::uint64_t first = chunk.first / length * length;
+  return {first, std::min<std::uint64_t>(particles.count, first + length)};
+}
+
 ParticleBuffers ParticleStore::get(const Particles& particles) {
+  return get_piece(particles, {0, particles.count});
+}
+
+ParticleBuffers ParticleStore::get(const Particles& particles, const ParticleChunk& chunk) {
+  return get_piece(particles, piece_of(particles, chunk));
+}
+
+ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece& piece) {
+  // Commands that read them come before those that will write their memory.
+  streamed_.clear();
   ParticleBuffers buffers;
+  buffers.first = piece.first;
   int position_stride = 0;
-  buffers.position = buffer_of(particles.position, 0, position_stride);
+  const auto scalars = [&](const Column& column, float value_if_absent, int& stride) {
+    return buffer_of(column, 1, piece, value_if_absent, stride);
+  };
+  buffers.position = buffer_of(particles.position, 3, piece, 0, position_stride);
   buffers.smoothing_length =
-      buffer_of(particles.smoothing_length, 0, buffers.smoothing_length_stride);
-  buffers.weight = buffer_of(particles.weight, 1, buffers.weight_stride);
-  buffers.color = buffer_of(particles.color, 0, buffers.color_stride);
-  buffers.intensity = buffer_of(particles.intensity, 1, buffers.intensity_stride);
-  buffers.sort_field = buffer_of(particles.sort_field, 0, buffers.sort_stride);
-  buffers.own_color = buffer_of(particles.color_vector, 1, buffers.own_color_stride);
-  if (columns_stay_) buffers.boxes = boxes_.find(device_, particles, buffers, frame_);
+      scalars(particles.smoothing_length, 0, buffers.smoothing_length_stride);
+  buffers.weight = scalars(particles.weight, 1, buffers.weight_stride);
+  buffers.color = scalars(particles.color, 0, buffers.color_stride);
+  buffers.intensity = scalars(particles.intensity, 1, buffers.intensity_stride);
+  buffers.sort_field = scalars(particles.sort_field, 0, buffers.sort_stride);
+  buffers.own_color = buffer_of(particles.color_vector, 3, piece, 1, buffers.own_color_stride);
+  const bool is_whole = piece.end - piece.first == particles.count;
+  if (columns_stay_ && is_whole) buffers.boxes = boxes_.find(device_, particles, buffers, frame_);
   return buffers;
 }
 

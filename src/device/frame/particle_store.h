@@ -8,14 +8,16 @@
 
 #include "between/interpolated_column.h"
 #include "device/frame/block_boxes.h"
+#include "device/frame/chunks.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
 
-// The device's view of one component's columns. On a device that shares the host's memory
-// the buffers lie in the columns themselves and cost nothing.
+// The device's view of one component's columns, or of a piece of them. On a device that shares the
+// host's memory the buffers lie in the columns themselves and cost nothing.
 struct ParticleBuffers {
+  std::uint64_t first = 0;  // the particle of the component that is the buffers' first
   compute::buffer position, smoothing_length, weight, color, intensity, sort_field, own_color;
   int smoothing_length_stride = 0, weight_stride = 0, color_stride = 0, intensity_stride = 0,
       sort_stride = 0, own_color_stride = 0;
@@ -24,7 +26,9 @@ struct ParticleBuffers {
 
 // Keeps columns on the device from frame to frame: a second frame of the same data moves
 // nothing. A column is known by its memory, which it keeps alive. Columns between two snapshots are
-// made on the device from theirs, which stay as long as frames between them are drawn.
+// made on the device from theirs, which stay as long as frames between them are drawn. Columns that
+// one buffer of the device does not hold are there in pieces, and those whose values are made as
+// they are wanted in chunks, one at a time.
 class ParticleStore {
  public:
   // `columns_stay` as in RendererOptions.
@@ -32,6 +36,10 @@ class ParticleStore {
       : device_(device), columns_stay_(columns_stay) {}
 
   ParticleBuffers get(const Particles& particles);
+  // A piece in which the chunk lies.
+  ParticleBuffers get(const Particles& particles, const ParticleChunk& chunk);
+  // Whether get() of a chunk returns all particles.
+  bool are_whole(const Particles& particles) const;
   // Bytes on the device, without those that lie in the caller's memory.
   std::uint64_t device_bytes() const { return device_bytes_; }
   // Forgets columns that the frame now drawn has not asked for since begin_frame().
@@ -49,13 +57,24 @@ class ParticleStore {
     compute::buffer buffer;
     std::uint64_t bytes = 0;
     std::uint64_t frame = 0;
+    std::uint64_t use = 0;  // grows from one to the next
     Kind kind = Kind::given;
   };
   // Where it lies and how many bytes it has; of what the device makes, its source and 0; of a
   // column that it has put in another order, where it lies and the order.
   using Key = std::tuple<const void*, std::size_t, const IdMatch*>;
 
+  // Particles [first, end).
+  struct Piece {
+    std::uint64_t first = 0, end = 0;
+  };
+  Piece piece_of(const Particles& particles, const ParticleChunk& chunk) const;
+  ParticleBuffers get_piece(const Particles& particles, const Piece& piece);
+  compute::buffer buffer_of(const Column& column, std::size_t values_per_particle,
+                            const Piece& piece, float value_if_absent, int& stride);
   compute::buffer buffer_of(const Column& column, float value_if_absent, int& stride);
+  compute::buffer streamed_buffer(const ColumnSource& source, std::size_t first, std::size_t end);
+  void make_room(std::size_t bytes);
   compute::buffer constant(float value);
   // That of an entry, which is wanted by this frame then; null where there is none.
   const compute::buffer* find(const Key& key);
@@ -72,9 +91,11 @@ class ParticleStore {
   bool columns_stay_;
   std::map<Key, Entry> entries_;
   std::map<float, compute::buffer> constants_;
+  std::vector<Buffer<float>> streamed_;  // of the last chunk
   BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;
+  std::uint64_t uses_ = 0;
 };
 
 }  // namespace splotchcl

@@ -13,7 +13,17 @@ std::string define_if(bool condition, const std::string& name) {
   return condition ? define(name) : std::string();
 }
 
+bool writes_splats(ProjectOutput output) {
+  return output != ProjectOutput::counts && output != ProjectOutput::key_counts &&
+         output != ProjectOutput::window_counts;
+}
+
 }  // namespace
+
+bool is_of_window(ProjectOutput output) {
+  return output == ProjectOutput::key_counts || output == ProjectOutput::window_counts ||
+         output == ProjectOutput::window_splats;
+}
 
 Specialization::Specialization(const Frame& frame, const FramePlan& plan,
                                const DeviceTraits& traits)
@@ -95,8 +105,11 @@ std::string Specialization::number_defines() const {
 
 ProgramSource Specialization::project(ProjectOutput output) const {
   std::string defines = define_if(rows_, "LANES_8") + splat_defines();
-  if (output != ProjectOutput::counts) defines += define("OUTPUT_SPLATS");
-  if (output == ProjectOutput::splats_and_keys) defines += define("OUTPUT_KEYS");
+  if (writes_splats(output)) defines += define("OUTPUT_SPLATS");
+  if (output == ProjectOutput::splats_and_keys || output == ProjectOutput::window_splats)
+    defines += define("OUTPUT_KEYS");
+  if (is_of_window(output)) defines += define("KEY_WINDOW");
+  if (output == ProjectOutput::key_counts) defines += define("COUNT_KEYS");
   if (output == ProjectOutput::splats && rows_)
     defines += define("COUNT_TILES") + tile_size_defines();
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
@@ -118,7 +131,7 @@ std::vector<std::string> Specialization::project_files(ProjectOutput output) con
   if (extended_) files.push_back("project_extended.cl");
   if (output == ProjectOutput::splats && rows_)
     files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
-  files.push_back("splat_arrays.cl");
+  files.insert(files.end(), {"sort_keys.cl", "splat_arrays.cl"});
   if (rows_) {
     files.push_back("project.cl");
   } else {
@@ -155,6 +168,10 @@ ProgramSource Specialization::scan_blocks() {
 
 ProgramSource Specialization::sort() {
   return {"", {"prefetch.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
+}
+
+ProgramSource Specialization::carry() {
+  return {"", {"carry.cl"}};
 }
 
 ProgramSource Specialization::sort_groups() {

@@ -17,7 +17,12 @@ enum class ProjectOutput {
   counts,           // how many splats each block has
   splats,           // and the splats
   splats_and_keys,  // and their sort keys
+  // Of splats in a window of sort keys alone (key_windows.h):
+  key_counts,     // as counts, and how many keys lie in each bin
+  window_counts,  // as counts
+  window_splats,  // as splats_and_keys
 };
+bool is_of_window(ProjectOutput output);
 
 // The variant of the kernels that a frame needs. It alone writes the #defines that reach a
 // kernel, and knows the sizes that follow from them. A kernel gets only those that it reads,
@@ -63,6 +68,7 @@ class Specialization {
   static ProgramSource scan_blocks();
   static ProgramSource sort();
   static ProgramSource sort_groups();
+  static ProgramSource carry();
   static ProgramSource scan();
   static ProgramSource coarse_grids();
 

@@ -1,12 +1,26 @@
 #include "device/opencl/device_context.h"
 
+#include "device/opencl/available_memory.h"
+
 namespace splotchcl {
+namespace {
+
+// A processor shares its memory with files that are mapped and with other programs, a GPU with
+// the particles' columns.
+DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits) {
+  if (traits.shares_host_memory) return {available_memory() / 4 * 3, ~std::uint64_t{0}};
+  const std::uint64_t all = device.global_memory_size();
+  return {all / 2, all / 8 * 3};
+}
+
+}  // namespace
 
 DeviceContext::DeviceContext(const compute::device& chosen)
     : device(chosen),
       context(chosen),
       queue(context, chosen, compute::command_queue::enable_profiling),
       traits(traits_of(chosen)),
+      memory(memory_of(chosen, traits)),
       programs(context),
       pool(context, queue, timer) {}
 

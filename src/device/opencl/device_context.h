@@ -15,6 +15,12 @@ namespace splotchcl {
 // Throws DeviceError when there is no device, UsageError when none has that name.
 compute::device choose_device(const std::string& part_of_name);
 
+// What may be in use at one time, in bytes.
+struct DeviceMemory {
+  std::uint64_t total = 0;    // of working memory: planes, splats, keys, lists
+  std::uint64_t columns = 0;  // of particles' columns, on a device with memory of its own
+};
+
 // One device with its queue and what all stages share.
 struct DeviceContext {
   explicit DeviceContext(const compute::device& chosen);
@@ -23,6 +29,7 @@ struct DeviceContext {
   compute::context context;
   compute::command_queue queue;  // in order
   DeviceTraits traits;
+  DeviceMemory memory;
   ProgramCache programs;
   StageTimer timer;
   BufferPool pool;

@@ -33,6 +33,7 @@ DeviceTraits traits_of(const compute::device& device) {
   traits.is_gpu = (device.type() & CL_DEVICE_TYPE_GPU) != 0;
   traits.shares_host_memory = device.get_info<cl_bool>(CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
   traits.double_numbers = device.supports_extension("cl_khr_fp64");
+  traits.largest_buffer = device.max_memory_alloc_size();
   traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;
   choose_shape(traits, !traits.is_gpu);
   return traits;

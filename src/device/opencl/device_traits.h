@@ -14,6 +14,7 @@ struct DeviceTraits {
   bool rows = true;                  // the shape: eight lanes, rows; not work-groups
   bool rows_of_16 = false;           // registers hold sixteen floats: wide splats take them
   bool double_numbers = false;       // extended numbers are double precision, not pairs
+  std::uint64_t largest_buffer = 0;  // bytes
   std::uint32_t project_block = 0;   // particles per work-item of a projection
   std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum
   std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted

@@ -80,8 +80,8 @@ CountedSplats Binner::count(SplatBlocks& blocks) const {
 
 CountedSplats Binner::count(const SortedSplats& sorted, const SplatChunk& chunk) const {
   CountedSplats counted = start(sorted.splats);
-  counted.parameters.first = chunk.first;
-  counted.parameters.end = chunk.first + chunk.count;
+  counted.parameters.first = static_cast<std::uint32_t>(chunk.first);
+  counted.parameters.end = counted.parameters.first + chunk.count;
   counted.order = &sorted.order;
   if (groups_) {
     groups_->count(counted);

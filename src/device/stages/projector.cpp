@@ -32,6 +32,15 @@ std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
       std::count_if(blocks.begin(), blocks.end(), [](std::uint32_t block) { return block != 0; }));
 }
 
+shared::WideInteger words_of(std::uint64_t value) {
+  return {static_cast<unsigned>(value), static_cast<unsigned>(value >> 32)};
+}
+
+void take_window(const KeyWindow& window, shared::ProjectParameters& parameters) {
+  parameters.window_first = words_of(window.first);
+  parameters.window_end = words_of(window.end);
+}
+
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   ParticleCounts sum;
   for (const shared::BlockCounts& block : blocks) {
@@ -44,6 +53,12 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
 
 }  // namespace
 
+// Where a launch that counts keys writes.
+struct Projector::KeyTargets {
+  const Buffer<std::uint32_t>& counts;
+  const Buffer<shared::KeyBins>& bins;  // of each block
+};
+
 // Where a launch writes.
 struct Projector::Targets {
   const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
@@ -54,6 +69,7 @@ struct Projector::Targets {
   const Buffer<std::uint32_t>& order;
   // Of splats that are binned as they come.
   const SplatBlocks* blocks = nullptr;
+  const KeyTargets* key_counts = nullptr;  // where keys are counted
 };
 
 Projector::Projector(const StageContext& context)
@@ -77,9 +93,9 @@ Projector::Projector(const StageContext& context)
 shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles) const {
   shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
-  p.first_particle = chunk.first;
-  p.end_particle = chunk.end;
-  p.block_particles = scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
+  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
+  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  p.block_particles = block_particles();
   p.smoothing_length_stride = particles.smoothing_length_stride;
   p.weight_stride = particles.weight_stride;
   p.color_stride = particles.color_stride;
@@ -113,6 +129,7 @@ std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParam
   if (particles.boxes == nullptr) return {};
   const DrawnComponent& component = context_.frame.components[parameters.component];
   const ViewBounds bounds(context_.frame, component, parameters);
+  // Boxes are of whole columns alone.
   const std::size_t first = parameters.first_particle / parameters.block_particles;
   std::vector<std::uint32_t> blocks(block_count(parameters));
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -151,6 +168,7 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   if (context_.specialization.is_extended()) {
     launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
   }
+  if (targets.key_counts) launch.arg(targets.key_counts->counts).arg(targets.key_counts->bins);
   if (targets.blocks) {
     launch.arg(context_.grids).arg(targets.blocks->tile_counts).arg(targets.blocks->tiles);
   }
@@ -173,8 +191,7 @@ SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
   const std::uint32_t groups = block_count(parameters);
   SplatBlocks blocks;
   blocks.block_count = 1;
-  blocks.stride =
-      (chunk.end - chunk.first) * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  blocks.stride = chunk.count() * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
   blocks.counts = no_counts(context_.device);
   blocks.splats = splat_memory(blocks.stride);
   const auto offsets = pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
@@ -224,15 +241,14 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   std::uint32_t blocks = 0;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
-    components.push_back(parameters_for({c, 0, static_cast<std::uint32_t>(count)}, particles[c]));
+    components.push_back(parameters_for({c, 0, count}, particles[c]));
     components.back().first_block = blocks;
     blocks += block_count(components.back());
     left_out.push_back(left_out_blocks(components.back(), particles[c]));
     keyed.left_out += count_left_out(left_out.back());
   }
   if (blocks == 0) return keyed;
-  const auto counts =
-      scan_ ? no_counts(device) : device.pool.get<shared::BlockCounts>(blocks, "block counts");
+  const auto counts = counts_of(blocks);
   const auto offsets = device.pool.get<std::uint32_t>(blocks + 1, "block offsets");
   const auto pass = [&](ProjectOutput output, const Targets& targets) {
     for (std::size_t c = 0; c < components.size(); ++c)
@@ -240,16 +256,80 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   };
   pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
   scan_counts(blocks, counts, offsets);
-  keyed.particles = sum_of(device.pool.download(counts, scan_ ? 1 : blocks));
-  keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
-  keyed.splats = splat_memory(keyed.count);
-  keyed.keys = device.pool.get<std::uint32_t>(keyed.count, "sort keys");
-  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
-  keyed.key_ends = device.pool.get<std::uint16_t>(by_depth ? keyed.count : 0, "ends of sort keys");
-  keyed.order = device.pool.get<std::uint32_t>(keyed.count, "order");
+  const ParticleCounts found = download_counts(counts, blocks);
+  const std::uint32_t left_out_of_all = keyed.left_out;
+  keyed = keyed_memory(static_cast<std::uint32_t>(found.visible));
+  keyed.particles = found;
+  keyed.left_out = left_out_of_all;
   pass(ProjectOutput::splats_and_keys,
        {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
   return keyed;
+}
+
+KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
+  BufferPool& pool = context_.device.pool;
+  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
+  KeyedSplats keyed;
+  keyed.count = count;
+  keyed.splats = splat_memory(count);
+  keyed.keys = pool.get<std::uint32_t>(count, "sort keys");
+  keyed.key_ends = pool.get<std::uint16_t>(by_depth ? count : 0, "ends of sort keys");
+  keyed.order = pool.get<std::uint32_t>(count, "order");
+  return keyed;
+}
+
+std::uint32_t Projector::block_particles() const {
+  return scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
+}
+
+Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {
+  DeviceContext& device = context_.device;
+  return scan_ ? no_counts(device) : device.pool.get<shared::BlockCounts>(blocks, "block counts");
+}
+
+ParticleCounts Projector::download_counts(const Buffer<shared::BlockCounts>& counts,
+                                          std::uint32_t blocks) const {
+  return sum_of(context_.device.pool.download(counts, scan_ ? 1 : blocks));
+}
+
+ChunkKeys Projector::count_keys(const ParticleChunk& chunk, const ParticleBuffers& particles,
+                                const KeyWindow& window, int shift,
+                                const Buffer<std::uint32_t>& key_counts) const {
+  BufferPool& pool = context_.device.pool;
+  shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  take_window(window, parameters);
+  parameters.bin_shift = shift;
+  const std::uint32_t blocks = block_count(parameters);
+  const auto counts = counts_of(blocks);
+  const auto offsets = pool.upload(std::vector<std::uint32_t>(blocks + 1), "block offsets");
+  const auto bins = pool.get<shared::KeyBins>(blocks, "bins of keys");
+  const KeyTargets keys = {key_counts, bins};
+  const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
+  Targets targets = {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_};
+  targets.key_counts = &keys;
+  launch(ProjectOutput::key_counts, parameters, particles, left_out, targets);
+  return {download_counts(counts, blocks), pool.download(bins, blocks), count_left_out(left_out)};
+}
+
+std::uint32_t Projector::project_window(const ParticleChunk& chunk,
+                                        const ParticleBuffers& particles, const KeyWindow& window,
+                                        const std::vector<std::uint32_t>& without,
+                                        const KeyedSplats& keyed, std::uint32_t first_slot) const {
+  BufferPool& pool = context_.device.pool;
+  shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  take_window(window, parameters);
+  const std::uint32_t blocks = block_count(parameters);
+  const auto counts = counts_of(blocks);
+  const auto offsets = pool.upload(std::vector<std::uint32_t>(blocks + 1), "block offsets");
+  launch(ProjectOutput::window_counts, parameters, particles, without,
+         {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
+  scan_counts(blocks, counts, offsets);
+  const auto found = static_cast<std::uint32_t>(download_counts(counts, blocks).visible);
+  if (found == 0) return 0;
+  parameters.first_slot = first_slot;
+  launch(ProjectOutput::window_splats, parameters, particles, without,
+         {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
+  return found;
 }
 
 // Where the splats of each block begin, from how many it has.

@@ -5,12 +5,20 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
+#include "device/frame/key_windows.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/stages/group_scan.h"
 
 namespace splotchcl {
+
+// What became of a chunk's particles, and the bins of its blocks' keys.
+struct ChunkKeys {
+  ParticleCounts particles;
+  std::vector<shared::KeyBins> bins;
+  std::uint32_t left_out = 0;  // blocks out of view
+};
 
 // Particles to splats: the stage `project`.
 class Projector {
@@ -25,8 +33,27 @@ class Projector {
   // All particles of all components, with sort keys: what an ordered frame needs.
   KeyedSplats project_all(const std::vector<ParticleBuffers>& particles) const;
 
+  // Counts the keys of a chunk's splats that lie in the window, in bins of 2^shift keys; adds to
+  // `key_counts`, which has KEY_BINS.
+  ChunkKeys count_keys(const ParticleChunk& chunk, const ParticleBuffers& particles,
+                       const KeyWindow& window, int shift,
+                       const Buffer<std::uint32_t>& key_counts) const;
+  // Writes those splats and their keys from slot `first_slot` on; how many. Blocks of the chunk
+  // that `without` says have none: 1, else 0.
+  std::uint32_t project_window(const ParticleChunk& chunk, const ParticleBuffers& particles,
+                               const KeyWindow& window, const std::vector<std::uint32_t>& without,
+                               const KeyedSplats& keyed, std::uint32_t first_slot) const;
+  // Room for `count` splats and their keys.
+  KeyedSplats keyed_memory(std::uint32_t count) const;
+  // Particles of a block of count_keys() and project_window().
+  std::uint32_t block_particles() const;
+
  private:
+  struct KeyTargets;
   struct Targets;
+  Buffer<shared::BlockCounts> counts_of(std::uint32_t blocks) const;
+  ParticleCounts download_counts(const Buffer<shared::BlockCounts>& counts,
+                                 std::uint32_t blocks) const;
   shared::ProjectParameters parameters_for(const ParticleChunk& chunk,
                                            const ParticleBuffers& particles) const;
   SplatBlocks project_in_blocks(const ParticleChunk& chunk, const ParticleBuffers& particles) const;

@@ -43,6 +43,7 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.drawn_particles = std::max(total.drawn_particles, frame.drawn_particles);
   total.tile_entries = std::max(total.tile_entries, frame.tile_entries);
   total.blocks_left_out += frame.blocks_left_out;
+  total.windows = std::max(total.windows, frame.windows);
   total.drawn_most_exactly |= frame.drawn_most_exactly;
   total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
   add(frame.check, total.check);
@@ -78,6 +79,7 @@ struct FrameDrawer::State {
       of_renderer.certify = options.certify;
       of_renderer.shape = options.shape;
       of_renderer.columns_stay = options.columns_stay;
+      of_renderer.memory_bytes = options.memory_bytes;
       of_renderer.progress = [this](double fraction) {
         if (progress) progress("drawing", fraction);
       };

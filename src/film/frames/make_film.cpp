@@ -156,6 +156,7 @@ class Film {
     of_drawer.device = options_.device;
     of_drawer.by_reference = options_.by_reference;
     of_drawer.columns_stay = true;
+    of_drawer.memory_bytes = options_.memory_bytes;
     FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());
     decide_tone(drawer);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace splotchcl {
+
+// Where the splats of an ordered frame do not fit into memory together, they are drawn window by
+// window of their sort keys, nearest first (docs/large.md). Keys have 48 bits.
+constexpr std::uint64_t end_of_keys = std::uint64_t{1} << 48;
+
+// Splats whose keys lie in [first, end).
+struct KeyWindow {
+  std::uint64_t first = 0, end = end_of_keys;
+  std::uint64_t splats = 0;
+};
+
+// How many splats each of 2^16 bins of keys has: key >> shift, of the keys in a window.
+struct CountedKeys {
+  KeyWindow window;
+  int shift = 32;
+  std::vector<std::uint64_t> bins;
+};
+
+// Counts the keys of a window in bins of 2^shift of them.
+using CountKeys = std::function<CountedKeys(const KeyWindow& window, int shift)>;
+
+// Windows one after the other, from the smallest key to the largest, none with more than
+// `capacity` splats unless they all have one key. `count` is called for bins that hold more than
+// that.
+std::vector<KeyWindow> choose_windows(const CountedKeys& counted, std::uint64_t capacity,
+                                      const CountKeys& count);
+
+}  // namespace splotchcl

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/frame/chunks.h"
+#include "device/frame/key_windows.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+#include "device/stages/projector.h"
+#include "device/stages/sorter.h"
+
+namespace splotchcl {
+
+// The most splats of an ordered frame that have room on the device at one time, with their keys,
+// beside its planes and lists.
+std::uint64_t splat_capacity(const StageContext& context);
+
+// The splats of an ordered frame that has more of them than there is room for: window by window of
+// their keys, nearest first. A pass over the particles counts keys; then each window takes a pass
+// over the blocks of particles that have splats in it.
+class WindowProjector {
+ public:
+  // All of them outlive it.
+  WindowProjector(const StageContext& context, const Projector& projector, const Sorter& sorter,
+                  ParticleStore& particles);
+
+  // First of all; waits for the device. Where particles are too sharp there is nothing to draw.
+  void count_keys();
+  const ParticleCounts& particles() const { return counts_; }
+  std::uint32_t left_out() const { return left_out_; }  // blocks out of view
+  std::size_t steps() const { return steps_.size(); }
+
+  // What of `sorted` is left from place `first` on, and behind it the splats of step `step`.
+  SortedSplats next(std::size_t step, const SortedSplats& sorted, std::uint32_t first) const;
+
+ private:
+  // A window, or where all of its keys are one the part of it that some chunks have.
+  struct Step {
+    KeyWindow window;  // whose splats are the most that there may be
+    std::size_t first_chunk = 0, end_chunk = 0;
+  };
+  CountedKeys count(const KeyWindow& window, int shift);
+  void add_steps(const KeyWindow& window);
+  std::vector<std::uint32_t> blocks_without(std::size_t chunk, const KeyWindow& window) const;
+  ParticleBuffers particles_of(const ParticleChunk& chunk) const;
+  std::uint64_t most_splats_of(const ParticleChunk& chunk) const;
+  void carry(const SortedSplats& sorted, std::uint32_t first, const KeyedSplats& keyed) const;
+
+  const StageContext& context_;
+  const Projector& projector_;
+  const Sorter& sorter_;
+  ParticleStore& particles_;
+  const std::vector<ParticleChunk> chunks_;
+  const std::uint64_t capacity_;
+  std::vector<std::vector<shared::KeyBins>> bins_;  // of each chunk's blocks: key >> 32
+  std::vector<Step> steps_;
+  ParticleCounts counts_;
+  std::uint32_t left_out_ = 0;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,249 @@
+// Ordered frames that have no room in one piece, and columns that have none in one buffer: the
+// same bits as in one piece.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "device/pictures.h"
+#include "device/scene_maker.h"
+#include "device/stages.h"
+#include "long_tests.h"
+
+namespace splotchcl::test {
+namespace {
+
+// A column as one that is read when it is wanted.
+class CopiedColumn final : public ColumnSource {
+ public:
+  explicit CopiedColumn(Column values) : values_(std::move(values)) {}
+  std::size_t size() const override { return values_.size(); }
+  void make(std::size_t begin, std::size_t end, float* values) const override {
+    std::copy(values_.data() + begin, values_.data() + end, values);
+  }
+
+ private:
+  Column values_;
+};
+
+Column streamed(const Column& column) {
+  return column.is_array() ? Column::made_by(std::make_shared<CopiedColumn>(column)) : column;
+}
+
+Frame streamed(Frame frame) {
+  for (DrawnComponent& component : frame.components) {
+    Particles& particles = component.particles;
+    for (Column* const column :
+         {&particles.position, &particles.smoothing_length, &particles.weight, &particles.color,
+          &particles.color_vector, &particles.intensity, &particles.sort_field}) {
+      *column = streamed(*column);
+    }
+  }
+  return frame;
+}
+
+class Windows : public StageTest, public testing::WithParamInterface<bool> {
+ protected:
+  // Few splats of a chunk and few particles of a block, so that small scenes have many.
+  void SetUp() override {
+    choose_shape(device().traits, GetParam());
+    whole_ = device().traits;
+    memory_ = device().memory;
+    device().traits.project_block = GetParam() ? 16 : GROUP_ITEMS;
+    device().traits.chunk_blocks = GetParam() ? 4 : 1;
+    device().traits.sorted_chunk = 32;
+  }
+  void TearDown() override {
+    device().traits = whole_;
+    device().memory = memory_;
+  }
+
+  // Of a plan with so many slabs; below 0: as many as seem to pay.
+  Image draw(const Frame& frame, int slabs = -1) {
+    PlanOptions options;
+    options.slabs = slabs;
+    const FramePlan plan = make_plan(frame, options);
+    ParticleStore particles(device());
+    particles.begin_frame();
+    Pipeline pipeline(device(), particles, frame, plan);
+    Image image = pipeline.draw();
+    device().queue.finish();
+    counts_ = pipeline.counts();
+    return image;
+  }
+  Image draw_in_windows(const Frame& frame, std::uint64_t windows, int slabs = -1) {
+    make_room_for(std::max<std::uint64_t>(1, (counts_.visible + windows - 1) / windows), frame);
+    Image image = draw(frame, slabs);
+    device().memory = memory_;
+    return image;
+  }
+  const DrawCounts& counts() const { return counts_; }
+
+ private:
+  // The least memory that has room for so many splats.
+  void make_room_for(std::uint64_t splats, const Frame& frame) {
+    const FramePlan plan = make_plan(frame);
+    const StageContext context(device(), frame, plan);
+    std::uint64_t low = 0, high = std::uint64_t{1} << 40;
+    while (high - low > 1) {
+      device().memory.total = (low + high) / 2;
+      (splat_capacity(context) >= splats ? high : low) = device().memory.total;
+    }
+    device().memory.total = high;
+  }
+
+  DeviceTraits whole_;
+  DeviceMemory memory_;
+  DrawCounts counts_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Windows, testing::Bool(),
+                         [](const auto& info) { return info.param ? "rows" : "groups"; });
+
+TEST_P(Windows, DrawTheBitsOfOnePieceForAllScenes) {
+  int ordered = 0;
+  std::uint64_t most_windows = 0;
+  for (const std::uint64_t seed : seeds(1, 60)) {
+    const Frame frame = SceneMaker(seed).make();
+    if (choose_light(frame) != LightPlan::ordered) continue;
+    const Image whole = draw(frame);
+    if (counts().visible < 64 || counts().too_sharp > 0) continue;
+    EXPECT_EQ(counts().windows, 0u);
+    ++ordered;
+    const DrawCounts of_whole = counts();
+    for (const std::uint64_t windows : {2u, 7u, 50u}) {
+      EXPECT_EQ(draw_in_windows(frame, windows).pixels, whole.pixels)
+          << "seed " << seed << ", " << windows << " windows";
+      most_windows = std::max(most_windows, counts().windows);
+      EXPECT_EQ(counts().visible, of_whole.visible);
+      EXPECT_EQ(counts().bad, of_whole.bad);
+      EXPECT_EQ(counts().tile_entries, of_whole.tile_entries);
+    }
+  }
+  EXPECT_GT(ordered, 2);
+  EXPECT_GT(most_windows, 4u);
+}
+
+Frame many_clouds(int count) {
+  CloudSetup setup;
+  setup.count = count;
+  setup.sigma_high = 6;
+  setup.column_high = 0.1;
+  DrawnComponent first = random_clouds(setup);
+  first.absorption = {Absorption::Kind::gray, 0.2};
+  setup.seed = 2;
+  DrawnComponent second = random_clouds(setup);
+  second.absorption = {Absorption::Kind::gray, 0.4};
+  return frame_of(setup.width, setup.height, {first, second});
+}
+
+TEST_P(Windows, AreAsManyAsMemoryAsksFor) {
+  const Frame frame = many_clouds(2000);
+  const Image whole = draw(frame);
+  for (const std::uint64_t windows : {2u, 7u, 50u}) {
+    const std::uint64_t visible = counts().visible;
+    EXPECT_EQ(draw_in_windows(frame, windows).pixels, whole.pixels);
+    EXPECT_GE(counts().windows, windows);
+    EXPECT_LE(counts().windows, 2 * windows + visible / 200);
+  }
+}
+
+TEST_P(Windows, HoldSlabs) {
+  Frame frame = many_clouds(1000);
+  frame.tolerance = 1e-2;
+  for (const int slabs : {1, 3}) {
+    const Image whole = draw(frame, slabs);
+    EXPECT_EQ(draw_in_windows(frame, 5, slabs).pixels, whole.pixels) << slabs;
+    EXPECT_GE(counts().windows, 5u);
+  }
+}
+
+TEST_P(Windows, KeepTheOrderOfSplatsOfOneKey) {
+  Frame frame = many_clouds(1000);
+  frame.sort.by = SortOrder::By::field;
+  for (const bool descending : {false, true}) {
+    frame.sort.descending = descending;
+    for (DrawnComponent& component : frame.components) {
+      std::vector<float> fields(component.particles.count, 1.0f);
+      for (std::size_t i = 0; i < fields.size(); i += 10)
+        fields[i] = static_cast<float>(i % 3);
+      component.particles.sort_field = Column::owning(fields);
+    }
+    const Image whole = draw(frame);
+    EXPECT_EQ(draw_in_windows(frame, 12).pixels, whole.pixels);
+    EXPECT_GE(counts().windows, 6u);
+  }
+}
+
+TEST_P(Windows, HoldExtendedPrecision) {
+  Frame frame = many_clouds(300);
+  frame.tolerance = 0;
+  const Image whole = draw(frame);
+  EXPECT_EQ(draw_in_windows(frame, 6).pixels, whole.pixels);
+  EXPECT_GE(counts().windows, 6u);
+}
+
+TEST_P(Windows, HoldTheCopiesOfPanoramas) {
+  Camera camera;
+  camera.position = {{0, 0, 50}};
+  camera.look_at = {{0, 0, 60}};
+  camera.sky = {{0, -1, 0}};
+  camera.projection = Projection::equirectangular;
+  Frame frame = many_clouds(500);
+  frame.width = 120;
+  frame.height = 60;
+  frame.crop = {0, 0, 120, 60};
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  const Image whole = draw(frame);
+  EXPECT_GT(counts().visible, 100u);
+  EXPECT_EQ(draw_in_windows(frame, 6).pixels, whole.pixels);
+  EXPECT_GE(counts().windows, 6u);
+}
+
+TEST_P(Windows, HoldAnEmptyFrame) {
+  Frame frame = many_clouds(100);
+  frame.camera.position = {{0, 0, 1e6}};
+  const Image whole = draw(frame);
+  EXPECT_EQ(draw_in_windows(frame, 1).pixels, whole.pixels);
+}
+
+TEST_P(Windows, DrawColumnsInPiecesToTheSameBits) {
+  for (const bool is_ordered : {false, true}) {
+    Frame frame = many_clouds(1000);
+    if (!is_ordered) {
+      for (DrawnComponent& component : frame.components)
+        component.absorption = {Absorption::Kind::none, 0};
+    }
+    const Image whole = draw(frame);
+    const DeviceTraits traits = device().traits;
+    device().traits.largest_buffer = 3 * sizeof(float) * 512;
+    EXPECT_EQ(draw(frame).pixels, whole.pixels) << is_ordered;
+    device().traits = traits;
+  }
+}
+
+// As on a GPU, which has not room for all of them at one time.
+TEST_P(Windows, DrawColumnsThatComeAndGoToTheSameBits) {
+  const Frame frame = many_clouds(1000);
+  const Image whole = draw(frame);
+  device().traits.largest_buffer = 3 * sizeof(float) * 512;
+  device().traits.shares_host_memory = false;
+  device().memory.columns = 5 * sizeof(float) * 512;
+  EXPECT_EQ(draw(frame).pixels, whole.pixels);
+}
+
+TEST_P(Windows, DrawColumnsThatAreReadChunkByChunkToTheSameBits) {
+  for (const bool is_ordered : {false, true}) {
+    Frame frame = many_clouds(1000);
+    if (!is_ordered) {
+      for (DrawnComponent& component : frame.components)
+        component.absorption = {Absorption::Kind::none, 0};
+    }
+    EXPECT_EQ(draw(streamed(frame)).pixels, draw(frame).pixels) << is_ordered;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test
