@@ -18,6 +18,8 @@ class ColumnSource {
   // Values [begin, end); each is the same however it is asked for. Several threads may ask.
   virtual void make(std::size_t begin, std::size_t end, float* values) const = 0;
   virtual std::vector<float> make_all() const;
+  // All of them are too many to be held: who can asks for them stretch by stretch.
+  virtual bool is_streamed() const { return false; }
 };
 
 // Values of one quantity: one per particle, one for all, or none at all.

@@ -115,7 +115,7 @@ Planes Pipeline::draw_windows(Planes planes) {
   std::uint64_t first = 0, drawn = 0;
   std::size_t next = 0;
   for (std::size_t step = 0; step < windows.steps(); ++step) {
-    sorted = windows.next(step, sorted, static_cast<std::uint32_t>(drawn - first));
+    sorted = windows.next(step, std::move(sorted), static_cast<std::uint32_t>(drawn - first));
     first = drawn;
     planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
     drawn = next < chunks.size() ? chunks[next].first : counts_.visible;

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
+#include <utility>
+
+#include "parallel/available_memory.h"
+#include "scene/streamed_column.h"
 
 namespace splotchcl {
 namespace {
@@ -79,21 +83,88 @@ bool can_point_into_file(const StoredValues& part) {
          reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0;
 }
 
+std::size_t number_of_values(const StoredValues& part) {
+  return part.particles * static_cast<std::size_t>(part.values_per_particle);
+}
+
+// Values [begin, end) of a part.
 template <typename T>
-float* convert_as(const StoredValues& part, const Vec3& origin, float* out) {
-  const bool has_origin = part.values_per_particle == 3 && origin != zero;
-  const std::byte* particle = part.file->data() + part.offset;
-  const std::uint64_t stride = stride_of(part);
-  const std::uint64_t axis_stride = axis_stride_of(part);
-  for (std::uint64_t i = 0; i < part.particles; ++i, particle += stride) {
-    for (int axis = 0; axis < part.values_per_particle; ++axis) {
-      const auto value =
-          load<T>(particle + static_cast<std::uint64_t>(axis) * axis_stride, part.is_swapped);
-      *out++ = has_origin ? static_cast<float>(static_cast<double>(value) - origin.a[axis])
-                          : static_cast<float>(value);
+float* convert_as(const StoredValues& part, const Vec3& origin, std::size_t begin, std::size_t end,
+                  float* out) {
+  const auto width = static_cast<std::size_t>(part.values_per_particle);
+  const bool has_origin = width == 3 && origin != zero;
+  const std::uint64_t stride = stride_of(part), axis_stride = axis_stride_of(part);
+  std::size_t axis = begin % width;
+  const std::byte* particle = part.file->data() + part.offset + begin / width * stride;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto value = load<T>(particle + axis * axis_stride, part.is_swapped);
+    *out++ = has_origin ? static_cast<float>(static_cast<double>(value) - origin.a[axis])
+                        : static_cast<float>(value);
+    if (++axis == width) {
+      axis = 0;
+      particle += stride;
     }
   }
   return out;
+}
+
+float* convert(const StoredValues& part, const Vec3& origin, std::size_t begin, std::size_t end,
+               float* out) {
+  if (can_point_into_file(part) && origin == zero) {
+    std::memcpy(out, part.file->data() + part.offset + begin * sizeof(float),
+                (end - begin) * sizeof(float));
+    return out + (end - begin);
+  }
+  return with_value_type(part.kind, [&](auto* type) {
+    using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;
+    return convert_as<T>(part, origin, begin, end, out);
+  });
+}
+
+// The values of files that are mapped, one file after the other.
+struct StoredColumn {
+  std::vector<StoredValues> parts;  // none of them empty
+  Vec3 origin;
+  std::size_t size = 0;
+
+  void make(std::size_t begin, std::size_t end, float* out) const {
+    std::size_t first = 0;  // value of the part
+    for (const StoredValues& part : parts) {
+      const std::size_t count = number_of_values(part);
+      const std::size_t from = std::max(begin, first), to = std::min(end, first + count);
+      if (from < to) out = convert(part, origin, from - first, to - first, out);
+      first += count;
+    }
+  }
+};
+
+StoredColumn stored_column(const std::vector<StoredValues>& parts, const Vec3& origin) {
+  StoredColumn column;
+  column.origin = origin;
+  for (const StoredValues& part : parts) {
+    if (part.particles == 0) continue;
+    part.file->check_size();
+    column.parts.push_back(part);
+    column.size += number_of_values(part);
+  }
+  return column;
+}
+
+// A part that already is what is wanted.
+std::optional<Column> in_place(const StoredColumn& column) {
+  if (column.parts.size() != 1 || column.origin != zero) return std::nullopt;
+  const StoredValues& part = column.parts.front();
+  if (!can_point_into_file(part)) return std::nullopt;
+  const std::byte* const first = part.file->data() + part.offset;
+  return Column(part.file, reinterpret_cast<const float*>(first), column.size);
+}
+
+Column converted(StoredColumn column, bool is_streamed) {
+  const std::size_t size = column.size;
+  return make_column(size, is_streamed,
+                     [column = std::move(column)](std::size_t begin, std::size_t end, float* out) {
+                       column.make(begin, end, out);
+                     });
 }
 
 }  // namespace
@@ -120,27 +191,17 @@ double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t of
   return value_at(StoredValues{file, offset, 1, 1, 0, kind, is_swapped, 0}, 0, 0);
 }
 
-Column make_column(const std::vector<StoredValues>& all_parts, const Vec3& origin) {
-  std::vector<StoredValues> parts;
-  std::copy_if(all_parts.begin(), all_parts.end(), std::back_inserter(parts),
-               [](const StoredValues& part) { return part.particles > 0; });
-  std::size_t size = 0;
-  for (const StoredValues& part : parts) {
-    part.file->check_size();
-    size += part.particles * static_cast<std::size_t>(part.values_per_particle);
-  }
-  if (parts.size() == 1 && can_point_into_file(parts[0]) && origin == zero) {
-    const std::byte* const first = parts[0].file->data() + parts[0].offset;
-    return Column(parts[0].file, reinterpret_cast<const float*>(first), size);
-  }
-  std::vector<float> values(size);
-  float* out = values.data();
-  for (const StoredValues& part : parts) {
-    out = with_value_type(part.kind, [&](auto* type) {
-      return convert_as<std::remove_cv_t<std::remove_pointer_t<decltype(type)>>>(part, origin, out);
-    });
-  }
-  return Column::owning(std::move(values));
+Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin) {
+  StoredColumn column = stored_column(parts, origin);
+  if (const auto mapped = in_place(column)) return *mapped;
+  const bool is_streamed = is_too_large_to_copy(column.size * sizeof(float));
+  return converted(std::move(column), is_streamed);
+}
+
+Column make_streamed_column(const std::vector<StoredValues>& parts, const Vec3& origin) {
+  StoredColumn column = stored_column(parts, origin);
+  if (const auto mapped = in_place(column)) return *mapped;
+  return converted(std::move(column), true);
 }
 
 std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts) {

@@ -65,8 +65,12 @@ struct StoredValues {
 
 // The parts one after the other, in single precision. A single part of native float32,
 // 4-byte aligned, is not copied: the column points into the file. `origin` is taken from
-// 3-vectors in double before they are rounded.
+// 3-vectors in double before they are rounded. What would be too large to copy is converted as it
+// is wanted.
 Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin = {{0, 0, 0}});
+// The same, converted as it is wanted unless it points into the file.
+Column make_streamed_column(const std::vector<StoredValues>& parts,
+                            const Vec3& origin = {{0, 0, 0}});
 
 // Whole numbers, exact, the parts one after the other; empty when a part holds none.
 std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts);

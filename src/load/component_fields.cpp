@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "parallel/available_memory.h"
+#include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
@@ -29,17 +31,23 @@ Column joined(const std::vector<Part>& parts, std::size_t width) {
   std::size_t total = 0;
   for (const Part& part : parts)
     total += part.count;
-  std::vector<float> values;
-  values.reserve(total * width);
-  for (const Part& part : parts) {
-    const std::size_t size = part.count * width;
-    if (part.column.is_uniform()) {
-      values.insert(values.end(), size, part.column.uniform_value());
-    } else {
-      values.insert(values.end(), part.column.data(), part.column.data() + size);
+  const bool streams = is_too_large_to_copy(total * width * sizeof(float)) ||
+                       std::any_of(parts.begin(), parts.end(),
+                                   [](const Part& part) { return is_streamed(part.column); });
+  const auto make = [parts, width](std::size_t begin, std::size_t end, float* out) {
+    std::size_t first = 0;  // value of the part
+    for (const Part& part : parts) {
+      const std::size_t size = part.count * width;
+      const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
+      if (from < to) {
+        const ColumnStretch stretch(part.column, from - first, to - first);
+        for (std::size_t i = from; i < to; ++i)
+          *out++ = stretch[i - first];
+      }
+      first += size;
     }
-  }
-  return Column::owning(std::move(values));
+  };
+  return make_column(total * width, streams, make);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/words.h"
+#include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {
@@ -37,6 +38,21 @@ std::optional<double> power_of(const std::string& word, const std::string& symbo
   return std::pow(value, *power);
 }
 
+// One value of each vector.
+template <class Value>
+Column of_vectors(const Column& vectors, Value value) {
+  const auto make = [=](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch stretch(vectors, 3 * begin, 3 * end);
+    for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
+      const double vector[3] = {static_cast<double>(stretch[i]),
+                                static_cast<double>(stretch[i + 1]),
+                                static_cast<double>(stretch[i + 2])};
+      *out++ = static_cast<float>(value(vector));
+    }
+  };
+  return make_column(vectors.size() / 3, is_streamed(vectors), make);
+}
+
 bool begins_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
@@ -48,16 +64,19 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
   constexpr double x = hydrogen_mass_fraction;
   const double per_energy_and_weight =
       (adiabatic_index - 1) * energy_unit * proton_mass_g / boltzmann_erg_per_kelvin;
-  std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double electrons = electron_abundance.is_absent()
-                                 ? (1 + x) / (2 * x)
-                                 : static_cast<double>(electron_abundance[i]);
-    const double weight = 4 / (1 + 3 * x + 4 * x * electrons);
-    values[i] = static_cast<float>(per_energy_and_weight * weight *
-                                   static_cast<double>(internal_energy[i]));
-  }
-  return Column::owning(std::move(values));
+  const bool streams = is_streamed(internal_energy) || is_streamed(electron_abundance);
+  const auto make = [=](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch energies(internal_energy, begin, end);
+    const ColumnStretch abundances(electron_abundance, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double electrons =
+          electron_abundance.is_absent() ? (1 + x) / (2 * x) : static_cast<double>(abundances[i]);
+      const double weight = 4 / (1 + 3 * x + 4 * x * electrons);
+      *out++ =
+          static_cast<float>(per_energy_and_weight * weight * static_cast<double>(energies[i]));
+    }
+  };
+  return make_column(count, streams, make);
 }
 
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field) {
@@ -79,31 +98,22 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
 }
 
 Column lengths_of_vectors(const Column& vectors) {
-  std::vector<float> lengths(vectors.size() / 3);
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    lengths[i] = std::hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]);
-  }
-  return Column::owning(std::move(lengths));
+  return of_vectors(vectors, [](const double* v) {
+    return std::hypot(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+  });
 }
 
 Column axis_of_vectors(const Column& vectors, std::size_t axis, double added) {
-  std::vector<float> values(vectors.size() / 3);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = static_cast<float>(added + static_cast<double>(vectors[3 * i + axis]));
-  }
-  return Column::owning(std::move(values));
+  return of_vectors(vectors, [=](const double* v) { return added + v[axis]; });
 }
 
 Column distances(const Column& position, const Vec3& origin, const Vec3& center) {
-  std::vector<float> values(position.size() / 3);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  return of_vectors(position, [=](const double* v) {
     double d[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      d[axis] = (origin.a[axis] - center.a[axis]) + static_cast<double>(position[3 * i + axis]);
-    }
-    values[i] = static_cast<float>(std::hypot(d[0], d[1], d[2]));
-  }
-  return Column::owning(std::move(values));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      d[axis] = (origin.a[axis] - center.a[axis]) + v[axis];
+    return std::hypot(d[0], d[1], d[2]);
+  });
 }
 
 std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "parallel/for_blocks.h"
+#include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -23,18 +24,23 @@ bool is_in_the_box(const Component& component) {
 void wrap_around(const Vec3& center, double box, Particles& particles) {
   const Column& position = particles.position;
   if (!position.is_array()) return;
-  std::vector<float> wrapped(position.size());
-  double shift[3];  // from stored positions to distances from the center
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    shift[axis] = particles.origin.a[axis] - center.a[axis];
-  const auto wrap = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = 3 * first; i < 3 * last; ++i) {
-      const double distance = static_cast<double>(position.data()[i]) + shift[i % 3];
-      wrapped[i] = static_cast<float>(distance - box * std::nearbyint(distance / box));
+  const Vec3 shift = particles.origin - center;  // from stored positions to distances from it
+  const auto wrap = [position, shift, box](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch stretch(position, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double distance = static_cast<double>(stretch[i]) + shift.a[i % 3];
+      *out++ = static_cast<float>(distance - box * std::nearbyint(distance / box));
     }
   };
-  for_blocks(position.size() / 3, 1 << 16, wrap);
-  particles.position = Column::owning(std::move(wrapped));
+  if (is_streamed(position)) {
+    particles.position = make_column(position.size(), true, wrap);
+  } else {
+    std::vector<float> wrapped(position.size());
+    for_blocks(position.size(), 3 << 16, [&](std::size_t begin, std::size_t end) {
+      wrap(begin, end, wrapped.data() + begin);
+    });
+    particles.position = Column::owning(std::move(wrapped));
+  }
   particles.origin = center;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/constants.h"
+#include "scene/streamed_column.h"
 
 namespace splotchcl {
 namespace {
@@ -48,19 +49,14 @@ Column placed_positions(const Placement& placement, const Vec3& center, const Ve
                         const Column& position) {
   if (only_moves(placement)) return position;
   const std::array<Vec3, 3> axes = turned_axes(placement);
-  std::vector<float> placed(position.size());
-  for (std::size_t i = 0; i < placed.size(); i += 3) {
+  const Vec3 from_center = origin - center;
+  return make_vectors(position, [axes, from_center](const double* stored, double* placed) {
     double d[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The two large numbers first.
-      d[axis] = (origin.a[axis] - center.a[axis]) + static_cast<double>(position[i + axis]);
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      placed[i + axis] = static_cast<float>(d[0] * axes[0].a[axis] + d[1] * axes[1].a[axis] +
-                                            d[2] * axes[2].a[axis]);
-    }
-  }
-  return Column::owning(std::move(placed));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      d[axis] = from_center.a[axis] + stored[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      placed[axis] = d[0] * axes[0].a[axis] + d[1] * axes[1].a[axis] + d[2] * axes[2].a[axis];
+  });
 }
 
 }  // namespace splotchcl

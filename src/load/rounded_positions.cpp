@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "scene/streamed_column.h"
 namespace splotchcl {
 namespace {
 
@@ -28,16 +29,19 @@ std::optional<std::string> tell_rounded_positions(const DrawnComponent& componen
   if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return std::nullopt;
   std::uint64_t count = 0;
   double worst = 0;
-  for (std::size_t i = 0; i < particles.count; ++i) {
-    const float offset[3] = {particles.position[3 * i], particles.position[3 * i + 1],
-                             particles.position[3 * i + 2]};
-    const double h = component.size_factor * static_cast<double>(particles.smoothing_length[i]);
-    if (!(h > 0)) continue;
-    const double part = spacing_at(offset) / h;
-    if (!(part > too_coarse)) continue;
-    ++count;
-    worst = std::max(worst, part);
-  }
+  for_stretches(particles.count, [&](std::size_t begin, std::size_t end) {
+    const ColumnStretch position(particles.position, 3 * begin, 3 * end);
+    const ColumnStretch lengths(particles.smoothing_length, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const float offset[3] = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
+      const double h = component.size_factor * static_cast<double>(lengths[i]);
+      if (!(h > 0)) continue;
+      const double part = spacing_at(offset) / h;
+      if (!(part > too_coarse)) continue;
+      ++count;
+      worst = std::max(worst, part);
+    }
+  });
   if (count == 0) return std::nullopt;
   return fmt::format(
       "component {}: {} of {} particles lie so far from the others that single precision rounds "

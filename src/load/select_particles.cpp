@@ -10,6 +10,7 @@
 
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_integers.h"
+#include "scene/streamed_column.h"
 #include "select/condition.h"
 #include "select/id_list.h"
 #include "snapshot/field_names.h"
@@ -276,12 +277,8 @@ std::string selection_key(const Component& component, double periodic_box) {
 
 Column gather(const Column& column, const ParticleIndices* selected, std::size_t width) {
   if (selected == nullptr || !column.is_array()) return column;
-  std::vector<float> values;
-  values.reserve(selected->size() * width);
-  for (const std::size_t i : *selected) {
-    values.insert(values.end(), column.data() + i * width, column.data() + (i + 1) * width);
-  }
-  return Column::owning(std::move(values));
+  return gather_in_order(column, width, selected->size(),
+                         [&](std::size_t i) { return (*selected)[i]; });
 }
 
 }  // namespace splotchcl

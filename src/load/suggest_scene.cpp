@@ -7,6 +7,7 @@
 #include "common/decimals.h"
 #include "load/suggest_scene_camera.h"
 #include "scene/statistics.h"
+#include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 #include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
@@ -141,8 +142,16 @@ Component collisionless_component(const Snapshot& snapshot, const ParticleTypeIn
 bool has_one_size(const Snapshot& snapshot, int type) {
   if (find_field(*snapshot.info().find_type(type), "smoothing_length") == nullptr) return false;
   const Column lengths = snapshot.read(type, "smoothing_length");
-  return lengths.is_uniform() || std::all_of(lengths.data(), lengths.data() + lengths.size(),
-                                             [&](float length) { return length == lengths[0]; });
+  if (lengths.is_uniform()) return true;
+  const float first = lengths[0];
+  for (std::size_t begin = 0; begin < lengths.size(); begin += streamed_particles) {
+    const std::size_t end = std::min(begin + streamed_particles, lengths.size());
+    const ColumnStretch stretch(lengths, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (stretch[i] != first) return false;
+    }
+  }
+  return true;
 }
 
 void give_own_colors(Component& component, const std::string& field) {

@@ -11,6 +11,7 @@
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "scene/statistics.h"
+#include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -37,9 +38,10 @@ void sample_type(const Snapshot& snapshot, int type, std::size_t stride, Sample&
   const Column position = snapshot.read(type, "position");
   const Vec3 origin = snapshot.position_origin();
   for (std::size_t i = 0; i + 2 < position.size(); i += 3 * stride) {
-    if (!is_finite_position(position.data() + i)) continue;
+    const float place[3] = {position[i], position[i + 1], position[i + 2]};
+    if (!is_finite_position(place)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      sample[axis].push_back(origin.a[axis] + static_cast<double>(position[i + axis]));
+      sample[axis].push_back(origin.a[axis] + static_cast<double>(place[axis]));
     }
   }
 }

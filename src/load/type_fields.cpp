@@ -10,6 +10,7 @@
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
 #include "scene/particle_rules.h"
+#include "scene/streamed_column.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
@@ -19,7 +20,13 @@ namespace splotchcl {
 namespace {
 
 bool all_are_sizes(const Column& column) {
-  return std::all_of(column.data(), column.data() + column.size(), is_smoothing_length);
+  bool all_are = true;
+  for_stretches(column.size(), [&](std::size_t begin, std::size_t end) {
+    const ColumnStretch stretch(column, begin, end);
+    for (std::size_t i = begin; i < end && all_are; ++i)
+      all_are = is_smoothing_length(stretch[i]);
+  });
+  return all_are;
 }
 
 }  // namespace

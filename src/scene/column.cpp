@@ -23,7 +23,8 @@ class MadeOnce {
   float value(std::size_t i) const {
     if (const float* const values = made_) return values[i];
     // A sample is cheaper value by value.
-    const bool are_few = asked_.fetch_add(1, std::memory_order_relaxed) < source_->size() / 16;
+    const bool are_few = source_->is_streamed() ||
+                         asked_.fetch_add(1, std::memory_order_relaxed) < source_->size() / 16;
     if (!are_few) return data()[i];
     float value = 0;
     source_->make(i, i + 1, &value);

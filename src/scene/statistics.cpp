@@ -5,6 +5,7 @@
 
 #include "scene/hash.h"
 #include "scene/scalar_map.h"
+#include "scene/streamed_column.h"
 
 namespace splotchcl {
 namespace {
@@ -45,13 +46,15 @@ std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling
   if (values.empty()) return std::nullopt;
   ValueRange range = {percentile(values, low / 100), percentile(values, high / 100)};
   if (low > 0 && high < 100) return range;
-  const std::size_t count = column.is_uniform() ? 1 : column.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double value = scaled(static_cast<double>(column[i]), scaling);
-    if (!std::isfinite(value)) continue;
-    if (low <= 0) range.minimum = std::min(range.minimum, value);
-    if (high >= 100) range.maximum = std::max(range.maximum, value);
-  }
+  for_stretches(column.is_uniform() ? 1 : column.size(), [&](std::size_t begin, std::size_t end) {
+    const ColumnStretch stretch(column, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double value = scaled(static_cast<double>(stretch[i]), scaling);
+      if (!std::isfinite(value)) continue;
+      if (low <= 0) range.minimum = std::min(range.minimum, value);
+      if (high >= 100) range.maximum = std::max(range.maximum, value);
+    }
+  });
   return range;
 }
 

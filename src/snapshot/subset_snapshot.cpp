@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/hash.h"
+#include "scene/streamed_column.h"
 
 namespace splotchcl {
 namespace {
@@ -63,13 +64,7 @@ Column SubsetSnapshot::read(int type, const std::string& field) const {
   const ParticleTypeInfo* const chosen = info_.find_type(type);
   if (!all.is_array() || chosen->count == whole_->info().find_type(type)->count) return all;
   const std::size_t width = all.size() / whole_->info().find_type(type)->count;
-  std::vector<float> values;
-  values.reserve(chosen->count * width);
-  for (std::uint64_t i = 0; i < chosen->count; ++i) {
-    const float* const first = all.data() + place(type, i) * width;
-    values.insert(values.end(), first, first + width);
-  }
-  return Column::owning(std::move(values));
+  return gather_in_order(all, width, chosen->count, [&](std::size_t i) { return place(type, i); });
 }
 
 std::vector<std::uint64_t> SubsetSnapshot::chosen_of(int type,

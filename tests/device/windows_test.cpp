@@ -19,6 +19,7 @@ class CopiedColumn final : public ColumnSource {
  public:
   explicit CopiedColumn(Column values) : values_(std::move(values)) {}
   std::size_t size() const override { return values_.size(); }
+  bool is_streamed() const override { return true; }
   void make(std::size_t begin, std::size_t end, float* values) const override {
     std::copy(values_.data() + begin, values_.data() + end, values);
   }

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "formats/snapshot_writer.h"
+#include "scene/streamed_column.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {
@@ -58,6 +59,30 @@ TEST_F(StoredValuesTest, AnEmptyPartDoesNotForceACopy) {
   const auto file = map(bytes_of<float>({1, 2}));
   const Column column = make_column({{file, 0, 0}, {file, 0, 2}});
   EXPECT_EQ(static_cast<const void*>(column.data()), file->data());
+}
+
+// Values are asked for in any stretch, whole vectors or not.
+TEST_F(StoredValuesTest, StreamedPartsHaveTheValuesOfCopies) {
+  const auto doubles = map(bytes_of<double>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+  const std::vector<StoredValues> parts = {
+      {doubles, 0, 2, 3, 0, ValueKind::float64},
+      {doubles, 0, 0, 3, 0, ValueKind::float64},
+      {doubles, 48, 1, 3, 48, ValueKind::float64},
+  };
+  for (const Vec3& origin : {Vec3{{0, 0, 0}}, Vec3{{1, -2, 0.5}}}) {
+    const Column held = make_column(parts, origin), streamed = make_streamed_column(parts, origin);
+    EXPECT_FALSE(is_streamed(held));
+    ASSERT_TRUE(is_streamed(streamed));
+    ASSERT_EQ(streamed.size(), 9u);
+    for (std::size_t begin = 0; begin < 9; ++begin) {
+      for (std::size_t end = begin + 1; end <= 9; ++end) {
+        const ColumnStretch stretch(streamed, begin, end);
+        for (std::size_t i = begin; i < end; ++i)
+          EXPECT_EQ(stretch[i], held[i]);
+      }
+    }
+    EXPECT_EQ(values_of(streamed), values_of(held));
+  }
 }
 
 TEST_F(StoredValuesTest, IntegersAndDoublesBecomeFloats) {

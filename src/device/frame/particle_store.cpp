@@ -5,16 +5,12 @@
 #include <utility>
 
 #include "device/frame/column_interpolator.h"
+#include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 
 namespace {
-
-// Made as they are wanted, but by the host.
-bool is_streamed(const Column& column) {
-  return column.source() != nullptr && interpolated(column) == nullptr;
-}
 
 bool has_streamed_column(const Particles& particles) {
   return is_streamed(particles.position) || is_streamed(particles.smoothing_length) ||
@@ -108,10 +104,10 @@ compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t value
   const std::size_t end = piece.end * values_per_particle;
   const bool is_whole = first == 0 && end >= column.size();
   const auto source = column.source();
-  if (!column.is_array() || (is_whole && !source) || interpolated(column))
+  if (!column.is_array() || (is_whole && !is_streamed(column)) || interpolated(column))
     return buffer_of(column, value_if_absent, stride);
   stride = 1;
-  if (source) return streamed_buffer(*source, first, end);
+  if (is_streamed(column)) return streamed_buffer(*source, first, end);
   const Key key = {column.data() + first, (end - first) * sizeof(float), nullptr};
   if (const compute::buffer* const known = find(key)) return *known;
   return keep(key, std::make_shared<const Column>(column));

@@ -1,6 +1,6 @@
 #include "device/opencl/device_context.h"
 
-#include "device/opencl/available_memory.h"
+#include "parallel/available_memory.h"
 
 namespace splotchcl {
 namespace {

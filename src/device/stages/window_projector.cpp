@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
@@ -133,13 +134,20 @@ std::vector<std::uint32_t> WindowProjector::blocks_without(std::size_t chunk,
   return without;
 }
 
-SortedSplats WindowProjector::next(std::size_t step, const SortedSplats& sorted,
+SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted,
                                    std::uint32_t first) const {
   const Step& wanted = steps_[step];
   const std::uint32_t carried = sorted.count - first;
+  // What is left is put aside first: two windows have no room at one time.
+  KeyedSplats left;
+  if (carried > 0) {
+    left = projector_.keyed_memory(carried);
+    carry(sorted, first, left);
+  }
+  sorted = {std::move(left.splats), std::move(left.order), carried};
   KeyedSplats keyed =
       projector_.keyed_memory(carried + static_cast<std::uint32_t>(wanted.window.splats));
-  if (carried > 0) carry(sorted, first, keyed);
+  if (carried > 0) carry(sorted, 0, keyed);
   std::uint32_t slot = carried;
   for (std::size_t c = wanted.first_chunk; c < wanted.end_chunk; ++c) {
     const std::vector<std::uint32_t> without = blocks_without(c, wanted.window);

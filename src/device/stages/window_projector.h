@@ -33,7 +33,7 @@ class WindowProjector {
   std::size_t steps() const { return steps_.size(); }
 
   // What of `sorted` is left from place `first` on, and behind it the splats of step `step`.
-  SortedSplats next(std::size_t step, const SortedSplats& sorted, std::uint32_t first) const;
+  SortedSplats next(std::size_t step, SortedSplats sorted, std::uint32_t first) const;
 
  private:
   // A window, or where all of its keys are one the part of it that some chunks have.

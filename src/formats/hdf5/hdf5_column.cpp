@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "common/mapped_file.h"
 #include "formats/position_origin.h"
+#include "parallel/available_memory.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -37,24 +41,97 @@ void for_pieces(const Hdf5File& file, const Hdf5Dataset& dataset, Use&& use) {
   }
 }
 
-void read_as_stored(const Hdf5File& file, const Hdf5Dataset& dataset, float* out) {
-  for_pieces(file, dataset, [&](std::uint64_t first, std::uint64_t rows) {
-    file.read_rows(dataset, first, rows, out + first * dataset.values_per_row());
-  });
+// Rows of a dataset as values of a column.
+struct RowReader {
+  Vec3 origin;
+  double factor = 1;
+
+  bool is_as_stored() const { return origin == Vec3{{0, 0, 0}} && factor == 1; }
+
+  void read(const Hdf5File& file, const Hdf5Dataset& dataset, std::uint64_t first,
+            std::uint64_t rows, float* out) const {
+    if (is_as_stored()) {
+      file.read_rows(dataset, first, rows, out);
+      return;
+    }
+    const std::size_t width = dataset.values_per_row();
+    std::vector<double> values(rows * width);
+    file.read_rows(dataset, first, rows, values.data());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double zero = width == 3 ? origin.a[i % 3] : 0;
+      out[i] = static_cast<float>((values[i] - zero) * factor);
+    }
+  }
+};
+
+// The datasets of a set of files, read piece by piece. The last piece is kept: samples ask for
+// values one by one, in order.
+class StreamedDatasets final : public ColumnSource {
+ public:
+  StreamedDatasets(std::vector<Hdf5Values> parts, const RowReader& reader)
+      : parts_(std::move(parts)), reader_(reader) {
+    for (const Hdf5Values& part : parts_)
+      size_ += number_of_values(part);
+  }
+  std::size_t size() const override { return size_; }
+  bool is_streamed() const override { return true; }
+
+  void make(std::size_t begin, std::size_t end, float* out) const override {
+    // HDF5 serves one thread at a time, whatever is read.
+    static std::mutex one_reader;
+    const std::lock_guard lock(one_reader);
+    while (begin < end) {
+      if (begin < piece_begin_ || begin >= piece_begin_ + piece_.size()) read_piece(begin);
+      const std::size_t to = std::min(end, piece_begin_ + piece_.size());
+      out = std::copy_n(piece_.data() + (begin - piece_begin_), to - begin, out);
+      begin = to;
+    }
+  }
+
+ private:
+  // That in which value `wanted` lies.
+  void read_piece(std::size_t wanted) const {
+    std::size_t first = 0;  // value of the part
+    for (const Hdf5Values& part : parts_) {
+      const std::size_t count = number_of_values(part);
+      if (wanted >= first + count) {
+        first += count;
+        continue;
+      }
+      const Hdf5File file(part.file);
+      const std::uint64_t rows_of_piece = file.rows_per_piece(part.dataset);
+      const std::uint64_t width = part.dataset.values_per_row();
+      const std::uint64_t row = (wanted - first) / width / rows_of_piece * rows_of_piece;
+      const std::uint64_t rows = std::min(rows_of_piece, part.dataset.rows() - row);
+      piece_.resize(rows * width);
+      reader_.read(file, part.dataset, row, rows, piece_.data());
+      piece_begin_ = first + row * width;
+      return;
+    }
+  }
+
+  const std::vector<Hdf5Values> parts_;
+  const RowReader reader_;
+  std::size_t size_ = 0;
+  mutable std::vector<float> piece_;
+  mutable std::size_t piece_begin_ = 0;
+};
+
+// Values of all parts; before any memory is claimed, all of them must be there.
+std::size_t checked_size(const std::vector<Hdf5Values>& parts) {
+  std::size_t size = 0;
+  for (const Hdf5Values& part : parts) {
+    Hdf5File(part.file).check_complete(part.dataset);
+    size += number_of_values(part);
+  }
+  return size;
 }
 
-void read_changed(const Hdf5File& file, const Hdf5Dataset& dataset, const Vec3& origin,
-                  double factor, float* out) {
-  const std::size_t width = dataset.values_per_row();
-  std::vector<double> buffer;
-  for_pieces(file, dataset, [&](std::uint64_t first, std::uint64_t rows) {
-    buffer.resize(rows * width);
-    file.read_rows(dataset, first, rows, buffer.data());
-    for (std::size_t i = 0; i < buffer.size(); ++i) {
-      const double zero = width == 3 ? origin.a[i % 3] : 0;
-      out[first * width + i] = static_cast<float>((buffer[i] - zero) * factor);
-    }
-  });
+// A single part that lies in its file as it is needed.
+std::optional<Column> in_place(const std::vector<Hdf5Values>& parts, const RowReader& reader) {
+  if (parts.size() != 1 || !reader.is_as_stored()) return std::nullopt;
+  const Column column = map_column(parts[0], Hdf5File(parts[0].file));
+  return column.is_absent() ? std::nullopt : std::optional(column);
 }
 
 bool is_double(const Hdf5Values& part) {
@@ -64,29 +141,29 @@ bool is_double(const Hdf5Values& part) {
 }  // namespace
 
 Column read_column(const std::vector<Hdf5Values>& parts, const Vec3& origin, double factor) {
-  const bool is_as_stored = origin == Vec3{{0, 0, 0}} && factor == 1;
-  std::size_t size = 0;
-  // Before any memory is claimed, all of it must be there.
-  for (const Hdf5Values& part : parts) {
-    Hdf5File(part.file).check_complete(part.dataset);
-    size += number_of_values(part);
-  }
-  if (parts.size() == 1 && is_as_stored) {
-    Column column = map_column(parts[0], Hdf5File(parts[0].file));
-    if (!column.is_absent()) return column;
-  }
+  const RowReader reader{origin, factor};
+  const std::size_t size = checked_size(parts);
+  if (const auto column = in_place(parts, reader)) return *column;
+  if (is_too_large_to_copy(size * sizeof(float)))
+    return Column::made_by(std::make_shared<StreamedDatasets>(parts, reader));
   std::vector<float> values(size);
   float* out = values.data();
   for (const Hdf5Values& part : parts) {
     const Hdf5File file(part.file);
-    if (is_as_stored) {
-      read_as_stored(file, part.dataset, out);
-    } else {
-      read_changed(file, part.dataset, origin, factor, out);
-    }
+    for_pieces(file, part.dataset, [&](std::uint64_t first, std::uint64_t rows) {
+      reader.read(file, part.dataset, first, rows, out + first * part.dataset.values_per_row());
+    });
     out += number_of_values(part);
   }
   return Column::owning(std::move(values));
+}
+
+Column read_streamed_column(const std::vector<Hdf5Values>& parts, const Vec3& origin,
+                            double factor) {
+  const RowReader reader{origin, factor};
+  checked_size(parts);
+  if (const auto column = in_place(parts, reader)) return *column;
+  return Column::made_by(std::make_shared<StreamedDatasets>(parts, reader));
 }
 
 std::optional<std::vector<std::uint64_t>> read_integers(const std::vector<Hdf5Values>& parts) {

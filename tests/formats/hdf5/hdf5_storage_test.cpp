@@ -1,6 +1,8 @@
 // How HDF5 stores a dataset, and what of it is not there.
+#include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
+#include "scene/streamed_column.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -45,6 +47,24 @@ class Hdf5Storage : public ::testing::Test {
   const Properties properties_ = Properties(H5Pcreate(H5P_DATASET_CREATE));
   Hdf5Output file_ = create_hdf5(path_);
 };
+
+TEST_F(Hdf5Storage, IsReadPieceByPieceToTheSameValues) {
+  const hsize_t chunk = 1;
+  H5Pset_chunk(properties_.id(), 1, &chunk);
+  H5Pset_deflate(properties_.id(), 1);
+  write_field(properties_.id());
+  file_ = Hdf5Output();
+  const Hdf5File file(path_);
+  const Hdf5Values field = {path_, file.dataset("PartType0/Field")};
+  const Hdf5Values places = {path_, file.dataset("PartType0/Coordinates")};
+  const Column fields = read_streamed_column({field, field});
+  EXPECT_TRUE(is_streamed(fields));
+  EXPECT_EQ(fields[3], 8);
+  EXPECT_THAT(values_of(fields), ElementsAre(7, 8, 7, 8));
+  const Column moved = read_streamed_column({places, places}, {{1, 0, 0}}, 2);
+  EXPECT_EQ(moved[7], 4);
+  EXPECT_THAT(values_of(moved), ElementsAre(0, 4, 6, 6, 10, 12, 0, 4, 6, 6, 10, 12));
+}
 
 TEST_F(Hdf5Storage, ChunksMayBePackedAndHaveChecksums) {
   const hsize_t chunk = 2;

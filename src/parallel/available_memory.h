@@ -9,4 +9,8 @@ namespace splotchcl {
 // neither is known.
 std::uint64_t available_memory();
 
+// Whether so many bytes are more than one of the arrays that a snapshot is read into should take:
+// a sixteenth of what is available.
+bool is_too_large_to_copy(std::uint64_t bytes);
+
 }  // namespace splotchcl

@@ -1,4 +1,4 @@
-#include "device/opencl/available_memory.h"
+#include "parallel/available_memory.h"
 
 #include <unistd.h>
 
@@ -87,6 +87,12 @@ std::optional<std::uint64_t> available_of_group() {
 std::uint64_t available_memory() {
   const std::uint64_t of_system = available_of_system().value_or(memory_of_machine());
   return std::min(of_system, available_of_group().value_or(of_system));
+}
+
+bool is_too_large_to_copy(std::uint64_t bytes) {
+  // Less is never looked at: the answer is dear beside it.
+  constexpr std::uint64_t small = 16u << 20;
+  return bytes > small && bytes > available_memory() / 16;
 }
 
 }  // namespace splotchcl

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "splotchcl/particles.h"
+
+// Columns that are too large to be held in memory are made as they are wanted, stretch by stretch.
+namespace splotchcl {
+
+// Values [begin, end) of a column: in place where they lie in memory, else made. Of a uniform
+// column all are the same.
+class ColumnStretch {
+ public:
+  ColumnStretch(const Column& column, std::size_t begin, std::size_t end);
+  ColumnStretch(const ColumnStretch&) = delete;
+  ColumnStretch& operator=(const ColumnStretch&) = delete;
+
+  // `i` counts from the column's first value, as in Column.
+  float operator[](std::size_t i) const { return values_ == nullptr ? same_ : values_[i - begin_]; }
+
+ private:
+  std::size_t begin_;
+  std::vector<float> made_;
+  const float* values_ = nullptr;
+  float same_ = 0;
+};
+
+// Whether its values are made as they are wanted.
+bool is_streamed(const Column& column);
+
+// So many particles at a time.
+constexpr std::size_t streamed_particles = std::size_t{1} << 18;
+
+// Calls use(begin, end) for stretches of `count` particles, one after the other.
+template <class Use>
+void for_stretches(std::size_t count, Use&& use) {
+  for (std::size_t begin = 0; begin < count; begin += streamed_particles)
+    use(begin, begin + streamed_particles < count ? begin + streamed_particles : count);
+}
+
+// Writes values [begin, end) of a column.
+using MakeValues = std::function<void(std::size_t begin, std::size_t end, float* values)>;
+
+// A column of `size` values: held in memory, or streamed.
+Column make_column(std::size_t size, bool is_streamed, MakeValues make);
+
+// A vector of each vector: held in memory, or streamed as those that they are made from.
+Column make_vectors(const Column& vectors,
+                    const std::function<void(const double* from, double* to)>& make);
+
+// Those of particles place(0) < place(1) < ... of an array with `width` values for each: `count` of
+// them, in memory.
+Column gather_in_order(const Column& column, std::size_t width, std::size_t count,
+                       const std::function<std::size_t(std::size_t)>& place);
+
+}  // namespace splotchcl
