@@ -166,6 +166,10 @@ ProgramSource Specialization::scan_blocks() {
   return {"", {"splat.h", "project.h", "scan.cl"}};
 }
 
+ProgramSource Specialization::compact() {
+  return {"", {"splat.h", "project.h", "compact.cl"}};
+}
+
 ProgramSource Specialization::sort() {
   return {"", {"prefetch.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
 }

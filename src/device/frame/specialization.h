@@ -66,6 +66,7 @@ class Specialization {
   static ProgramSource interpolate(bool rows);
   static ProgramSource boxes(bool rows, bool vector_colors);
   static ProgramSource scan_blocks();
+  static ProgramSource compact();
   static ProgramSource sort();
   static ProgramSource sort_groups();
   static ProgramSource carry();

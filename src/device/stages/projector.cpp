@@ -315,21 +315,77 @@ std::uint32_t Projector::project_window(const ParticleChunk& chunk,
                                         const ParticleBuffers& particles, const KeyWindow& window,
                                         const std::vector<std::uint32_t>& without,
                                         const KeyedSplats& keyed, std::uint32_t first_slot) const {
-  BufferPool& pool = context_.device.pool;
   shared::ProjectParameters parameters = parameters_for(chunk, particles);
   take_window(window, parameters);
-  const std::uint32_t blocks = block_count(parameters);
-  const auto counts = counts_of(blocks);
-  const auto offsets = pool.upload(std::vector<std::uint32_t>(blocks + 1), "block offsets");
+  parameters.first_slot = first_slot;
+  return scan_ ? project_window_in_groups(parameters, particles, without, keyed)
+               : project_window_in_blocks(parameters, particles, without, keyed);
+}
+
+std::uint32_t Projector::project_window_in_groups(const shared::ProjectParameters& parameters,
+                                                  const ParticleBuffers& particles,
+                                                  const std::vector<std::uint32_t>& without,
+                                                  const KeyedSplats& keyed) const {
+  const std::uint32_t groups = block_count(parameters);
+  const auto counts = counts_of(groups);
+  const auto offsets =
+      context_.device.pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
   launch(ProjectOutput::window_counts, parameters, particles, without,
          {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
-  scan_counts(blocks, counts, offsets);
-  const auto found = static_cast<std::uint32_t>(download_counts(counts, blocks).visible);
-  if (found == 0) return 0;
-  parameters.first_slot = first_slot;
+  scan_counts(groups, counts, offsets);
+  const ParticleCounts found = download_counts(counts, groups);
   launch(ProjectOutput::window_splats, parameters, particles, without,
          {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
-  return found;
+  return static_cast<std::uint32_t>(found.visible);
+}
+
+// A window has a part of each block's splats. Where they go is known when all are projected, and
+// to move them is cheaper than to project the particles twice.
+std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameters& parameters,
+                                                  const ParticleBuffers& particles,
+                                                  const std::vector<std::uint32_t>& without,
+                                                  const KeyedSplats& keyed) const {
+  const std::uint32_t blocks = block_count(parameters);
+  const std::uint32_t stride =
+      parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  const auto counts = counts_of(blocks);
+  std::vector<std::uint32_t> first_of_block(blocks + 1);
+  for (std::uint32_t b = 0; b < blocks; ++b)
+    first_of_block[b] = b * stride;
+  const auto offsets = context_.device.pool.upload(first_of_block, "block offsets");
+  const KeyedSplats apart = keyed_memory(blocks * stride);
+  shared::ProjectParameters with_gaps = parameters;
+  with_gaps.first_slot = 0;
+  launch(ProjectOutput::window_splats, with_gaps, particles, without,
+         {offsets, counts, apart.splats, apart.keys, apart.key_ends, apart.order});
+  scan_counts(blocks, counts, offsets);
+  const Specialization& specialization = context_.specialization;
+  const auto compact = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
+                           std::size_t splat_bytes, bool has_keys) {
+    Launch(context_.device, "project",
+           context_.device.programs.get(Specialization::compact()).create_kernel("compact"))
+        .value(parameters.first_slot)
+        .value(stride)
+        .value(static_cast<cl_uint>(splat_bytes / sizeof(cl_uint)))
+        .value(static_cast<cl_uint>(has_keys))
+        .value(static_cast<cl_uint>(keyed.key_ends.size() > 0))
+        .arg(counts)
+        .arg(offsets)
+        .arg(from)
+        .arg(apart.keys)
+        .arg(apart.key_ends)
+        .arg(to)
+        .arg(keyed.keys)
+        .arg(keyed.key_ends)
+        .arg(keyed.order)
+        .run_items(blocks);
+  };
+  compact(apart.splats.splats, keyed.splats.splats, specialization.splat_bytes(), true);
+  if (specialization.is_extended()) {
+    compact(apart.splats.extended, keyed.splats.extended, specialization.extended_splat_bytes(),
+            false);
+  }
+  return static_cast<std::uint32_t>(download_counts(counts, blocks).visible);
 }
 
 // Where the splats of each block begin, from how many it has.

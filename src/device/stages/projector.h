@@ -58,6 +58,15 @@ class Projector {
                                            const ParticleBuffers& particles) const;
   SplatBlocks project_in_blocks(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
   SplatBlocks project_in_groups(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
+  // Writes from parameters.first_slot on; how many.
+  std::uint32_t project_window_in_blocks(const shared::ProjectParameters& parameters,
+                                         const ParticleBuffers& particles,
+                                         const std::vector<std::uint32_t>& without,
+                                         const KeyedSplats& keyed) const;
+  std::uint32_t project_window_in_groups(const shared::ProjectParameters& parameters,
+                                         const ParticleBuffers& particles,
+                                         const std::vector<std::uint32_t>& without,
+                                         const KeyedSplats& keyed) const;
   void scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
                    const Buffer<std::uint32_t>& offsets) const;
   SplatMemory splat_memory(std::uint64_t splats) const;

@@ -34,8 +34,14 @@ std::uint64_t splat_capacity(const StageContext& context) {
       context.layout.plane_floats * sizeof(float) * (context.plan.slabs > 0 ? 3 : 1);
   const std::uint64_t lists = traits.list_capacity * specialization.tile_splat_bytes() +
                               traits.sorted_chunk * (splat_bytes + sizeof(std::uint32_t));
-  const std::uint64_t memory = context.device.memory.total;
-  const std::uint64_t splats = memory > planes + lists ? (memory - planes - lists) / bytes : 0;
+  // Of a chunk of particles, before its splats are put together.
+  const std::uint64_t apart =
+      traits.rows
+          ? std::uint64_t{traits.chunk_length()} *
+                static_cast<std::uint64_t>(context.plan.splats_per_particle) * (splat_bytes + 10)
+          : 0;
+  const std::uint64_t memory = context.device.memory.total, fixed = planes + lists + apart;
+  const std::uint64_t splats = memory > fixed ? (memory - fixed) / bytes : 0;
   // A chunk's worth of splats may be left over from the window before.
   const std::uint64_t in_window = splats > traits.sorted_chunk ? splats - traits.sorted_chunk : 0;
   const std::uint64_t in_buffer = traits.largest_buffer / splat_bytes / 2;
