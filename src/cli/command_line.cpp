@@ -25,6 +25,13 @@ const std::map<std::string, CompositeShape> shape_names = {{"automatic", Composi
                                                            {"rows", CompositeShape::rows},
                                                            {"groups", CompositeShape::groups}};
 
+const CLI::Validator refuse_minus(
+    [](const std::string& size) {
+      return size.rfind('-', 0) == 0 ? "found " + size + ", expected a size such as 1500MB or 2GiB"
+                                     : std::string();
+    },
+    "");
+
 // What render and movie take alike.
 void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option(
@@ -65,6 +72,7 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
              "particles than fit are drawn in parts of their depth. Default: what there "
              "is room for"))
       ->transform(CLI::AsSizeValue(true))
+      ->transform(refuse_minus)  // the other one would wrap it around; this is asked first
       ->type_name("SIZE");
   sub.add_option("--stats", options.stats,
                  wrapped("Write times in seconds, counts and memory as JSON"))

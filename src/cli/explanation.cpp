@@ -18,7 +18,7 @@ std::string explain_estimate(const FramePlan& plan, const Frame& frame, const Sc
   if (options.reference) return "time: no estimate for the reference renderer\n";
   try {
     const int drawings = pictures * static_cast<int>(views_of(scene, frame).size());
-    return explain(estimate_frame(frame, plan, options.device), drawings);
+    return explain(estimate_frame(frame, plan, options.device, options.memory_bytes), drawings);
   } catch (const DeviceError&) {
     return "memory and time: no estimate without an OpenCL device\n";
   }

@@ -31,6 +31,11 @@ std::string explain(const FrameEstimate& estimate, int drawings) {
       "memory: {} of buffers on the device, for the plan's chunks, lists and grids; {} of "
       "particles\n",
       megabytes(estimate.device_bytes), megabytes(estimate.particle_bytes));
+  if (estimate.windows > 0) {
+    text +=
+        fmt::format("  drawn in about {} windows of depth, since there is room for {} (--memory)\n",
+                    estimate.windows, megabytes(estimate.memory_limit));
+  }
   if (!estimate.seconds) {
     return text + "time: no estimate, since no rates were measured on a GPU\n";
   }

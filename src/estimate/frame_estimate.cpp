@@ -1,5 +1,9 @@
 #include "estimate/frame_estimate.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "device/frame/splat_capacity.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "estimate/device_memory.h"
@@ -8,7 +12,27 @@
 
 namespace splotchcl {
 
-FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device) {
+namespace {
+
+// As Pipeline::draw_ordered decides, of which particles are drawn being an estimate.
+void choose_windows(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
+                    const DeviceTraits& traits, FrameEstimate& estimate) {
+  const std::uint64_t capacity =
+      splat_capacity(plan, specialization, make_picture_layout(frame, plan, specialization), traits,
+                     estimate.memory_limit);
+  const std::uint64_t most =
+      particle_count(frame) * static_cast<std::uint64_t>(plan.splats_per_particle);
+  if (!plan.needs_sort() || most <= capacity) return;
+  estimate.windows =
+      static_cast<std::uint64_t>(std::ceil(estimate.splats / static_cast<double>(capacity)));
+  const double in_window = std::min(estimate.splats, static_cast<double>(capacity));
+  estimate.device_bytes = estimate_device_bytes(frame, plan, specialization, traits, in_window);
+}
+
+}  // namespace
+
+FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device,
+                             std::uint64_t memory_bytes) {
   const auto lock = lock_runtime();
   const compute::device chosen = choose_device(device);
   const DeviceTraits traits = traits_of(chosen);
@@ -21,6 +45,8 @@ FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const st
   estimate.particle_bytes = particle_bytes(frame);
   estimate.splats = work.splats;
   estimate.tile_entries = work.tile_entries;
+  estimate.memory_limit = memory_bytes > 0 ? memory_bytes : memory_of(chosen, traits).total;
+  choose_windows(frame, plan, specialization, traits, estimate);
   if (!traits.is_gpu) {
     estimate.seconds = estimate_seconds(frame, plan, work, estimate.compute_units);
   }

@@ -16,13 +16,17 @@ struct FrameEstimate {
   std::uint64_t device_bytes = 0;    // buffers of the plan's chunks, lists and grids
   std::uint64_t particle_bytes = 0;  // the particles' columns, mapped from the file or in memory
   double splats = 0, tile_entries = 0;
+  std::uint64_t memory_limit = 0;  // of the device, bytes
+  std::uint64_t windows = 0;       // of an ordered frame that has not room in it; 0: in one piece
   // Without compiling kernels. None on a GPU, on which no rates were measured.
   std::optional<double> seconds;
 };
 
 // On the device of which `device` is a part of the name, as in RendererOptions; opens it, but
 // builds and draws nothing. Throws DeviceError and UsageError as a Renderer does.
-FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device);
+// `memory_bytes` as there.
+FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device,
+                             std::uint64_t memory_bytes = 0);
 
 // Lines for --explain. `drawings` are how often such a frame is drawn: views of a picture, frames
 // of a film.

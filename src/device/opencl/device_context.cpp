@@ -3,8 +3,6 @@
 #include "parallel/available_memory.h"
 
 namespace splotchcl {
-namespace {
-
 // A processor shares its memory with files that are mapped and with other programs, a GPU with
 // the particles' columns.
 DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits) {
@@ -12,8 +10,6 @@ DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits
   const std::uint64_t all = device.global_memory_size();
   return {all / 2, all / 8 * 3};
 }
-
-}  // namespace
 
 DeviceContext::DeviceContext(const compute::device& chosen)
     : device(chosen),

@@ -21,6 +21,9 @@ struct DeviceMemory {
   std::uint64_t columns = 0;  // of particles' columns, on a device with memory of its own
 };
 
+// What a device has room for beside all else that uses its memory.
+DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits);
+
 // One device with its queue and what all stages share.
 struct DeviceContext {
   explicit DeviceContext(const compute::device& chosen);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "device/frame/splat_capacity.h"
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 
@@ -23,29 +24,9 @@ bool is_everything(const KeyWindow& window) {
 
 }  // namespace
 
-// A splat's key and place in the order are sorted into as much room.
 std::uint64_t splat_capacity(const StageContext& context) {
-  const Specialization& specialization = context.specialization;
-  const DeviceTraits& traits = context.device.traits;
-  const std::uint64_t splat_bytes =
-      specialization.splat_bytes() + specialization.extended_splat_bytes();
-  const std::uint64_t bytes = splat_bytes + 4 * sizeof(std::uint32_t) + sizeof(std::uint16_t);
-  const std::uint64_t planes =
-      context.layout.plane_floats * sizeof(float) * (context.plan.slabs > 0 ? 3 : 1);
-  const std::uint64_t lists = traits.list_capacity * specialization.tile_splat_bytes() +
-                              traits.sorted_chunk * (splat_bytes + sizeof(std::uint32_t));
-  // Of a chunk of particles, before its splats are put together.
-  const std::uint64_t apart =
-      traits.rows
-          ? std::uint64_t{traits.chunk_length()} *
-                static_cast<std::uint64_t>(context.plan.splats_per_particle) * (splat_bytes + 10)
-          : 0;
-  const std::uint64_t memory = context.device.memory.total, fixed = planes + lists + apart;
-  const std::uint64_t splats = memory > fixed ? (memory - fixed) / bytes : 0;
-  // A chunk's worth of splats may be left over from the window before.
-  const std::uint64_t in_window = splats > traits.sorted_chunk ? splats - traits.sorted_chunk : 0;
-  const std::uint64_t in_buffer = traits.largest_buffer / splat_bytes / 2;
-  return std::max<std::uint64_t>(traits.sorted_chunk, std::min(in_window, in_buffer));
+  return splat_capacity(context.plan, context.specialization, context.layout, context.device.traits,
+                        context.device.memory.total);
 }
 
 WindowProjector::WindowProjector(const StageContext& context, const Projector& projector,

@@ -13,8 +13,7 @@
 
 namespace splotchcl {
 
-// The most splats of an ordered frame that have room on the device at one time, with their keys,
-// beside its planes and lists.
+// In the memory of the device (splat_capacity.h).
 std::uint64_t splat_capacity(const StageContext& context);
 
 // The splats of an ordered frame that has more of them than there is room for: window by window of
