@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "splotchcl/rotation_curve.h"
@@ -33,8 +34,13 @@ struct GalaxySettings {
 
   // Gas: a cloud for each bright pixel.
   double gas_height_kpc = 0.12;  // standard deviation of the clouds' heights
-  int cloud_points = 4;          // particles in a cloud
+  int cloud_points = 4;          // particles for each pixel
   double cloud_radius_pixels = 1.6;
+
+  // Dust: what makes lanes dark, and hides the middle of a disk seen from its edge.
+  double dust = 1;                // factor on its optical depth; 0: none
+  double dust_height_kpc = 0.05;  // standard deviation of its heights
+  int dust_points = 3;            // particles for each pixel
 
   // Stars of the disk.
   std::uint64_t disk_stars = 300000;
@@ -54,6 +60,9 @@ struct GalaxySettings {
   double cluster_radius_kpc = 0.012;
   double cluster_light = 0.005;  // of the picture's
 
+  // Factor on the numbers of all particles but those of clusters.
+  double detail = 1;
+
   bool turns_clockwise = false;  // as seen in the picture
   RotationCurve rotation = RotationCurve::flat();
   std::uint64_t seed = 1;
@@ -62,11 +71,15 @@ struct GalaxySettings {
 // Particles of one kind; vectors have 3 values for each.
 struct GalaxyParticles {
   std::vector<float> position, velocity;
-  std::vector<float> color;             // linear red, green and blue >= 0
-  std::vector<float> mass;              // the area, in kpc^2, that its colour covers
-  std::vector<float> smoothing_length;  // reaches to neighbour 24 of its kind
-  std::vector<float> orbit_axis;        // unit vector: it circles the centre about this axis,
-  std::vector<float> orbit_radius;      // with the angular speed of this radius
+  // Linear red, green and blue >= 0; of dust what it absorbs of them, relative to green.
+  std::vector<float> color;
+  // The area, in kpc^2, that its colour covers; of dust times its optical depth in green.
+  std::vector<float> mass;
+  // Reaches to neighbour 24 of its kind, 1.4 times as far but in clusters; of gas and dust at least
+  // 2.5 pixels.
+  std::vector<float> smoothing_length;
+  std::vector<float> orbit_axis;    // unit vector: it circles the centre about this axis,
+  std::vector<float> orbit_radius;  // with the angular speed of this radius
   std::size_t count() const { return mass.size(); }
 };
 
@@ -75,10 +88,12 @@ struct Galaxy {
   GalaxyParticles disk;      // 2
   GalaxyParticles bulge;     // 3
   GalaxyParticles clusters;  // 4
+  GalaxyParticles dust;      // 5
   // What was decided about the picture, in pixels of the file.
   std::array<double, 2> center = {0, 0};
   double sky = 0, noise = 0;  // mean of the channels, linear light
   std::uint64_t pixels_of_stars = 0;
+  double size_kpc = 0;        // of the picture's longer side
   double pixel_size_kpc = 0;  // of the squares that clouds are made from
 };
 
@@ -98,8 +113,12 @@ Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double 
 Galaxy read_galaxy(const std::filesystem::path& picture, const GalaxySettings& settings,
                    std::optional<double> gamma = std::nullopt);
 
-// Gadget HDF5 with Coordinates, Velocities, ParticleIDs, Masses, SmoothingLength, Color,
-// OrbitAxis and OrbitRadius. Appears under its name only when complete. Throws DataError.
+// A scene file that draws the galaxy in this snapshot, with a tone curve that holds from any side:
+// seen from its edge the disk is far brighter than its picture.
+std::string galaxy_scene(const Galaxy& galaxy, const std::filesystem::path& snapshot);
+
+// Gadget HDF5 with Coordinates, Velocities, ParticleIDs, Masses, SmoothingLength, Color (of dust
+// Opacity), OrbitAxis and OrbitRadius. Appears under its name only when complete. Throws DataError.
 void write_galaxy(const std::filesystem::path& path, const Galaxy& galaxy);
 
 }  // namespace splotchcl

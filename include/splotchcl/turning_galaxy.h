@@ -23,12 +23,22 @@ struct TurningSettings {
   OrbitIntegrator integrator = OrbitIntegrator::exact;
   double step_myr = 1;                 // of the first-order integrator, > 0
   std::optional<RotationCurve> curve;  // unset: the speeds that the snapshot's velocities show
+  // Of gas, disk stars and dust in km/s/kpc, > 0: the arms turn as a whole, like a wave that matter
+  // runs through. Unset: each particle at the speed of its own orbit.
+  std::optional<double> pattern_speed;
 };
 
-// Arms wind up: beyond this a galaxy that turns by itself looks like none.
-constexpr double turning_limit_myr = 300;
-// A line for the user where a time is beyond the limit.
-std::optional<std::string> turning_warning(double myr);
+// Throws DataError for a snapshot whose particles have no orbits.
+void check_orbits(const Snapshot& galaxy);
+
+// How long the arms of a galaxy that splotchcl galaxy made hold, in Myr. The inner disk overtakes
+// the outer: the tangent of the pitch angle i of an arm at a radius r falls as
+// 1 / tan i(t) = 1 / tan i(0) + t |d angular speed / d ln r|. This is the time after which that of
+// an arm of 20 degrees, where half of the disk's light is inside, has halved. Unset where arms
+// hold for ever: with a pattern's speed, or where all turns alike. Throws as reading does.
+std::optional<double> arms_hold_myr(const Snapshot& galaxy, const TurningSettings& settings);
+// A line for the user where a time is longer than that.
+std::optional<std::string> turning_warning(double myr, std::optional<double> hold_myr);
 
 // A place and a velocity on an orbit about an axis through the origin, after a time.
 struct OrbitState {
@@ -42,10 +52,11 @@ OrbitState move_on_orbit(const OrbitState& start, const Vec3& axis, double angul
                          double myr, const TurningSettings& settings);
 
 // A galaxy as `splotchcl galaxy` makes it, at any time. Every particle keeps the angular speed
-// of its OrbitRadius about its OrbitAxis.
+// of its OrbitRadius about its OrbitAxis, or that of the pattern.
 class TurningGalaxy {
  public:
-  // Throws DataError for a snapshot without orbits, UsageError for a step that is not above 0.
+  // Throws DataError for a snapshot without orbits, UsageError for a step or a pattern's speed that
+  // is not above 0.
   TurningGalaxy(std::shared_ptr<const Snapshot> galaxy, TurningSettings settings);
 
   // The snapshot with its positions and velocities as they are then; all else is as it was.

@@ -126,6 +126,7 @@ int run_generate(const GenerateOptions& options, Console& console);
 
 struct GalaxyOptions {
   std::filesystem::path image, output;
+  std::optional<std::filesystem::path> scene;
   GalaxySettings settings;  // but for the rotation, which follows from what is below
   std::optional<double> gamma;
   double speed = 200, core = 1;  // km/s and kpc
@@ -136,11 +137,12 @@ int run_galaxy(const GalaxyOptions& options, Console& console);
 struct EvolveOptions {
   std::filesystem::path galaxy;
   std::optional<std::filesystem::path> scene, output, snapshots;  // numbered: %04d
-  double duration_myr = 200;
+  std::optional<double> duration_myr;                             // unset: as long as the arms hold
   int frames = 100;
   bool first_order = false;
-  std::optional<double> step_myr;     // unset: from frame to frame
-  std::optional<double> speed, core;  // km/s and kpc; unset: the galaxy's own velocities
+  std::optional<double> step_myr;       // unset: from frame to frame
+  std::optional<double> speed, core;    // km/s and kpc; unset: the galaxy's own velocities
+  std::optional<double> pattern_speed;  // km/s/kpc
   std::optional<std::filesystem::path> rotation_curve;
   std::string part;  // K/N
   std::string device;

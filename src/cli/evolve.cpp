@@ -14,6 +14,7 @@
 #include "film/movie/numbered_files.h"
 #include "open_scene/input_files.h"
 #include "pictures/other_scenes.h"
+#include "scene/constants.h"
 #include "snapshot/cached_snapshot.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
@@ -32,22 +33,24 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return std::filesystem::equivalent(a, b, error) && !error;
 }
 
-double time_of(int frame, const EvolveOptions& options) {
-  return options.frames == 1 ? options.duration_myr
-                             : options.duration_myr * frame / (options.frames - 1);
-}
-
+// How fast it turns; the step follows from the time that is drawn.
 TurningSettings turning_settings(const EvolveOptions& options) {
   TurningSettings settings;
   if (options.first_order) settings.integrator = OrbitIntegrator::first_order;
-  const double interval = options.duration_myr / std::max(1, options.frames - 1);
-  settings.step_myr = options.step_myr.value_or(interval > 0 ? interval : 1);
+  settings.pattern_speed = options.pattern_speed;
   if (options.rotation_curve) {
     settings.curve = read_rotation_curve(*options.rotation_curve);
   } else if (options.speed || options.core) {
     settings.curve = RotationCurve::flat(options.speed.value_or(200), options.core.value_or(1));
   }
   return settings;
+}
+
+// One turn of a pattern ends as it begins.
+double default_duration(std::optional<double> hold_myr, const TurningSettings& settings) {
+  constexpr double where_all_turns_alike = 200;
+  if (settings.pattern_speed) return 2 * pi * myr_per_kpc_s_km / *settings.pattern_speed;
+  return hold_myr.value_or(where_all_turns_alike);
 }
 
 void check(const EvolveOptions& options) {
@@ -67,9 +70,9 @@ void check(const EvolveOptions& options) {
   if (options.rotation_curve && (options.speed || options.core)) {
     throw UsageError("--rotation-curve: excludes --speed and --core, which are a curve, too");
   }
-  if (!(options.duration_myr >= 0) || options.duration_myr > 1e6) {
+  if (options.duration_myr && (!(*options.duration_myr >= 0) || *options.duration_myr > 1e6)) {
     throw UsageError(
-        fmt::format("--duration: found {}, expected 0 to 1e6 Myr", options.duration_myr));
+        fmt::format("--duration: found {}, expected 0 to 1e6 Myr", *options.duration_myr));
   }
 }
 
@@ -142,16 +145,16 @@ class Evolution {
     const std::vector<int> part = select_part(options_.part, all_frames());
     console_.status("reading " + options_.galaxy.filename().string());
     const auto start = std::make_shared<CachedSnapshot>(open_snapshot(options_.galaxy));
-    const TurningGalaxy galaxy(start, turning_settings(options_));
-    if (const auto warning = turning_warning(options_.duration_myr)) console_.note(*warning);
+    check_orbits(*start);
+    const TurningGalaxy galaxy(start, decide_time(*start));
     if (pictures_) scene_.emplace(options_, galaxy);
     check_files(part, *start);
     if (pictures_) begin_drawing(galaxy);
     for (const int frame : part) {
       console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
-      const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame, options_));
+      const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame));
       if (snapshots_) {
-        write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame, options_));
+        write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame));
       }
       if (drawer_) {
         drawer_->draw(frame, scene_->scene(), *scene_->snapshot_at(turned), scene_->other_scenes(),
@@ -159,12 +162,26 @@ class Evolution {
       }
     }
     if (drawer_) drawer_->finish();
-    console_.done(part.empty() ? "this part has no frames"
-                               : fmt::format("frames {} to {} of {}, {} Myr in all", part.front(),
-                                             part.back(), options_.frames, options_.duration_myr));
+    console_.done(part.empty()
+                      ? "this part has no frames"
+                      : fmt::format("frames {} to {} of {}, {:.4g} Myr in all", part.front(),
+                                    part.back(), options_.frames, duration_));
   }
 
  private:
+  TurningSettings decide_time(const Snapshot& galaxy) {
+    TurningSettings settings = turning_settings(options_);
+    const std::optional<double> hold = arms_hold_myr(galaxy, settings);
+    duration_ = options_.duration_myr.value_or(default_duration(hold, settings));
+    if (const auto warning = turning_warning(duration_, hold)) console_.note(*warning);
+    const double interval = duration_ / std::max(1, options_.frames - 1);
+    settings.step_myr = options_.step_myr.value_or(interval > 0 ? interval : 1);
+    return settings;
+  }
+  double time_of(int frame) const {
+    return options_.frames == 1 ? duration_ : duration_ * frame / (options_.frames - 1);
+  }
+
   std::vector<int> all_frames() const {
     std::vector<int> frames(static_cast<std::size_t>(options_.frames));
     std::iota(frames.begin(), frames.end(), 0);
@@ -208,6 +225,7 @@ class Evolution {
 
   const EvolveOptions& options_;
   Console& console_;
+  double duration_ = 0;  // Myr
   std::optional<NumberedFiles> pictures_, snapshots_;
   std::optional<TurningScene> scene_;
   std::optional<FilmDrawer> drawer_;

@@ -46,8 +46,11 @@ void add_matter_options(CLI::App& sub, GalaxySettings& s) {
     sub.add_option(name, value, wrapped(help))->type_name(type)->capture_default_str();
   };
   add("--gas-height", s.gas_height_kpc, "KPC", "Standard deviation of the gas clouds' heights");
-  add("--cloud-points", s.cloud_points, "N", "Particles in each pixel's cloud");
-  add("--cloud-radius", s.cloud_radius_pixels, "PIXELS", "Radius of a cloud");
+  add("--cloud-points", s.cloud_points, "N", "Gas particles for each pixel");
+  add("--cloud-radius", s.cloud_radius_pixels, "PIXELS", "How far colours of pixels reach");
+  add("--dust", s.dust, "FACTOR", "How much dust; 0 is none");
+  add("--dust-height", s.dust_height_kpc, "KPC", "Standard deviation of its heights");
+  add("--dust-points", s.dust_points, "N", "Dust particles for each pixel");
   add("--disk-stars", s.disk_stars, "N", "Stars of the disk");
   add("--disk-width", s.disk_width, "FRACTION",
       "Standard deviation of their places, of the galaxy's radius");
@@ -59,6 +62,8 @@ void add_matter_options(CLI::App& sub, GalaxySettings& s) {
   add("--clusters", s.clusters, "N", "Globular clusters");
   add("--cluster-stars", s.cluster_stars, "N", "Stars of one, as a median: the number is random");
   add("--cluster-light", s.cluster_light, "FRACTION", "Their part of the picture's light");
+  add("--detail", s.detail, "FACTOR",
+      "Factor on the numbers of all particles but the clusters': more for views from close by");
   add("--seed", s.seed, "N", "The same seed makes the same galaxy");
 }
 
@@ -91,14 +96,19 @@ void add_galaxy(CLI::App& app, Run& run, Console& console) {
   sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget HDF5"))
       ->required()
       ->type_name("FILE");
+  sub->add_option("--scene", options->scene,
+                  wrapped("Write a scene file that draws it from any side, too"))
+      ->type_name("FILE");
   add_picture_options(*sub, *options);
   add_matter_options(*sub, options->settings);
   add_rotation_options(*sub, *options);
   sub->footer(
       "Makes gas (type 0), disk stars (2), a bulge (3) and globular clusters (4), each particle\n"
-      "with a Color, around the origin, in kpc and km/s. docs/galaxy.md says how.\n"
+      "with a Color, and dust (5) with an Opacity, around the origin, in kpc and km/s.\n"
+      "docs/galaxy.md says how.\n"
       "Example:\n"
-      "  splotchcl galaxy m51.jpg -o m51.hdf5 --radius 700 --size 25 --inclination 20");
+      "  splotchcl galaxy m51.jpg -o m51.hdf5 --scene m51.toml --radius 700 --size 25\n"
+      "  splotchcl render m51.toml -o m51.png");
 }
 
 void add_evolve(CLI::App& app, Run& run, Console& console) {
@@ -118,10 +128,9 @@ void add_evolve(CLI::App& app, Run& run, Console& console) {
                   wrapped("Write the galaxy of each frame, too, such as turn_%04d.hdf5"))
       ->type_name("FILES");
   sub->add_option("--duration", options->duration_myr,
-                  wrapped("From the first frame to the last, in million years; a few hundred at "
-                          "most, since the arms wind up"))
-      ->type_name("MYR")
-      ->capture_default_str();
+                  wrapped("From the first frame to the last, in million years. Default: as long as "
+                          "the arms hold, or one turn of the pattern"))
+      ->type_name("MYR");
   sub->add_option("--frames", options->frames, wrapped("How many frames"))
       ->type_name("N")
       ->capture_default_str();
@@ -139,6 +148,11 @@ void add_evolve(CLI::App& app, Run& run, Console& console) {
   sub->add_option("--rotation-curve", options->rotation_curve,
                   wrapped("A file of two columns, kpc and km/s, instead"))
       ->type_name("FILE");
+  sub->add_option(
+         "--pattern-speed", options->pattern_speed,
+         wrapped("Turn the arms as a whole, at this speed; for films that last longer than "
+                 "the arms hold"))
+      ->type_name("KM/S/KPC");
   sub->add_option("--part", options->part,
                   wrapped("Make only the K-th of N shares of the frames, so that N processes share "
                           "the work"))
@@ -151,8 +165,9 @@ void add_evolve(CLI::App& app, Run& run, Console& console) {
       ->allow_extra_args(false);
   sub->footer(
       "Examples:\n"
-      "  splotchcl evolve m51.hdf5 m51.toml -o turn_%04d.png --duration 150 --frames 250\n"
-      "  splotchcl evolve m51.hdf5 --snapshots m51_%03d.hdf5 --duration 100 --frames 11");
+      "  splotchcl evolve m51.hdf5 m51.toml -o turn_%04d.png --frames 250\n"
+      "  splotchcl evolve m51.hdf5 m51.toml -o long_%04d.png --pattern-speed 40 --frames 500\n"
+      "  splotchcl evolve m51.hdf5 --snapshots m51_%03d.hdf5 --duration 50 --frames 11");
 }
 
 }  // namespace splotchcl::cli

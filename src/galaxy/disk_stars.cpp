@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "galaxy/even_points.h"
 #include "galaxy/kinds.h"
 #include "galaxy/plummer.h"
+#include "scene/constants.h"
 
 namespace splotchcl {
 namespace {
 
-constexpr double two_pi = 6.283185307179586;
 constexpr double color_spread = 0.2;
 
 // A star's own light against the mean of its neighbourhood; 1 on average over stars.
@@ -26,12 +27,15 @@ GalaxyParticles make_disk_stars(const LightMap& map, const BulgeProfile& bulge,
   GalaxyParticles stars;
   const double width = settings.disk_width * map.radius();
   const double central_density =
-      static_cast<double>(settings.disk_stars) / (two_pi * width * width);
+      static_cast<double>(settings.disk_stars) / (2 * pi * width * width);
   const Vec3 axis = disk_axis(settings);
+  const double jitter = jitter_between(settings.disk_stars);
   for (std::uint64_t i = 0; i < settings.disk_stars; ++i) {
-    const Vec3 place = {{width * random.normal(), width * random.normal(),
-                         settings.disk_height_kpc * random.normal()}};
-    const double radius = std::hypot(place.a[0], place.a[1]);
+    const Vec3 even = even_place(i, random, jitter);
+    const double radius = width * std::sqrt(-2 * std::log1p(-even.a[0]));
+    const double angle = 2 * pi * even.a[1];
+    const Vec3 place = {{radius * std::cos(angle), radius * std::sin(angle),
+                         settings.disk_height_kpc * normal_quantile(even.a[2])}};
     const Light around = bulge.rest(map.at({place.a[0], place.a[1]}), radius);
     const Light color = star_color(settings.disk_light * around, random);
     // Where stars are few each stands for a larger area. Dark places have none.

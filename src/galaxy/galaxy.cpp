@@ -13,13 +13,35 @@ namespace splotchcl {
 namespace {
 
 constexpr int neighbors = 24;
+// Of gas, dust and stars that are not in clusters: their lengths reach to where 64 would be.
+const double length_factor = std::cbrt(64.0 / neighbors);
+// The picture shows nothing smaller than a pixel: smaller clouds would show how particles lie.
+constexpr double least_length_pixels = 2.5;
 constexpr int smallest_side = 16;  // of a picture in which a border tells what sky is
 
-void find_lengths(GalaxyParticles& particles) {
+void find_lengths(GalaxyParticles& particles, double factor = 1, double least_length = 0) {
   const Column position(nullptr, particles.position.data(), particles.position.size());
   const Column lengths =
       find_smoothing_lengths(position, particles.count(), std::nullopt, neighbors);
   particles.smoothing_length.assign(lengths.data(), lengths.data() + lengths.size());
+  for (float& length : particles.smoothing_length)
+    length = static_cast<float>(std::max(factor * static_cast<double>(length), least_length));
+}
+
+std::uint64_t times(std::uint64_t count, double detail) {
+  return static_cast<std::uint64_t>(std::llround(static_cast<double>(count) * detail));
+}
+int times(int count, double detail) {
+  return std::max(1, static_cast<int>(std::lround(count * detail)));
+}
+
+GalaxySettings with_detail(GalaxySettings settings) {
+  settings.cloud_points = times(settings.cloud_points, settings.detail);
+  settings.dust_points = times(settings.dust_points, settings.detail);
+  settings.disk_stars = times(settings.disk_stars, settings.detail);
+  settings.bulge_stars = times(settings.bulge_stars, settings.detail);
+  settings.detail = 1;
+  return settings;
 }
 
 Vec3 vector_at(const std::vector<float>& values, std::size_t i) {
@@ -63,7 +85,9 @@ Vec3 disk_axis(const GalaxySettings& settings) {
   return {{0, 0, settings.turns_clockwise ? -1.0 : 1.0}};
 }
 
-Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double file_pixels) {
+Galaxy make_galaxy(const Image& picture, const GalaxySettings& given, double file_pixels) {
+  check_settings(given);
+  const GalaxySettings settings = with_detail(given);
   check_settings(settings);
   check_picture(picture);
   const LightMap map(picture, settings, file_pixels);
@@ -73,15 +97,22 @@ Galaxy make_galaxy(const Image& picture, const GalaxySettings& settings, double 
   galaxy.sky = mean(map.sky().level);
   galaxy.noise = map.sky().noise;
   galaxy.pixels_of_stars = map.pixels_of_stars();
+  galaxy.size_kpc = settings.size_kpc;
   galaxy.pixel_size_kpc = map.plane().pixel_size();
   galaxy.gas = make_gas(map, bulge, settings);
   galaxy.disk = make_disk_stars(map, bulge, settings);
   galaxy.bulge = make_bulge(bulge, settings);
   galaxy.clusters = make_clusters(map, settings);
-  for (GalaxyParticles* kind : {&galaxy.gas, &galaxy.disk, &galaxy.bulge, &galaxy.clusters}) {
-    find_lengths(*kind);
+  galaxy.dust = make_dust(map, settings);
+  const double least_length = least_length_pixels * map.plane().pixel_size();
+  find_lengths(galaxy.gas, length_factor, least_length);
+  find_lengths(galaxy.disk, length_factor);
+  find_lengths(galaxy.bulge, length_factor);
+  find_lengths(galaxy.clusters);
+  find_lengths(galaxy.dust, length_factor, least_length);
+  for (GalaxyParticles* kind :
+       {&galaxy.gas, &galaxy.disk, &galaxy.bulge, &galaxy.clusters, &galaxy.dust})
     find_velocities(*kind, settings.rotation);
-  }
   return galaxy;
 }
 

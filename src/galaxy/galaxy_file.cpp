@@ -7,7 +7,8 @@ namespace splotchcl {
 namespace {
 
 // Columns that borrow the galaxy's memory.
-WrittenType written_type(int type, const GalaxyParticles& particles, std::uint64_t first_id) {
+WrittenType written_type(int type, const GalaxyParticles& particles, std::uint64_t first_id,
+                         const char* color) {
   const auto column = [](const std::vector<float>& values) {
     return Column(nullptr, values.data(), values.size());
   };
@@ -18,7 +19,7 @@ WrittenType written_type(int type, const GalaxyParticles& particles, std::uint64
                     {"Velocities", 3, column(particles.velocity)},
                     {"Masses", 1, column(particles.mass)},
                     {"SmoothingLength", 1, column(particles.smoothing_length)},
-                    {"Color", 3, column(particles.color)},
+                    {color, 3, column(particles.color)},
                     {"OrbitAxis", 3, column(particles.orbit_axis)},
                     {"OrbitRadius", 1, column(particles.orbit_radius)}};
   for (std::uint64_t i = 0; i < written.count; ++i)
@@ -34,9 +35,11 @@ void write_galaxy(const std::filesystem::path& path, const Galaxy& galaxy) {
   for (const auto& [type, particles] :
        {std::pair(0, &galaxy.gas), std::pair(2, &galaxy.disk), std::pair(3, &galaxy.bulge),
         std::pair(4, &galaxy.clusters)}) {
-    snapshot.types.push_back(written_type(type, *particles, next_id));
+    snapshot.types.push_back(written_type(type, *particles, next_id, "Color"));
     next_id += particles->count();
   }
+  if (galaxy.dust.count() > 0)
+    snapshot.types.push_back(written_type(5, galaxy.dust, next_id, "Opacity"));
   write_gadget_hdf5(path, snapshot);
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "galaxy/even_points.h"
 #include "galaxy/kinds.h"
 
 namespace splotchcl {
@@ -12,28 +13,33 @@ Vec3 place_in_ball(Random& random) {
 
 }  // namespace
 
-// A ball of particles has the colour of the pixel that its centre falls in, and is wider than a
-// pixel: so balls of different heights and colours overlap along z. If each particle had the colour
-// of the pixel below it, every column of particles would have one colour.
+// Each particle has the colour of a pixel near the one above it, as if balls of particles of one
+// colour, wider than a pixel, overlapped: if each had the colour of its own pixel, every column of
+// particles would have one colour along z. It is the colour that is moved and not the particle, so
+// that particles lie evenly.
 GalaxyParticles make_gas(const LightMap& map, const BulgeProfile& bulge,
                          const GalaxySettings& settings) {
   Random random(settings.seed);
   GalaxyParticles gas;
   const Image& picture = map.picture();
-  const double cloud_radius = settings.cloud_radius_pixels * map.plane().pixel_size();
   const double share = settings.disk_stars > 0 ? 1 - settings.disk_light : 1;
   const double mass = map.plane().area_of_pixel() / settings.cloud_points;
   const Vec3 axis = disk_axis(settings);
+  PointsOfPixels points(settings.cloud_points);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const Light light = light_at(picture, x, y);
-      if (!(mean(light) > 0)) continue;
-      const auto disk = map.plane().in_disk({x + random.uniform(), y + random.uniform()});
-      const Light color = share * bulge.rest(light, std::hypot(disk[0], disk[1]));
-      const Vec3 center = {{disk[0], disk[1], settings.gas_height_kpc * random.normal()}};
+      points.begin(x, y, random);
       for (int i = 0; i < settings.cloud_points; ++i) {
-        const Vec3 place = center + place_in_ball(random) * cloud_radius;
-        add_particle(gas, place, color, mass, axis, std::hypot(place.a[0], place.a[1]));
+        const DiskPlane::Point pixel = points.place(i);
+        const double height = settings.gas_height_kpc * normal_quantile(points.layer(i, random));
+        const Vec3 aside = place_in_ball(random) * settings.cloud_radius_pixels;
+        const DiskPlane::Point disk = map.plane().in_disk(pixel);
+        const DiskPlane::Point lit =
+            map.plane().in_disk({pixel[0] + aside.a[0], pixel[1] + aside.a[1]});
+        const Light color = share * bulge.rest(map.at(lit), std::hypot(lit[0], lit[1]));
+        if (!(mean(color) > 0)) continue;
+        add_particle(gas, {{disk[0], disk[1], height}}, color, mass, axis,
+                     std::hypot(disk[0], disk[1]));
       }
     }
   }

@@ -14,6 +14,7 @@ GalaxyParticles make_gas(const LightMap& map, const BulgeProfile& bulge,
 GalaxyParticles make_disk_stars(const LightMap& map, const BulgeProfile& bulge,
                                 const GalaxySettings& settings);
 GalaxyParticles make_bulge(const BulgeProfile& bulge, const GalaxySettings& settings);
+GalaxyParticles make_dust(const LightMap& map, const GalaxySettings& settings);
 GalaxyParticles make_clusters(const LightMap& map, const GalaxySettings& settings);
 
 // One more particle; its smoothing length and velocity follow later.

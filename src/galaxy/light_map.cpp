@@ -13,6 +13,10 @@ namespace {
 constexpr double nucleus_fraction = 0.04;  // of the shorter side, kept from star removal
 constexpr double rim_fraction = 0.1;       // of the radius, over which the disk ends
 
+constexpr double lane_fraction = 0.05;   // of the radius: what is wider than a lane
+constexpr double half_fraction = 0.5;    // of the radius, within which most light is
+constexpr double faint_fraction = 0.03;  // of its mean light: tells of no dust
+
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -66,6 +70,7 @@ LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double 
   radius_ = settings.radius_pixels ? *settings.radius_pixels / file_pixels * plane_.pixel_size()
                                    : whole_radius(picture_, plane_);
   fade(settings);
+  take_dust_away(settings);
   center_color_ = mean_light_within(std::max(settings.bulge_radius_kpc, plane_.pixel_size()));
   if (!(total_light() > 0)) {
     throw DataError(
@@ -92,6 +97,14 @@ void LightMap::fade(const GalaxySettings& settings) {
         pixel[i] = static_cast<float>(kept * static_cast<double>(pixel[i]));
     }
   }
+}
+
+void LightMap::take_dust_away(const GalaxySettings& settings) {
+  const double lane = lane_fraction * radius_ / plane_.pixel_size();
+  const double faintest =
+      std::max(2 * threshold_, faint_fraction * mean(mean_light_within(half_fraction * radius_)));
+  dust_.emplace(picture_, settings, lane, faintest);
+  dust_->unveil(picture_);
 }
 
 Light LightMap::mean_light_within(double radius) const {

@@ -1,20 +1,24 @@
 #pragma once
 
+#include <optional>
+
 #include "galaxy/disk_plane.h"
+#include "galaxy/dust_map.h"
 #include "galaxy/light.h"
 #include "galaxy/sky.h"
 #include "splotchcl/galaxy.h"
 
 namespace splotchcl {
 
-// The galaxy's own light at each point of its disk: a picture without sky, foreground stars and
-// border.
+// The galaxy's own light at each point of its disk: a picture without sky, foreground stars,
+// border and dust.
 class LightMap {
  public:
   // Throws DataError for a picture without a galaxy.
   LightMap(const Image& picture, const GalaxySettings& settings, double file_pixels);
 
   const Image& picture() const { return picture_; }
+  const DustMap& dust() const { return *dust_; }
   const DiskPlane& plane() const { return plane_; }
   double radius() const { return radius_; }                    // kpc; no light lies beyond
   double threshold() const { return threshold_; }              // of a pixel's mean light
@@ -30,6 +34,7 @@ class LightMap {
 
  private:
   void fade(const GalaxySettings& settings);
+  void take_dust_away(const GalaxySettings& settings);
   Light mean_light_within(double radius) const;
 
   Sky sky_;
@@ -39,6 +44,7 @@ class LightMap {
   DiskPlane plane_;
   double radius_ = 0;
   double threshold_ = 0;
+  std::optional<DustMap> dust_;
   Light center_color_ = {0, 0, 0};
 };
 

@@ -6,12 +6,15 @@
 
 namespace splotchcl {
 
-// The radius that holds a random part of a Plummer sphere of radius 1, cut at 8.
-inline double plummer_radius(Random& random) {
+// The radius that holds a part, in (0, 1], of a Plummer sphere of radius 1, cut at 8.
+inline double plummer_radius(double part) {
   constexpr double farthest = 8;
   const double all = std::pow(1 + 1 / (farthest * farthest), -1.5);
-  const double enclosed = all * (1 - random.uniform());
-  return 1 / std::sqrt(std::pow(enclosed, -2.0 / 3) - 1);
+  return 1 / std::sqrt(std::pow(all * part, -2.0 / 3) - 1);
+}
+// That of a random part.
+inline double plummer_radius(Random& random) {
+  return plummer_radius(1 - random.uniform());
 }
 
 // Of length 1, at a right angle to a place, else in any direction.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "formats/hdf5/gadget_hdf5_writer.h"
+#include "galaxy/disk_types.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
@@ -20,13 +21,6 @@ Vec3 vector_at(const Column& column, std::size_t i) {
 void put(std::vector<float>& values, std::size_t i, const Vec3& vector) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     values[3 * i + axis] = static_cast<float>(vector.a[axis]);
-}
-
-// The speed about the axis that a velocity shows.
-double shown_angular_speed(const OrbitState& state, const Vec3& axis) {
-  const Vec3 lever = boost::qvm::cross(axis, state.position);
-  const double square = boost::qvm::dot(lever, lever);
-  return square > 0 ? boost::qvm::dot(state.velocity, lever) / square / myr_per_kpc_s_km : 0;
 }
 
 class TurnedSnapshot : public Snapshot {
@@ -66,13 +60,17 @@ class TurnedSnapshot : public Snapshot {
     const Column axes = galaxy_->read(type, "OrbitAxis");
     const Column radii = galaxy_->read(type, "OrbitRadius");
     const Vec3 origin = galaxy_->position_origin();
+    std::optional<double> pattern;
+    if (settings_.pattern_speed && is_disk_type(type))
+      pattern = *settings_.pattern_speed / myr_per_kpc_s_km;
     std::vector<float> places(position.size()), speeds(position.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
       const OrbitState start = {origin + vector_at(position, i), vector_at(velocity, i)};
       const Vec3 axis = vector_at(axes, i);
       const double angular_speed =
-          settings_.curve ? settings_.curve->angular_speed(static_cast<double>(radii[i]))
-                          : shown_angular_speed(start, axis);
+          pattern           ? *pattern
+          : settings_.curve ? settings_.curve->angular_speed(static_cast<double>(radii[i]))
+                            : shown_angular_speed(start, axis);
       const OrbitState now = move_on_orbit(start, axis, angular_speed, myr_, settings_);
       put(places, i, now.position);
       put(speeds, i, now.velocity);
@@ -87,6 +85,8 @@ class TurnedSnapshot : public Snapshot {
   mutable std::map<int, Turned> turned_;
 };
 
+}  // namespace
+
 void check_orbits(const Snapshot& galaxy) {
   for (const ParticleTypeInfo& type : galaxy.info().types) {
     for (const char* const name : {"velocity", "OrbitAxis", "OrbitRadius"}) {
@@ -99,13 +99,24 @@ void check_orbits(const Snapshot& galaxy) {
   }
 }
 
-}  // namespace
+double shown_angular_speed(const OrbitState& state, const Vec3& axis) {
+  const Vec3 lever = boost::qvm::cross(axis, state.position);
+  const double square = boost::qvm::dot(lever, lever);
+  return square > 0 ? boost::qvm::dot(state.velocity, lever) / square / myr_per_kpc_s_km : 0;
+}
 
 TurningGalaxy::TurningGalaxy(std::shared_ptr<const Snapshot> galaxy, TurningSettings settings)
     : galaxy_(std::move(galaxy)), settings_(std::move(settings)) {
   if (!(settings_.step_myr > 0) || !std::isfinite(settings_.step_myr)) {
     throw UsageError(
         fmt::format("a step is {} Myr long, expected a finite number > 0", settings_.step_myr));
+  }
+  if (settings_.pattern_speed &&
+      (!(*settings_.pattern_speed > 0) || !std::isfinite(*settings_.pattern_speed))) {
+    throw UsageError(
+        fmt::format("the pattern's speed is {} km/s/kpc, expected a finite number > 0; which way "
+                    "a galaxy turns is said when it is made",
+                    *settings_.pattern_speed));
   }
   check_orbits(*galaxy_);
 }
@@ -117,12 +128,12 @@ std::shared_ptr<const Snapshot> TurningGalaxy::at(double myr) const {
   return std::make_shared<TurnedSnapshot>(galaxy_, settings_, myr);
 }
 
-std::optional<std::string> turning_warning(double myr) {
-  if (myr <= turning_limit_myr) return std::nullopt;
+std::optional<std::string> turning_warning(double myr, std::optional<double> hold_myr) {
+  if (!hold_myr || myr <= *hold_myr) return std::nullopt;
   return fmt::format(
-      "{} Myr are more than the {} Myr for which this picture of rotation holds: the inner disk "
-      "overtakes the outer, and the arms wind up",
-      myr, turning_limit_myr);
+      "{} Myr are more than the {:.0f} Myr for which the arms hold: the inner disk overtakes the "
+      "outer, and the arms wind up; --pattern-speed turns them as a whole",
+      myr, *hold_myr);
 }
 
 void write_galaxy_snapshot(const std::filesystem::path& path, const Snapshot& snapshot,

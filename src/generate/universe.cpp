@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generate/even_place.h"
 #include "generate/gas.h"
 #include "generate/haloes.h"
 #include "generate/profile.h"
@@ -37,19 +38,6 @@ double circular_speed(const Halo& halo) {
 
 Vec3 thermal_speed(const Halo& halo, Random& random) {
   return random.normal_vector(circular_speed(halo) * M_SQRT1_2);
-}
-
-// The i-th of a sequence that fills the unit cube evenly, without a lattice's rows: steps
-// by powers of the root of x^4 = x + 1.
-Vec3 even_place(std::uint64_t i, Random& random, double jitter) {
-  constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-  Vec3 place;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value =
-        0.5 + static_cast<double>(i + 1) * steps[axis] + jitter * (random.uniform() - 0.5);
-    place.a[axis] = value - std::floor(value);
-  }
-  return place;
 }
 
 Vec3 into_box(Vec3 place) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "common/decimals.h"
 #include "load/suggest_scene_camera.h"
@@ -61,13 +62,13 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
   return map;
 }
 
-// The field of particles that have colours of their own: three values, none below 0. Empty where
-// there is none.
-std::string own_colors(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+// A field of one of these names: three values, none below 0. Empty where there is none.
+std::string field_of_colors(const Snapshot& snapshot, const ParticleTypeInfo& type,
+                            std::initializer_list<const char*> names) {
   for (const FieldInfo& field : type.fields) {
-    const bool is_named_so = equal_ignoring_case(field.name, "color") ||
-                             equal_ignoring_case(field.name, "colors") ||
-                             equal_ignoring_case(field.name, "rgb");
+    const bool is_named_so = std::any_of(names.begin(), names.end(), [&](const char* name) {
+      return equal_ignoring_case(field.name, name);
+    });
     if (!is_named_so || field.values_per_particle != 3) continue;
     const Column values = snapshot.read(type.type, field.name);
     const bool are_light = std::all_of(values.data(), values.data() + values.size(),
@@ -75,6 +76,16 @@ std::string own_colors(const Snapshot& snapshot, const ParticleTypeInfo& type) {
     if (are_light) return field.name;
   }
   return {};
+}
+
+// Of particles that have colours of their own.
+std::string own_colors(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+  return field_of_colors(snapshot, type, {"color", "colors", "rgb"});
+}
+
+// Of particles that give off no light but absorb it, as the dust of splotchcl galaxy.
+std::string own_opacity(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+  return field_of_colors(snapshot, type, {"opacity"});
 }
 
 // load_frame estimates it where the file has none; its range is not known before.
@@ -161,6 +172,17 @@ void give_own_colors(Component& component, const std::string& field) {
   component.brightness = 1;
 }
 
+// Its weights are areas times optical depths.
+Component dust_component(const ParticleTypeInfo& type, const std::string& opacity) {
+  Component component = component_for(type);
+  component.name = "dust";
+  give_own_colors(component, opacity);
+  component.brightness = 0;
+  component.absorption = {Absorption::Kind::factor, 1};
+  component.reference_column = 1;
+  return component;
+}
+
 Component type_component(const Snapshot& snapshot, const ParticleTypeInfo& type, bool is_alone) {
   Component component = type.type == gas ? gas_component(snapshot, type)
                                          : collisionless_component(snapshot, type, is_alone);
@@ -204,6 +226,11 @@ std::vector<Component> choose_components(const Snapshot& snapshot) {
   const std::optional<Component> colored = colored_component(snapshot);
   if (colored) components.push_back(*colored);
   for (const ParticleTypeInfo& type : info.types) {
+    const std::string opacity = own_opacity(snapshot, type);
+    if (!opacity.empty() && info.types.size() > 1 && has_masses(type)) {
+      components.push_back(dust_component(type, opacity));
+      continue;
+    }
     const bool is_colored = colored && std::find(colored->types.begin(), colored->types.end(),
                                                  type.type) != colored->types.end();
     if (is_colored || (has_gas && !is_drawn_beside_gas(type.type, info))) continue;

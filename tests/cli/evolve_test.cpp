@@ -121,6 +121,37 @@ TEST_F(Evolve, WarnsOfWinding) {
   EXPECT_TRUE(is_one_line(result.err));
 }
 
+TEST_F(Evolve, LastsAsLongAsTheArmsHold) {
+  const auto result =
+      splotchcl_in(folder_, "evolve galaxy.hdf5 --snapshots s_%d.hdf5 --frames 1 --core 0.1");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  const double hold = [&] {
+    const std::string info = splotchcl_in(folder_, "info s_0.hdf5 --json").out;
+    const auto at = info.find("\"time\":");
+    return at == std::string::npos ? 0 : std::stod(info.substr(at + 7));
+  }();
+  // Half of the disk's light lies within 3 to 6 kpc: 10 pixels of 30 / 96 kpc are the scale.
+  const double per_kpc = 978 / 200.0 / std::tan(20 * M_PI / 180);
+  EXPECT_GT(hold, 3 * per_kpc);
+  EXPECT_LT(hold, 6 * per_kpc);
+}
+
+TEST_F(Evolve, APatternEndsAsItBegan) {
+  const auto result = splotchcl_in(
+      folder_, "evolve galaxy.hdf5 scene.toml -o p_%d.exr --frames 3 --pattern-speed 40");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Image first = read_image(folder_ / "p_0.exr"), half = read_image(folder_ / "p_1.exr"),
+              last = read_image(folder_ / "p_2.exr");
+  double back = 0, moved = 0;
+  for (std::size_t i = 0; i < first.pixels.size(); ++i) {
+    back = std::max(back, std::abs(static_cast<double>(last.pixels[i] - first.pixels[i])));
+    moved = std::max(moved, std::abs(static_cast<double>(half.pixels[i] - first.pixels[i])));
+  }
+  EXPECT_LT(back, 0.01 * moved);
+}
+
 TEST_F(Evolve, WrongCallsAreRefusedBeforeAnythingIsMade) {
   const std::size_t files = folder_.count_files();
   const auto refuses = [&](const std::string& arguments, const std::string& text) {
@@ -136,6 +167,7 @@ TEST_F(Evolve, WrongCallsAreRefusedBeforeAnythingIsMade) {
   refuses("scene.toml -o t_%d.png --frames 0", "expected 1 to");
   refuses("scene.toml -o t_%d.png --step 3", "only --first-order");
   refuses("scene.toml -o t_%d.png --duration -5", "expected 0 to");
+  refuses("scene.toml -o t_%d.png --pattern-speed -40", "pattern's speed is -40");
   EXPECT_EQ(folder_.count_files(), files);
 }
 

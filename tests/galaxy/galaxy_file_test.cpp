@@ -33,6 +33,8 @@ TEST(GalaxyFile, OurReaderReadsWhatIsWritten) {
     EXPECT_EQ(values(snapshot->read(type, "OrbitAxis")), particles->orbit_axis);
     EXPECT_EQ(values(snapshot->read(type, "OrbitRadius")), particles->orbit_radius);
   }
+  EXPECT_EQ(values(snapshot->read(5, "position")), galaxy.dust.position);
+  EXPECT_EQ(values(snapshot->read(5, "Opacity")), galaxy.dust.color);
   EXPECT_EQ(snapshot->read_ids(0).front(), 1u);
   EXPECT_EQ(snapshot->read_ids(2).front(), galaxy.gas.count() + 1);
 }

@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
-#include "splotchcl/renderer.h"
 
 namespace splotchcl::testing {
 namespace {
@@ -13,29 +13,12 @@ namespace {
 // Face-on, without perspective, a pixel for each of the picture's.
 Frame face_on_frame(const Galaxy& galaxy, const DiskPicture& picture,
                     const GalaxySettings& settings) {
-  Frame frame;
-  frame.width = picture.width;
-  frame.height = picture.height;
-  frame.crop = {0, 0, frame.width, frame.height};
   Camera camera;
   camera.projection = Projection::orthographic;
   camera.position = {{0, 0, 100}};
   camera.look_at = {{0, 0, 0}};
   camera.field_of_view_degrees = 2 * std::atan(settings.size_kpc / 200) * 180 / M_PI;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  frame.projection = camera.projection;
-  for (const GalaxyParticles* kind : {&galaxy.gas, &galaxy.disk, &galaxy.bulge, &galaxy.clusters}) {
-    DrawnComponent component;
-    component.particles.count = kind->count();
-    component.particles.position = Column::owning(kind->position);
-    component.particles.smoothing_length = Column::owning(kind->smoothing_length);
-    component.particles.weight = Column::owning(kind->mass);
-    component.particles.color_vector = Column::owning(kind->color);
-    component.palette.emission = {{1, 1, 1}};
-    component.absorption.kind = Absorption::Kind::none;
-    frame.components.push_back(component);
-  }
-  return frame;
+  return galaxy_frame(galaxy, camera, picture.width, picture.height);
 }
 
 // Mean light by radius in rings of `width` pixels.
@@ -78,9 +61,10 @@ TEST(GalaxyLight, FaceOnRenderHasThePicturesRadialProfile) {
   }
 }
 
-TEST(GalaxyLight, ParticlesGiveOffThePicturesLight) {
+TEST(GalaxyLight, ParticlesGiveOffThePicturesLightWhereNoDustHidesAny) {
   const DiskPicture picture;
-  const GalaxySettings settings = small_settings();
+  GalaxySettings settings = small_settings();
+  settings.dust = 0;
   const Galaxy galaxy = make_galaxy(picture.draw(), settings);
   double light = 0;
   for (const GalaxyParticles* kind : {&galaxy.gas, &galaxy.disk, &galaxy.bulge, &galaxy.clusters}) {
@@ -114,6 +98,7 @@ TEST(GalaxyLight, NoColumnOfPixelsHasOneColorAlongZ) {
   const DiskPicture picture;
   GalaxySettings settings = small_settings();
   settings.removes_stars = false;
+  settings.cloud_points = 12;
   const Galaxy galaxy = make_galaxy(red_and_blue_pixels(picture), settings);
   struct Column {
     int count = 0;
@@ -133,8 +118,8 @@ TEST(GalaxyLight, NoColumnOfPixelsHasOneColorAlongZ) {
     column.red += red / (red + blue);
   }
   // The variance of a column's share of red: (1 - red) red for pure colours. 0.25 if every
-  // column were an even mixture; with 4 particles a column on average, each from one of about
-  // 8 pixels, chance alone makes some columns of one colour.
+  // column were an even mixture; its 12 particles have the colours of about 8 pixels, so chance
+  // alone makes some columns of one colour.
   double variance = 0;
   int many = 0, of_one_color = 0;
   for (const auto& [place, column] : columns) {

@@ -38,6 +38,39 @@ struct DiskPicture {
   }
 };
 
+// Two arms on the sky, with a dark lane along the inner side of each.
+struct SpiralPicture {
+  int side = 240;
+  double scale = 30;  // pixels
+
+  // From -pi to pi: how far a pixel lies from the middle of a lane, in the arms' phase.
+  double phase(int x, int y) const {
+    const double dx = x + 0.5 - side / 2.0, dy = side / 2.0 - y - 0.5;
+    const double winds = std::log(std::hypot(dx, dy) / scale) / 0.36;
+    return std::remainder(2 * (std::atan2(dy, dx) - winds), 2 * M_PI);
+  }
+  bool is_lane(int x, int y) const { return std::abs(phase(x, y)) < 0.25; }
+
+  Image draw() const {
+    constexpr std::array<double, 3> color = {1, 0.9, 0.75}, opacity = {0.6, 1, 1.3};
+    Random random(6);
+    Image image(side, side);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const double radius = std::hypot(x + 0.5 - side / 2.0, y + 0.5 - side / 2.0);
+        const double arm = 1 + 0.4 * std::cos(phase(x, y) - 0.8);
+        const double lane = 0.8 * std::exp(-std::pow(phase(x, y) / 0.25, 2));
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double light = 0.7 * color[i] * arm * std::exp(-radius / scale - lane * opacity[i]);
+          image.at(x, y)[i] = static_cast<float>(light + sky_level + sky_noise * random.normal());
+        }
+        image.at(x, y)[3] = 1;
+      }
+    }
+    return image;
+  }
+};
+
 // Few particles, so that tests are fast.
 inline GalaxySettings small_settings() {
   GalaxySettings settings;

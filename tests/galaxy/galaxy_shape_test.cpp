@@ -78,8 +78,9 @@ TEST(GalaxyShape, DiskIsThinAndBulgeIsRound) {
   GalaxySettings settings = small_settings();
   settings.radius_pixels = 70;
   const Galaxy galaxy = make_galaxy(DiskPicture().draw(), settings);
-  const double cloud = 1.6 * 0.1 / std::sqrt(5.0);  // of a ball's points along an axis
-  EXPECT_NEAR(deviation(galaxy.gas, 2), std::hypot(settings.gas_height_kpc, cloud), 0.005);
+  EXPECT_NEAR(deviation(galaxy.gas, 2), settings.gas_height_kpc, 0.005);
+  EXPECT_NEAR(deviation(galaxy.dust, 2), settings.dust_height_kpc, 0.002);
+  EXPECT_LT(deviation(galaxy.dust, 2), deviation(galaxy.disk, 2) / 3);
   EXPECT_NEAR(deviation(galaxy.disk, 2), settings.disk_height_kpc, 0.01);
   EXPECT_GT(deviation(galaxy.disk, 0), 5 * deviation(galaxy.disk, 2));
   EXPECT_NEAR(deviation(galaxy.bulge, 2) / deviation(galaxy.bulge, 0), settings.bulge_flattening,

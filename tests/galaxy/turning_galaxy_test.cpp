@@ -136,10 +136,72 @@ TEST(TurningGalaxy, SnapshotsOfItsCourseCanBeTurnedOn) {
     ASSERT_NEAR(found[i], expected[i], 1e-4);
 }
 
-TEST(TurningGalaxy, WarnsBeyondAFewHundredMillionYears) {
-  EXPECT_FALSE(turning_warning(200));
-  ASSERT_TRUE(turning_warning(1000));
-  EXPECT_THAT(*turning_warning(1000), ::testing::HasSubstr("wind up"));
+// Matter on a flat curve at 4 kpc, half of the light inside of it.
+std::shared_ptr<ArraySnapshot> ring_on_a_flat_curve(std::vector<float>& values) {
+  constexpr int count = 400;
+  values.assign(11 * count, 0);
+  float *const position = values.data(), *const velocity = position + 3 * count,
+               *const axis = velocity + 3 * count, *const radius = axis + 3 * count;
+  static const std::vector<float> mass(count, 1), color(3 * count, 1);
+  for (int i = 0; i < count; ++i) {
+    radius[i] = 2 + 4 * (static_cast<float>(i) + 0.5F) / count;
+    position[3 * i] = radius[i];
+    velocity[3 * i + 1] = 200;
+    axis[3 * i + 2] = 1;
+  }
+  const auto arrays = std::make_shared<ArraySnapshot>();
+  arrays->set_field(0, "position", position, count, 3);
+  arrays->set_field(0, "velocity", velocity, count, 3);
+  arrays->set_field(0, "OrbitAxis", axis, count, 3);
+  arrays->set_field(0, "OrbitRadius", radius, count);
+  arrays->set_field(0, "mass", mass.data(), count);
+  arrays->set_field(0, "Color", color.data(), count, 3);
+  return arrays;
+}
+
+// With a flat curve the angular speed v / r falls by itself for each e-fold of the radius.
+TEST(TurningGalaxy, ArmsHoldUntilTheirPitchHasHalved) {
+  std::vector<float> values;
+  const auto ring = ring_on_a_flat_curve(values);
+  const double angular_speed = 200.0 / 4 / myr_per_kpc_s_km;
+  const double expected = 1 / (std::tan(20 * M_PI / 180) * angular_speed);
+  const auto found = arms_hold_myr(*ring, {});
+  ASSERT_TRUE(found);
+  // The angular speeds are means over a tenth of the radius to both sides.
+  EXPECT_NEAR(*found / expected, 1, 0.03);
+  EXPECT_FALSE(turning_warning(*found, found));
+  ASSERT_TRUE(turning_warning(2 * *found, found));
+  EXPECT_THAT(*turning_warning(2 * *found, found), ::testing::HasSubstr("wind up"));
+}
+
+TEST(TurningGalaxy, ArmsOfASolidBodyAndOfAPatternHoldForEver) {
+  std::vector<float> values;
+  const auto ring = ring_on_a_flat_curve(values);
+  TurningSettings solid;
+  solid.curve = RotationCurve::table({1, 100}, {10, 1000});
+  EXPECT_FALSE(arms_hold_myr(*ring, solid));
+  TurningSettings pattern;
+  pattern.pattern_speed = 40;
+  EXPECT_FALSE(arms_hold_myr(*ring, pattern));
+}
+
+TEST(TurningGalaxy, APatternTurnsTheDiskAsAWholeAndNotTheBulge) {
+  const TemporaryFolder folder;
+  write_galaxy(folder / "galaxy.hdf5", make_galaxy(DiskPicture().draw(), small_settings()));
+  const std::shared_ptr<const Snapshot> start = open_snapshot(folder / "galaxy.hdf5");
+  TurningSettings settings;
+  settings.pattern_speed = 40;
+  const double quarter = M_PI / 2 * myr_per_kpc_s_km / 40;
+  const auto later = TurningGalaxy(start, settings).at(quarter);
+  for (const int type : {0, 2, 5}) {
+    const Column before = start->read(type, "position"), after = later->read(type, "position");
+    for (std::size_t i = 0; i < before.size(); i += 3) {
+      ASSERT_NEAR(after[i], -before[i + 1], 1e-5) << "type " << type;
+      ASSERT_NEAR(after[i + 1], before[i], 1e-5);
+    }
+  }
+  EXPECT_EQ(TurningGalaxy(start, {}).at(quarter)->read(3, "position")[0],
+            later->read(3, "position")[0]);
 }
 
 TEST(TurningGalaxy, WhatHasNoOrbitsIsRefused) {
@@ -148,6 +210,9 @@ TEST(TurningGalaxy, WhatHasNoOrbitsIsRefused) {
   arrays->set_field(0, "position", position.data(), 1, 3);
   EXPECT_THROW(TurningGalaxy(arrays, {}), DataError);
   EXPECT_THROW(TurningGalaxy(std::make_shared<ArraySnapshot>(), first_order(0)), UsageError);
+  TurningSettings backwards;
+  backwards.pattern_speed = -40;
+  EXPECT_THROW(TurningGalaxy(std::make_shared<ArraySnapshot>(), backwards), UsageError);
 }
 
 }  // namespace

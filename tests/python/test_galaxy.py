@@ -28,7 +28,7 @@ def test_a_galaxy_is_that_of_the_command(program, picture, tmp_path):
     few = [word for name, n in FEW.items() for word in ("--" + name.replace("_", "-"), n)]
     program("galaxy", picture, "-o", tmp_path / "b.hdf5", "--size", 20, "--clockwise", *few)
     expected = splotchcl.Snapshot(tmp_path / "b.hdf5")
-    assert set(made.types) == set(expected.types) == {"gas", "disk", "bulge", "stars"}
+    assert set(made.types) == set(expected.types) == {"gas", "disk", "bulge", "stars", "boundary"}
     for name, kind in made.types.items():
         for field in ("position", "mass", "velocity"):
             assert np.array_equal(kind[field], expected[name][field])

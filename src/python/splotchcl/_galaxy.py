@@ -32,7 +32,8 @@ def galaxy(
     """Makes a galaxy in three dimensions from one picture of it (docs/galaxy.md).
 
     Gas, disk stars ("disk"), a bulge ("bulge") and globular clusters ("stars"), each particle with a
-    color, around the origin, in kpc and km/s: what ``splotchcl galaxy`` makes.
+    color, and dust ("boundary") with an opacity, around the origin, in kpc and km/s: what
+    ``splotchcl galaxy`` makes.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def galaxy(
         The same seed makes the same galaxy.
     **matter
         The command's other options with underscores: ``gas_height``, ``cloud_points``,
-        ``cloud_radius``, ``disk_stars``, ``disk_width``, ``disk_height``, ``disk_light``,
+        ``cloud_radius``, ``dust``, ``dust_height``, ``dust_points``, ``detail``, ``disk_stars``, ``disk_width``, ``disk_height``, ``disk_light``,
         ``bulge_stars``, ``bulge_radius``, ``bulge_light``, ``clusters``, ``cluster_stars``,
         ``cluster_light``.
 

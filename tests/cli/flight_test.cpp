@@ -1,0 +1,47 @@
+// The flight of scripts/fly_in through a universe, without the galaxy at its end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/program.h"
+#include "galaxy/galaxy_picture.h"
+#include "splotchcl/image_file.h"
+
+namespace splotchcl::testing {
+namespace {
+
+// Mean linear light.
+double brightness(const std::filesystem::path& path) {
+  const Image image = read_image(path);
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (i % 4 != 3) sum += static_cast<double>(image.pixels[i]);
+  }
+  return sum / (static_cast<double>(image.pixels.size()) * 3 / 4);
+}
+
+TEST(Flight, KeepsTheWebsBackgroundAsBrightAsTheStartDoes) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  write_image(folder / "spiral.exr", SpiralPicture().draw());
+  const std::string source = test::source_folder().string();
+  const ProgramResult result = run_in(
+      folder, "mkdir examples demo && cp '" + source + "/examples/fly_in.toml' examples && '" +
+                  source +
+                  "/scripts/fly_in' --path > demo/fly_in.path && "
+                  "\"$splotchcl\" generate universe --particles 100000 -o demo/universe.gadget && "
+                  "\"$splotchcl\" galaxy spiral.exr -o demo/galaxy.hdf5 --disk-stars 100 "
+                  "--bulge-stars 100 --clusters 1 --cloud-points 1 && "
+                  "sed -i 's/ component.galaxy.brightness//; s/ [0-9.]*$//' demo/fly_in.path && "
+                  "\"$splotchcl\" movie examples/fly_in.toml -o f_%03d.exr --frames 0:300:299 "
+                  "--set image.size=[160,90] --set component.galaxy.brightness=0 "
+                  "--set component.dust.absorption=0");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const double start = brightness(folder / "f_000.exr"), end = brightness(folder / "f_299.exr");
+  EXPECT_GT(end, 0.7 * start);
+  EXPECT_LT(end, 2 * start);
+}
+
+}  // namespace
+}  // namespace splotchcl::testing
