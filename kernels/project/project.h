@@ -83,6 +83,7 @@ struct ProjectParameters {
 
   float size_factor;
   float kernel_width;       // sigma = kernel_width * h
+  float sigma_per_h;        // and of h as it is stored, without size_factor, in one rounding
   float kernel_cut;         // in sigma; 0: uncut
   float min_radius;         // pixels
   float widening;           // sigma'^2 = sigma^2 + widening, in pixels

@@ -31,7 +31,7 @@ typedef struct WidthLanes {
 INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
   WidthLanes widths;
   widths.h = raw_h * p.size_factor;
-  widths.sigma_true = p.kernel_width * widths.h * view.scale;
+  widths.sigma_true = p.sigma_per_h * raw_h * view.scale;
   const float sigma_floor = p.kernel_width * p.min_radius;
   const VALUE sigma = p.min_radius > 0.0f
                           ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)

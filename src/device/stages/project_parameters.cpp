@@ -255,6 +255,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   set_depth_limits(frame, p);
   set_depth_key(frame, frame.components[component], p);
   p.kernel_width = static_cast<float>(frame.kernel.width);
+  p.sigma_per_h = static_cast<float>(frame.kernel.width * frame.components[component].size_factor);
   p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
   set_picture(context, p);

@@ -48,8 +48,13 @@ double fine_place_error(const Frame& frame) {
   return 0x1p-17 * largest_unit(frame) + 16 * 0x1p-43 * farthest;
 }
 
-// So many roundings of a width, of the exponent and of exp count with the logarithm of a peak.
-constexpr double roundings_of_fading = 16;
+// So many roundings count with the logarithm of a peak. A distance over sigma has six: of the
+// constant in sigma, of its product with h, of the scale, of its product with that, of the pixel's
+// edge and of the quotient. The exponent is its square, which exp takes without another one. Along
+// the rows of a panorama two more are those of the latitude's cosine and of sigma over it.
+double roundings_of_fading(const FramePlan& plan) {
+  return plan.has_ellipses ? 16 : 12;
+}
 
 // Of the tolerance, what one splat may spend by its place. Copies of one particle err alike: fifty
 // of them may lie upon one another in single precision. Extended numbers err a hundred times less,
@@ -71,7 +76,7 @@ PlaceLimits choose_place_limits(const Frame& frame, const FramePlan& plan, doubl
   const double share = part_in_extended * allowed;
   const double error = plan.has_fine_places ? fine_place_error(frame) : integer_place_error(frame);
   limits.too_sharp_width = static_cast<float>(error / share);
-  limits.most_fading = static_cast<float>(share / (roundings_of_fading * rounding));
+  limits.most_fading = static_cast<float>(share / (roundings_of_fading(plan) * rounding));
   return limits;
 }
 
