@@ -175,6 +175,22 @@ TEST_P(EveryKernel, JoinsSegments) {
   }
 }
 
+// Room for four splats at a time, of which each window leaves some to the next one.
+TEST_P(EveryKernel, DrawsInWindows) {
+  DeviceContext device(choose_device(""));
+  choose_shape(device.traits, GetParam() == CompositeShape::rows);
+  device.traits.sorted_chunk = 5;
+  for (const double tolerance : {1e-3, 0.0}) {
+    Frame frame = small_frame(LightPlan::ordered, 12);
+    frame.tolerance = tolerance;
+    frame.sort.by = tolerance > 0 ? SortOrder::By::depth : SortOrder::By::field;
+    device.memory.total = ~std::uint64_t{0};
+    const Image whole = draw_once(device, frame, GetParam());
+    device.memory.total = 1;
+    EXPECT_EQ(draw_once(device, frame, GetParam()).pixels, whole.pixels) << tolerance;
+  }
+}
+
 // Particles of one depth: a stable sort by all bits of the keys.
 TEST_P(EveryKernel, SortsManyEqualDepths) {
   const std::vector<Cloud> grains(50, Cloud{0.2, 0.3, 1, 0.1, 0.01});
