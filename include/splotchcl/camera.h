@@ -32,10 +32,14 @@ struct Camera {
   std::optional<double> field_of_view_degrees;
   Projection projection = Projection::perspective;
   // Limits of z, the distance along the view direction (wide angles: of the distance).
-  // Without a near limit, orthographic leaves out z < 0, all others leave out z < 0.1 h of
-  // the particle itself (its disc would cover the sky).
+  // Without a near limit, orthographic leaves out z < 0. All others draw what is in front of the
+  // camera of clouds around it, or without through_clouds leave out z < 0.1 h of the particle
+  // itself (its disc would cover the sky).
   std::optional<double> near_limit;
   std::optional<double> far_limit;
+  // Clouds around the camera are what each ray finds of them in front of it
+  // (docs/projections.md); false: splats like all others. Nothing to orthographic cameras.
+  bool through_clouds = true;
   CubeLayout cube_layout = CubeLayout::sheet;
   // Of the picture at the look-at distance, in lengths, > 0, instead of a field of view. Not for
   // wide angles.

@@ -22,6 +22,11 @@ struct Splat {
   double weight = 0;          // w, divided by the reference column, times intensity
   double emission[3] = {};    // E of the light model: brightness * palette etc., without w
   double absorption[3] = {};  // A likewise; E X and A X with X = weight * shape
+  // Of a cloud around the camera (Frame::through_clouds; docs/projections.md), which in a pixel has
+  // the column weight * (ray_part * what its ray finds + splat_part * shape).
+  bool is_around = false;
+  double ray_part = 0, splat_part = 1;
+  Vec3 center{};  // from the camera along right, down and forward, as the eye sees it, in its sigma
   // By which splats are sorted: the depth as 48 bits (docs/accuracy.md), or the bits of the field's
   // binary32 value, turned so that integers have the order of the values and -0 is +0.
   std::uint64_t key = 0;
@@ -29,21 +34,27 @@ struct Splat {
 };
 
 // Drawable particles in component and file order. Left out: bad values (count_bad),
-// z outside the limits. Nothing is left out for lying off the image. An equirectangular
-// picture repeats itself: a particle has a splat for each copy that reaches the picture, or
-// one if none does, one after the other.
+// z outside the limits. Clouds around the camera are drawn behind it, too; splats that the
+// projection cannot show have splat_part 0. Nothing is left out for lying off the image. An
+// equirectangular picture repeats itself: a particle has a splat for each copy that reaches the
+// picture, or one if none does, one after the other.
 std::vector<Splat> project(const Frame& frame);
 
 // Number of particles with bad values: any that is not finite, h <= 0, weight < 0, a
 // color of its own < 0.
 std::uint64_t count_bad(const Frame& frame);
 
-// By key, nearest first as frame.sort says; stable.
+// By key, nearest first as frame.sort says; of equal keys clouds around the camera first; stable.
 void sort(std::vector<Splat>& splats, const SortOrder& order);
 
 // X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two
 // differences of erf) or the center value, cut if the kernel says so.
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel);
+
+// The column that a ray from the camera finds in front of it, of a cloud of central column 1.
+// `center` is the cloud's from the camera, in its sigma; `direction` a unit vector along the same
+// axes. With t = center . direction and b its distance from the ray: exp(-b^2) (1 + erf(t)) / 2.
+double ray_shape(const Vec3& center, const Vec3& direction);
 
 // What a splat, or several, make of the light behind a pixel, per channel: I becomes
 // exp(-tau) I + S. One splat of column X has tau = A X and S = E X phi(tau), where
@@ -57,7 +68,7 @@ struct Layer {
 Layer over(const Layer& near_layer, const Layer& far_layer);
 
 // The layer of one pixel: every splat of the list in order (nearest first).
-Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const KernelSettings& kernel);
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const Frame& frame);
 
 // The whole frame: frame.crop in size. `progress` (may be empty) takes the fraction done, from 0
 // to 1. The frame's tolerance is not looked at.

@@ -10,8 +10,15 @@ struct CompositeParameters {
   float stop;        // where every pixel's transmittance is at most this; below 0: never
 };
 
+// Of a layer that is put behind the planes of the picture's own grid (behind.cl).
+struct BehindParameters {
+  int width, height;   // of the crop
+  int crop_x, crop_y;  // in the picture
+};
+
 #ifdef __OPENCL_VERSION__
 typedef struct CompositeParameters CompositeParameters;
+typedef struct BehindParameters BehindParameters;
 #endif
 
 #endif

@@ -25,7 +25,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   const uint end = min(begin + p.block_particles, p.end_particle);
   const uint numbered = p.first_block + block;
   const uint first_slot = p.first_slot + offsets[numbered];
-  uint slot = first_slot, bad_count = 0, too_sharp_count = 0;
+  uint slot = first_slot, bad_count = 0, too_sharp_count = 0, around_count = 0;
 #ifdef COUNT_KEYS
   KeyBins bins;
   bins.least = ~0u;
@@ -40,6 +40,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
     counts[numbered].visible = 0;
     counts[numbered].bad = left_out[block] - 1;
     counts[numbered].too_sharp = 0;
+    counts[numbered].around = 0;
 #ifdef COUNT_KEYS
     key_bins[block] = bins;
 #endif
@@ -48,6 +49,9 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   for (uint i = begin; i < end; i += LANES) {
     SplatLanes lanes = project_lanes(i, end, p, width_needs, e, columns);
     if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
+#ifdef CLOUDS_AROUND
+    if (ANY(lanes.around)) around_count += count_true(lanes.around);
+#endif
     const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
     if (ANY(unclear)) {
       const INTEGER within = are_within_limits(i, end, unclear, columns, p);
@@ -133,6 +137,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   counts[numbered].visible = slot - first_slot;
   counts[numbered].bad = bad_count;
   counts[numbered].too_sharp = too_sharp_count;
+  counts[numbered].around = around_count;
 #ifdef COUNT_KEYS
   key_bins[block] = bins;
 #endif

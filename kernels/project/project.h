@@ -77,6 +77,7 @@ struct ProjectParameters {
   float near_limit;   // z below is left out
   float near_factor;  // z below near_factor * h is left out
   float far_limit;
+  float around_reach;    // nearer than so many h, times length_scale, clouds are around the camera
   float least_depth;     // in perspective all that is drawn is at least that far away
   float depth_rounding;  // of z, beside what follows from the particle's own place
   struct DepthKeyParameters depth_key;
@@ -147,6 +148,7 @@ struct ProjectParameters {
 struct BlockCounts {
   unsigned int visible, bad;
   unsigned int too_sharp;  // for the frame's precision, of all in the whole picture
+  unsigned int around;     // the camera: those are not drawn as splats
 };
 
 // The bins of the keys of one block's splats; least > most where it has none.

@@ -34,7 +34,7 @@ __kernel OF_GROUPS void project(
 #endif
     return;
   }
-  if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = 0;
+  if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = of_group.around = 0;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);
   // Items beyond the last particle look at it once more: all of them meet every barrier.
@@ -118,6 +118,9 @@ __kernel OF_GROUPS void project(
     atomic_max(&bins.most, bin);
   }
 #endif
+#ifdef CLOUDS_AROUND
+  if (lanes.around & exists) atomic_inc(&of_group.around);
+#endif
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {
 #ifdef COUNT_KEYS
@@ -127,6 +130,7 @@ __kernel OF_GROUPS void project(
     if (total > 0) atomic_add(&counts->visible, total);
     if (of_group.bad > 0) atomic_add(&counts->bad, of_group.bad);
     if (of_group.too_sharp > 0) atomic_add(&counts->too_sharp, of_group.too_sharp);
+    if (of_group.around > 0) atomic_add(&counts->around, of_group.around);
   }
 #endif
 }

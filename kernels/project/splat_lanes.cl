@@ -5,6 +5,9 @@ typedef struct SplatLanes {
   INTEGER visible, bad;
   INTEGER unclear;  // of the visible: those of which depth keys decide whether they are
   INTEGER too_sharp;
+#ifdef CLOUDS_AROUND
+  INTEGER around;  // good ones around the camera, which are neither visible nor too sharp
+#endif
   INTEGER grid;
   VALUE x, y;  // pixels of the grid from its middle
   PlaceLanes place;
@@ -307,10 +310,14 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
   ViewLanes view = view_particles(particles, p);
-  const INTEGER good = are_good(particles, view.offset);
+  INTEGER good = are_good(particles, view.offset);
   s.sort_field = particles.sort_field;
   s.bad = particles.exists & (good == 0);
   s.too_sharp = (INTEGER)(0);
+#ifdef CLOUDS_AROUND
+  s.around = particles.exists & good & are_around(particles.h, view.offset, p);
+  good &= s.around == 0;
+#endif
   WidthLanes widths = find_widths(particles.h, view, p);
 #ifdef EXTENDED_NUMBERS
   s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);

@@ -57,7 +57,8 @@ class FrameErrors {
         is_bound_(plan.certify),
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
-        rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0)),
+        rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0) +
+              splats.around * plan.shares.promise),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {

@@ -27,6 +27,7 @@ struct CollectedSplats {
   // What any order within slabs could change of the picture's blocks (BlockErrors) at most; none
   // where there are no slabs.
   std::vector<float> of_slabs;
+  double around = 0;  // the part of the promise that clouds around the camera spend
 };
 
 // docs/accuracy.md ("Checked after drawing") derives it and says what is a bound.

@@ -1,8 +1,24 @@
 #include "device/pipeline.h"
 
+#include <optional>
 #include <utility>
 
 namespace splotchcl {
+namespace {
+
+// All 48 bits.
+std::vector<std::uint64_t> sort_keys_of(const StageContext& context, const KeyedSplats& keyed) {
+  BufferPool& pool = context.device.pool;
+  const bool has_ends = keyed.key_ends.size() > 0;
+  const std::vector<std::uint32_t> upper = pool.download(keyed.keys, keyed.count);
+  const std::vector<std::uint16_t> ends = pool.download(keyed.key_ends, has_ends ? keyed.count : 0);
+  std::vector<std::uint64_t> keys(upper.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    keys[i] = std::uint64_t{upper[i]} << 16 | (has_ends ? ends[i] : 0);
+  return keys;
+}
+
+}  // namespace
 
 Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
                    const FramePlan& plan, std::function<void(double)> progress)
@@ -14,10 +30,12 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       compositor_(context_),
       resolver_(context_),
       certifier_(context_),
+      surroundings_(context_),
       progress_(std::move(progress)) {}
 
 Image Pipeline::draw() {
   counts_ = {};
+  around_ = {};
   counts_.particles = particle_count(context_.frame);
   Planes planes = compositor_.start();
   planes =
@@ -28,6 +46,7 @@ Image Pipeline::draw() {
 CollectedSplats Pipeline::collected() const {
   CollectedSplats collected = certifier_.collected();
   if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
+  if (counts_.around > 0) collected.around = Surroundings::share_of_promise;
   return collected;
 }
 
@@ -55,7 +74,17 @@ Planes Pipeline::draw_sums(Planes planes) {
     tell(i, chunks.size());
     planes = add_chunk(chunks[i], std::move(planes));
   }
+  if (counts_.around > 0 && counts_.too_sharp == 0) surroundings_.draw(find_around(), planes);
   return planes;
+}
+
+std::vector<CloudAround> Pipeline::find_around() {
+  const auto get = [this](const ParticleChunk& chunk) {
+    return particles_.get(context_.frame.components[chunk.component].particles, chunk);
+  };
+  std::vector<CloudAround> clouds = surroundings_.find(particle_chunks(), get, counts_.around);
+  counts_.visible += clouds.size();
+  return clouds;
 }
 
 Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
@@ -67,6 +96,7 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   counts_.visible += particles.visible;
   counts_.bad += particles.bad;
   counts_.too_sharp += particles.too_sharp;
+  counts_.around += particles.around;
   return planes;
 }
 
@@ -88,13 +118,18 @@ Planes Pipeline::draw_ordered(Planes planes) {
   counts_.visible = keyed.particles.visible;
   counts_.bad = keyed.particles.bad;
   counts_.too_sharp = keyed.particles.too_sharp;
+  counts_.around = keyed.particles.around;
   if (counts_.too_sharp > 0) return planes;
+  if (counts_.around > 0) {
+    around_ = CloudLayers(find_around());
+    place_around(keyed, 0, end_of_keys);
+  }
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
       splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
   std::size_t next = 0;
-  return draw_chunks(sorted, 0, chunks, next, std::move(planes));
+  return end_order(sorted.count, draw_chunks(sorted, 0, chunks, next, std::move(planes)));
 }
 
 // The same chunks, of splats that are projected and sorted window by window: what a window has
@@ -106,21 +141,27 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.visible = windows.particles().visible;
   counts_.bad = windows.particles().bad;
   counts_.too_sharp = windows.particles().too_sharp;
+  counts_.around = windows.particles().around;
   counts_.windows = windows.steps();
   if (counts_.too_sharp > 0) return planes;
+  const std::uint64_t splats = counts_.visible;
+  if (counts_.around > 0) around_ = CloudLayers(find_around());
   const std::vector<SplatChunk> chunks =
-      splat_chunks(counts_.visible, context_.plan.slabs, context_.device.traits);
+      splat_chunks(splats, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
   SortedSplats sorted;
   std::uint64_t first = 0, drawn = 0;
   std::size_t next = 0;
   for (std::size_t step = 0; step < windows.steps(); ++step) {
-    sorted = windows.next(step, std::move(sorted), static_cast<std::uint32_t>(drawn - first));
+    sorted = windows.next(step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
+                          [&](const KeyedSplats& keyed, const KeyWindow& window) {
+                            place_around(keyed, drawn, window.end);
+                          });
     first = drawn;
     planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
-    drawn = next < chunks.size() ? chunks[next].first : counts_.visible;
+    drawn = next < chunks.size() ? chunks[next].first : splats;
   }
-  return planes;
+  return end_order(splats, std::move(planes));
 }
 
 Planes Pipeline::draw_chunks(const SortedSplats& sorted, std::uint64_t first,
@@ -128,13 +169,46 @@ Planes Pipeline::draw_chunks(const SortedSplats& sorted, std::uint64_t first,
                              Planes planes) {
   for (; next < chunks.size(); ++next) {
     SplatChunk chunk = chunks[next];
-    chunk.first -= first;
-    if (chunk.first + chunk.count > sorted.count) break;
+    const std::uint64_t end = chunk.first + chunk.count;
+    if (end - first > sorted.count) break;
     tell(next, chunks.size());
-    planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
-    if (chunk.ends_slab) planes = resolver_.lay_slab(std::move(planes), slab_light_);
+    // Clouds around the camera lie between splats. Slabs end there.
+    while (const std::optional<CloudLayer> layer = around_.take_before(end)) {
+      const auto before = static_cast<std::uint32_t>(layer->splats_before - chunk.first);
+      planes = draw_splats(sorted, {chunk.first - first, before, true}, std::move(planes));
+      draw_around(*layer, planes);
+      chunk.first += before;
+      chunk.count -= before;
+    }
+    chunk.first -= first;
+    planes = draw_splats(sorted, chunk, std::move(planes));
   }
   return planes;
+}
+
+Planes Pipeline::draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes) {
+  if (chunk.count > 0) planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
+  if (context_.plan.slabs > 0 && chunk.ends_slab)
+    planes = resolver_.lay_slab(std::move(planes), slab_light_);
+  return planes;
+}
+
+// Clouds around the camera that lie behind all splats.
+Planes Pipeline::end_order(std::uint64_t splats, Planes planes) {
+  around_.place_among({}, splats, end_of_keys);
+  while (const std::optional<CloudLayer> layer = around_.take_before(end_of_keys))
+    draw_around(*layer, planes);
+  return planes;
+}
+
+void Pipeline::place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
+  if (around_.has_open_before(end_key))
+    around_.place_among(sort_keys_of(context_, keyed), first, end_key);
+}
+
+void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {
+  surroundings_.draw(around_.clouds(), layer, planes);
+  if (context_.plan.slabs > 0) resolver_.begin_slab(planes, slab_light_);
 }
 
 // Tiles do not depend on each other, so lists that do not fit together are made and drawn

@@ -15,6 +15,7 @@
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
 #include "device/stages/sorter.h"
+#include "device/stages/surroundings.h"
 #include "device/stages/window_projector.h"
 #include "splotchcl/image.h"
 
@@ -24,6 +25,7 @@ struct DrawCounts {
   std::uint64_t particles = 0;  // in the components
   std::uint64_t visible = 0, bad = 0;
   std::uint64_t too_sharp = 0;        // for the plan's precision
+  std::uint64_t around = 0;           // clouds around the camera
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
   std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
@@ -65,6 +67,11 @@ class Pipeline {
   // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
   Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,
                      const std::vector<SplatChunk>& chunks, std::size_t& next, Planes planes);
+  Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
+  Planes end_order(std::uint64_t splats, Planes planes);
+  std::vector<CloudAround> find_around();
+  void place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
+  void draw_around(const CloudLayer& layer, const Planes& planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
   void tell(std::size_t done, std::size_t total) const;
 
@@ -77,6 +84,8 @@ class Pipeline {
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
+  const Surroundings surroundings_;
+  CloudLayers around_;
   DrawCounts counts_;
   std::function<void(double)> progress_;
 };

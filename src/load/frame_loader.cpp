@@ -87,6 +87,7 @@ Frame FrameLoader::frame_of(const Camera& camera) const {
   frame.projection = camera.projection;
   frame.near_limit = camera.near_limit;
   frame.far_limit = camera.far_limit;
+  frame.through_clouds = camera.through_clouds;
   frame.background = scene_.image.background;
   frame.kernel = scene_.kernel;
   frame.sort = scene_.sort;

@@ -86,6 +86,7 @@ std::optional<double> Translation::number_at_start(const std::string& key) {
 
 void translate_camera(Translation& t) {
   translate_center(t);
+  t.scene.set("camera.through_clouds", "false");
   const std::string name = projection(t);
   translate_eyes(name, t);
   const std::vector<std::optional<double>> place = coordinates("camera", t);

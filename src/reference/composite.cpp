@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "reference/profile.h"
+#include "scene/projection.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::reference {
@@ -13,6 +14,17 @@ double phi(double y) {
 }
 
 }  // namespace
+
+double ray_shape(const Vec3& center, const Vec3& direction) {
+  double t = 0, distance2 = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    t += center.a[axis] * direction.a[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double beside = center.a[axis] - t * direction.a[axis];
+    distance2 += beside * beside;
+  }
+  return std::exp(-distance2) * std::erfc(-t) / 2;
+}
 
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel) {
   if (is_cut(splat, x, y, kernel)) return 0;
@@ -39,11 +51,16 @@ Layer over(const Layer& near_layer, const Layer& far_layer) {
   return both;
 }
 
-Layer composite_pixel(const std::vector<Splat>& splats, int x, int y,
-                      const KernelSettings& kernel) {
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const Frame& frame) {
   Layer pixel;
   for (const Splat& splat : splats) {
-    const double column = splat.weight * shape(splat, x, y, kernel);
+    double column = splat.splat_part * shape(splat, x, y, frame.kernel);
+    if (splat.ray_part > 0) {
+      column +=
+          splat.ray_part *
+          ray_shape(splat.center, direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection));
+    }
+    column *= splat.weight;
     if (column > 0) pixel = over(pixel, layer_of(splat, column));
   }
   return pixel;

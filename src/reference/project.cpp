@@ -149,6 +149,57 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   return splat;
 }
 
+// A cloud around the camera: up to 4 sigma from it what rays find, from 12 on a splat like others,
+// and between them parts of both.
+constexpr double all_ray = 4, all_splat = 12;
+
+double ray_part(double distance_in_sigma) {
+  const double u = std::clamp((distance_in_sigma - all_ray) / (all_splat - all_ray), 0.0, 1.0);
+  return 1 - u * u * (3 - 2 * u);
+}
+
+// The same as a splat where the projection shows it as one.
+Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnComponent& component,
+                   const Frame& frame) {
+  const double sigma = frame.kernel.width * h;
+  const std::optional<Projected> place = project_point(from, frame.camera, frame.projection);
+  Splat splat;
+  splat.sigma = 1;
+  if (place) splat = splat_of(p, *place, h, component, frame);
+  splat.weight = column_through_center(component.weight, static_cast<double>(p.weight), h, sigma) /
+                 component.reference_column;
+  if (!component.particles.intensity.is_absent())
+    splat.weight *= normalized(static_cast<double>(p.intensity), component.intensity);
+  color_splat(splat, p, component);
+  const Vec3 seen = seen_by_eye(from, frame.camera, frame.projection);
+  double distance2 = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    splat.center.a[axis] = seen.a[axis] / sigma;
+    distance2 += splat.center.a[axis] * splat.center.a[axis];
+  }
+  splat.is_around = true;
+  splat.ray_part = ray_part(std::sqrt(distance2));
+  const double h_pixels = place ? h * place->pixels_per_length : 0;
+  // A width below min_radius takes light away, as from splats.
+  splat.splat_part = place ? (1 - splat.ray_part) *
+                                 (h_pixels / std::hypot(h_pixels, frame.kernel.min_radius_pixels))
+                           : 0;
+  return splat;
+}
+
+// Whether it may be around the camera, of an orthographic one nothing is.
+bool is_around(const Vec3& from, double h, const Frame& frame) {
+  if (!frame.through_clouds || frame.projection == Projection::orthographic) return false;
+  const double reach = all_splat * frame.kernel.width * h;
+  return from.a[0] * from.a[0] + from.a[1] * from.a[1] + from.a[2] * from.a[2] < reach * reach;
+}
+
+// Of clouds around the camera those limits hold that the scene sets.
+bool is_within_set_limits(const Depth& depth, const Frame& frame, const DepthKeyScale& scale) {
+  return !(frame.near_limit && depth.key < scale.near_key) &&
+         !(frame.far_limit && depth.key > scale.far_key);
+}
+
 // The splat and its copies a period to the left and right, as far as they reach the picture.
 // At eight sigmas a cloud has 1e-28 of its peak left.
 void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
@@ -161,6 +212,7 @@ void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
   for (double copy = first; copy <= last; ++copy) {
     splat.x = x + copy * period;
     splats.push_back(splat);
+    splat.ray_part = 0;  // which is that of all copies
   }
 }
 
@@ -172,13 +224,18 @@ void project_component(const DrawnComponent& component, const Frame& frame,
     const Particle p = particle_at(particles, i);
     if (is_bad(p)) continue;
     const Depth depth = depth_of(p.position, depths);
-    if (!is_within_limits(depth, p.smoothing_length, depths)) continue;
-    const std::optional<Projected> place = project_point(
-        from_camera(p, particles.origin, frame.camera), frame.camera, frame.projection);
-    if (!place) continue;
-
+    const Vec3 from = from_camera(p, particles.origin, frame.camera);
     const double h = component.size_factor * static_cast<double>(p.smoothing_length);
-    Splat splat = splat_of(p, *place, h, component, frame);
+    Splat splat;
+    if (is_around(from, h, frame)) {
+      if (!is_within_set_limits(depth, frame, depths)) continue;
+      splat = splat_around(p, from, h, component, frame);
+    } else {
+      if (!is_within_limits(depth, p.smoothing_length, depths)) continue;
+      const std::optional<Projected> place = project_point(from, frame.camera, frame.projection);
+      if (!place) continue;
+      splat = splat_of(p, *place, h, component, frame);
+    }
     splat.key = frame.sort.by == SortOrder::By::depth ? depth.key : field_key(p.sort_field);
     splat.particle = first_particle + i;
     if (frame.projection == Projection::equirectangular) {

@@ -45,6 +45,10 @@ class RowPainter {
 
   void add(const Splat& splat, std::vector<Layer>& layers) {
     const Rectangle& crop = frame_.crop;
+    if (splat.is_around) {
+      add_around(splat, layers);
+      return;
+    }
     const double radius = splat.sigma * reach_in_sigmas(splat) + 1;
     const double radius_x = splat.stretch * (radius - 1) + 1;
     const Range columns = pixels_within(splat.x, radius_x, crop.x, crop.x + crop.width);
@@ -75,6 +79,17 @@ class RowPainter {
   }
 
  private:
+  // A cloud around the camera may be seen anywhere.
+  void add_around(const Splat& splat, std::vector<Layer>& layers) {
+    const Rectangle& crop = frame_.crop;
+    for (int y = own_row_from(crop.y); y < crop.y + crop.height; y += row_step_) {
+      Layer* row = layers.data() +
+                   static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
+      for (int x = crop.x; x < crop.x + crop.width; ++x)
+        row[x - crop.x] = over(row[x - crop.x], composite_pixel({splat}, x, y, frame_));
+    }
+  }
+
   // The first of this painter's rows at or after y.
   int own_row_from(int y) const {
     const int behind = (y - frame_.crop.y - first_row_) % row_step_;

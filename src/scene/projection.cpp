@@ -99,6 +99,30 @@ std::optional<Projected> project_point(const Vec3& from_camera, const CameraFram
   return place;
 }
 
+Vec3 direction_at(double x, double y, const CameraFrame& camera, Projection projection) {
+  using namespace boost::qvm;
+  const double across = (x - camera.center_x) / camera.focal_pixels;
+  const double along = (y - camera.center_y) / camera.focal_pixels;
+  if (projection == Projection::fisheye) {
+    const double angle = std::hypot(across, along);
+    const double sine_of_angle = angle > 0 ? std::sin(angle) / angle : 1;
+    return {{across * sine_of_angle, along * sine_of_angle, std::cos(angle)}};
+  }
+  if (projection == Projection::equirectangular) {
+    const double cosine = std::cos(along);
+    return {{std::sin(across) * cosine, std::sin(along), std::cos(across) * cosine}};
+  }
+  return normalized(Vec3{{across, along, 1}});
+}
+
+Vec3 seen_by_eye(const Vec3& from_camera, const CameraFrame& camera, Projection projection) {
+  using namespace boost::qvm;
+  const double distance = mag(from_camera);
+  if (!is_wide_angle(projection) || camera.eye_offset == 0 || distance == 0) return from_camera;
+  // Nearer than the eye is to the middle of the head it is turned no farther.
+  return turned(from_camera, std::clamp(camera.eye_offset / distance, -1.0, 1.0), camera);
+}
+
 // With c the cosine of the latitude and s the cloud's angular width: the light of the cloud is
 // w pi s^2. A Gaussian that is s high and b wide (angles) has in the picture w sqrt(pi) b times
 // the integral of y exp(-(y - c)^2 / s^2) over y > 0, the rows' lengths on the sphere, which is

@@ -22,6 +22,15 @@ struct Projected {
 std::optional<Projected> project_point(const Vec3& from_camera, const CameraFrame& camera,
                                        Projection projection);
 
+// The direction that is seen at a place of the picture, in pixels, as a unit vector along right,
+// down and forward: what project_point() takes there. Beside the picture the formulas go on. Not of
+// orthographic cameras, which look in one direction.
+Vec3 direction_at(double x, double y, const CameraFrame& camera, Projection projection);
+
+// Where an eye beside the camera sees a point: turned about its head, as far away as it is. The
+// point itself where there is no such eye.
+Vec3 seen_by_eye(const Vec3& from_camera, const CameraFrame& camera, Projection projection);
+
 // How many times as wide as high a splat of height sigma (pixels) is. 1, except in equirectangular
 // pictures, where it grows towards the poles so that the splat keeps its flux.
 double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,

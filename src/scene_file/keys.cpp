@@ -176,7 +176,12 @@ Keys camera_keys() {
           {"Particles nearer than this along the view direction are left out; in `fisheye`, "
            "`equirectangular` and `cube` the distance itself counts. Must be >= 0, except "
            "with `orthographic`.",
-           "length", "orthographic: 0; others: 0.1 h of the particle itself"}),
+           "length", "orthographic: 0; others: none, or 0.1 h without `camera.through_clouds`"}),
+      written_if_set(
+          key("camera.through_clouds", boolean(), &Camera::through_clouds,
+              {"Of clouds around the camera each pixel shows what lies in front of it, as in a fog "
+               "(projections.md). `false`: splats like all others, until the camera is nearer than "
+               "0.1 h. Nothing to `orthographic`."})),
       key("camera.far", number(), &Camera::far_limit,
           {"Particles farther than this are left out, measured as for `near`.", "length",
            "no limit"}),

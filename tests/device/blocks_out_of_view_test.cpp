@@ -124,6 +124,15 @@ TEST_P(BlocksOutOfView, ChangeNoBitOfSplatsThatAreNeverNarrow) {
   expect_same_bits(frame);
 }
 
+TEST_P(BlocksOutOfView, ChangeNoBitOfCloudsAroundTheCamera) {
+  Frame frame = frame_for(clusters());
+  frame.through_clouds = true;
+  expect_same_bits(frame);
+  frame.components.front().absorption = {Absorption::Kind::gray, 0.2};
+  frame.far_limit = 60;
+  expect_same_bits(frame);
+}
+
 TEST_P(BlocksOutOfView, StillCountTheirBadParticles) {
   DrawnComponent component = clusters();
   const Column& position = component.particles.position;

@@ -203,6 +203,30 @@ TEST_P(Windows, HoldTheCopiesOfPanoramas) {
   EXPECT_GE(counts().windows, 6u);
 }
 
+// Those lie between splats, wherever windows end.
+TEST_P(Windows, HoldCloudsAroundTheCamera) {
+  Camera camera;
+  camera.position = {{0, 0, 20}};
+  camera.look_at = {{0, 0, 60}};
+  camera.sky = {{0, -1, 0}};
+  Frame frame = many_clouds(300);
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.through_clouds = true;
+  frame.tolerance = 1e-2;
+  for (const int slabs : {0, 3}) {
+    for (const bool descending : {false, true}) {
+      frame.sort.descending = descending;
+      const Image whole = draw(frame, slabs);
+      EXPECT_GT(counts().around, 20u);
+      EXPECT_GT(counts().visible, 3 * counts().around);
+      EXPECT_EQ(draw_in_windows(frame, 6, slabs).pixels, whole.pixels) << slabs;
+      EXPECT_GE(counts().windows, 4u);
+      EXPECT_EQ(draw(streamed(frame), slabs).pixels, whole.pixels) << slabs;
+    }
+  }
+}
+
 TEST_P(Windows, HoldAnEmptyFrame) {
   Frame frame = many_clouds(100);
   frame.camera.position = {{0, 0, 1e6}};

@@ -185,7 +185,7 @@ TEST(Render, AgreesWithTheListOfOnePixel) {
   reference::sort(splats, frame.sort);
   for (int y = 0; y < frame.crop.height; ++y) {
     for (int x = 0; x < frame.crop.width; ++x) {
-      const Layer layer = composite_pixel(splats, x + frame.crop.x, y + frame.crop.y, frame.kernel);
+      const Layer layer = composite_pixel(splats, x + frame.crop.x, y + frame.crop.y, frame);
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(pixel(image, x, y)[c], layer.source[c], 1e-11);
     }

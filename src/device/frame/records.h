@@ -35,6 +35,7 @@ struct SplatBlocks {
 struct ParticleCounts {
   std::uint64_t visible = 0, bad = 0;
   std::uint64_t too_sharp = 0;  // for the frame's precision, in the whole picture
+  std::uint64_t around = 0;     // the camera: not among the splats
 };
 
 // All splats of a frame, without gaps, in component and file order, with their sort keys.

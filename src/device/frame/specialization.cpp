@@ -1,6 +1,7 @@
 #include "device/frame/specialization.h"
 
 #include "device/frame/shared.h"
+#include "surroundings/cloud_around.h"
 
 namespace splotchcl {
 namespace {
@@ -42,6 +43,7 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       ellipses_(plan.has_ellipses),
       keeps_transmittance_(plan.layers.keeps_transmittance),
       eye_offset_(frame.camera.eye_offset != 0),
+      clouds_around_(has_clouds_around(frame)),
       background_image_(frame.background_image != nullptr) {
   if (has_rows()) {
     tile_width_ = is_ordered() || extended_ ? 32 : 64;
@@ -104,7 +106,8 @@ std::string Specialization::number_defines() const {
 }
 
 ProgramSource Specialization::project(ProjectOutput output) const {
-  std::string defines = define_if(rows_, "LANES_8") + splat_defines();
+  std::string defines =
+      define_if(rows_, "LANES_8") + splat_defines() + define_if(clouds_around_, "CLOUDS_AROUND");
   if (writes_splats(output)) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys || output == ProjectOutput::window_splats)
     defines += define("OUTPUT_KEYS");
@@ -118,14 +121,21 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   return {defines, project_files(output)};
 }
 
-std::vector<std::string> Specialization::project_files(ProjectOutput output) const {
-  const bool wide = is_wide_angle(projection_);
+// Where the camera sees particles.
+std::vector<std::string> Specialization::view_files() const {
   std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
                                     "lanes.cl", "extended.cl", "load.cl"};
   if (!rows_) files.insert(files.begin(), "group.h");
-  if (wide)
+  if (is_wide_angle(projection_))
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
-  files.insert(files.end(), {"view.cl", "place_extended.cl", "limits.cl", "depth_key.cl"});
+  files.push_back("view.cl");
+  if (clouds_around_) files.push_back("around.cl");
+  files.insert(files.end(), {"place_extended.cl", "limits.cl", "depth_key.cl"});
+  return files;
+}
+
+std::vector<std::string> Specialization::project_files(ProjectOutput output) const {
+  std::vector<std::string> files = view_files();
   if (!extended_) files.insert(files.end(), {"pair_lanes.cl", "sharp_places.cl"});
   files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
@@ -270,6 +280,27 @@ ProgramSource Specialization::join_slab() const {
 ProgramSource Specialization::lay_slab() {
   return {define("LANES_8"),
           {"splat.h", "resolve.h", "common.cl", "lanes.cl", "shape.cl", "refine.cl", "slab.cl"}};
+}
+
+ProgramSource Specialization::list_around() const {
+  std::string defines =
+      define_if(rows_, "LANES_8") + splat_defines() + define_if(double_numbers_, "DOUBLE_NUMBERS");
+  if (is_wide_angle(projection_)) defines += wide_angle_defines();
+  std::vector<std::string> files = view_files();
+  files.push_back("list_around.cl");
+  return {defines, files};
+}
+
+ProgramSource Specialization::behind() const {
+  const std::string defines =
+      define_if(is_ordered(), "LIGHT_ORDERED") + define_if(extended_, "EXTENDED_NUMBERS");
+  if (extended_) {
+    return {defines + define_if(double_numbers_, "DOUBLE_NUMBERS"),
+            {"splat.h", "composite.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl",
+             "behind.cl"}};
+  }
+  return {defines + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
+          {"splat.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "behind.cl"}};
 }
 
 ProgramSource Specialization::certify() const {

@@ -61,6 +61,9 @@ class Specialization {
   // A slab's wide splats laid among its narrow ones.
   static ProgramSource lay_slab();
   ProgramSource certify() const;
+  // Of clouds around the camera: which they are, and their layers.
+  ProgramSource list_around() const;
+  ProgramSource behind() const;
   ProgramSource resolve() const;
   // These are the same for all frames; rows as the device has them.
   static ProgramSource interpolate(bool rows);
@@ -78,6 +81,7 @@ class Specialization {
   std::string splat_defines() const;
   std::string wide_angle_defines() const;
   std::string extended_defines() const;
+  std::vector<std::string> view_files() const;
   std::vector<std::string> project_files(ProjectOutput output) const;
   std::string tile_size_defines() const;
   std::string tile_defines() const;
@@ -96,6 +100,7 @@ class Specialization {
   bool vector_colors_, ellipses_;
   bool keeps_transmittance_;
   bool eye_offset_;
+  bool clouds_around_;  // may be: they are no splats
   bool background_image_;
   std::uint32_t tile_width_ = 16, tile_height_ = 16;
 };

@@ -4,6 +4,8 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
+#include "surroundings/cloud_around.h"
+
 namespace splotchcl {
 namespace {
 
@@ -12,12 +14,16 @@ namespace {
 constexpr double rounding = 1e-5;
 // Beyond that coordinates, or their squares, may be no numbers in the kernels.
 constexpr double most = 1e18;
+// Clouds are around the camera where rounded lengths say so.
+constexpr double room_around = 1.001;
 
 }  // namespace
 
 ViewBounds::ViewBounds(const Frame& frame, const DrawnComponent& component,
                        const shared::ProjectParameters& p)
-    : camera_(), sigma_per_h_(frame.kernel.width * component.size_factor) {
+    : camera_(),
+      sigma_per_h_(frame.kernel.width * component.size_factor),
+      around_(has_clouds_around(frame) ? room_around * all_splat : 0) {
   using namespace boost::qvm;
   const Vec3 camera = frame.camera.position - component.particles.origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -78,6 +84,12 @@ bool ViewBounds::leave_out(const shared::BlockBox& box) const {
   }
   if (!(coordinates < most)) return false;
   const double sigma = sigma_per_h_ * static_cast<double>(box.largest_h);
+  double beside2 = 0;  // of the camera, squared
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double beside = std::abs(middle[axis]) - half[axis] - rounding * coordinates;
+    beside2 += std::pow(std::max(beside, 0.0), 2);
+  }
+  if (around_ > 0 && beside2 <= std::pow(around_ * sigma, 2)) return false;
   return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
     double highest = plane.of_sigma * sigma + plane.constant, size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -16,7 +16,7 @@ class ViewBounds {
   ViewBounds(const Frame& frame, const DrawnComponent& component,
              const shared::ProjectParameters& p);
 
-  // Whether none of a block's good particles makes a splat.
+  // Whether none of a block's good particles makes a splat or is around the camera.
   bool leave_out(const shared::BlockBox& box) const;
 
  private:
@@ -31,6 +31,7 @@ class ViewBounds {
 
   std::array<double, 3> camera_;  // from the component's origin
   double sigma_per_h_;
+  double around_;  // nearer than so many sigma, clouds are around the camera
   std::vector<Plane> planes_;
 };
 

@@ -8,6 +8,7 @@
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
 #include "scene/projection.h"
+#include "surroundings/cloud_around.h"
 
 namespace splotchcl {
 namespace {
@@ -229,8 +230,9 @@ double counted_part(const DrawnComponent& component, double light_behind) {
   return std::max(peak_emission(component), light_behind * peak_absorption(component)) / peak;
 }
 
-void set_component(const DrawnComponent& component, double length_scale, double light_behind,
+void set_component(const Frame& frame, const DrawnComponent& component, double light_behind,
                    shared::ProjectParameters& p) {
+  const double length_scale = splotchcl::length_scale(frame);
   const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
   p.size_factor = static_cast<float>(component.size_factor);
   p.length_scale = static_cast<float>(length_scale);
@@ -240,6 +242,8 @@ void set_component(const DrawnComponent& component, double length_scale, double 
   p.peak_own = static_cast<float>(peak_own_absorption(component));
   p.counted_part =
       static_cast<float>(is_gray ? light_behind : counted_part(component, light_behind));
+  p.around_reach =
+      static_cast<float>(all_splat * frame.kernel.width * component.size_factor * length_scale);
   p.gray_absorption = is_gray ? static_cast<float>(component.absorption.factor) : 0.0f;
   p.color = color_scaling(component);
   p.intensity = intensity_scaling(component);
@@ -260,7 +264,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
   set_picture(context, p);
   set_plan(context.plan, p);
-  set_component(frame.components[component], length_scale(frame), context.plan.light_behind, p);
+  set_component(frame, frame.components[component], context.plan.light_behind, p);
   p.place_bits = context.layout.grids.front().place_bits;
   p.component = component;
   p.sort_by_field = frame.sort.by == SortOrder::By::field;

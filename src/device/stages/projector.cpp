@@ -47,6 +47,7 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
     sum.visible += block.visible;
     sum.bad += block.bad;
     sum.too_sharp += block.too_sharp;
+    sum.around += block.around;
   }
   return sum;
 }

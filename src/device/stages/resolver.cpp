@@ -187,6 +187,17 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
   return planes;
 }
 
+void Resolver::begin_slab(const Planes& planes, const SlabLight& slab) const {
+  const shared::Grid& grid = context_.layout.grids.front();
+  const std::size_t first = grid.first_float_low | std::size_t{grid.first_float_high} << 32;
+  const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
+  context_.device.timer.add(
+      "resolve",
+      context_.device.queue.enqueue_copy_buffer(planes.light.memory(), slab.before.memory(),
+                                                first * sizeof(float), 0, floats * sizeof(float)),
+      StageTimer::Kind::serial);
+}
+
 std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
   const auto eights = strips(static_cast<std::size_t>(parameters_.width), 8);
   const auto rows = static_cast<std::size_t>(parameters_.height);

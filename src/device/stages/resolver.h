@@ -21,6 +21,8 @@ class Resolver {
   // What coarse grids hold of a slab's wide splats, laid among the narrow ones; they are empty
   // then.
   Planes lay_slab(Planes planes, SlabLight& slab) const;
+  // The next slab's splats lie behind all that the planes hold, that of other sources, too.
+  void begin_slab(const Planes& planes, const SlabLight& slab) const;
   // The largest of all slabs together in each of the picture's blocks (BlockErrors).
   std::vector<float> errors_of_slabs(const SlabLight& slab) const;
 

@@ -91,6 +91,7 @@ CountedKeys WindowProjector::count(const KeyWindow& window, int shift) {
     counts_.visible += keys.particles.visible;
     counts_.bad += keys.particles.bad;
     counts_.too_sharp += keys.particles.too_sharp;
+    counts_.around += keys.particles.around;
   }
   take();
   return counted;
@@ -121,8 +122,8 @@ std::vector<std::uint32_t> WindowProjector::blocks_without(std::size_t chunk,
   return without;
 }
 
-SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted,
-                                   std::uint32_t first) const {
+SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::uint32_t first,
+                                   const KeyReader& read_keys) const {
   const Step& wanted = steps_[step];
   const std::uint32_t carried = sorted.count - first;
   // What is left is put aside first: two windows have no room at one time.
@@ -143,6 +144,7 @@ SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted,
                                       keyed, slot);
   }
   keyed.count = slot;
+  if (read_keys) read_keys(keyed, wanted.window);
   return sorter_.sort(std::move(keyed));
 }
 

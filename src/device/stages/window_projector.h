@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "device/frame/chunks.h"
@@ -32,7 +33,10 @@ class WindowProjector {
   std::size_t steps() const { return steps_.size(); }
 
   // What of `sorted` is left from place `first` on, and behind it the splats of step `step`.
-  SortedSplats next(std::size_t step, SortedSplats sorted, std::uint32_t first) const;
+  // `read_keys` may look at them before they are sorted; what was left has keys of 0.
+  using KeyReader = std::function<void(const KeyedSplats& keyed, const KeyWindow& window)>;
+  SortedSplats next(std::size_t step, SortedSplats sorted, std::uint32_t first,
+                    const KeyReader& read_keys = {}) const;
 
  private:
   // A window, or where all of its keys are one the part of it that some chunks have.

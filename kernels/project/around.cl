@@ -1,0 +1,9 @@
+// Clouds around the camera, which are no splats: the host draws them.
+
+#pragma OPENCL FP_CONTRACT OFF
+
+// Good particles from so many sigma on are splats; `offset` is from the camera.
+INLINED INTEGER are_around(VALUE h, const Vectors offset, const ProjectParameters p) {
+  const VALUE reach = p.around_reach * h;
+  return squared_distance(offset, p.length_scale) < reach * reach;
+}

@@ -1,0 +1,32 @@
+// Which particles are around the camera, and how deep.
+
+// Work-item (block of particles). `listed[0]` counts them, and three words each from listed[3] on
+// take a particle and the low and the high word of its depth's key, in any order.
+__kernel void list_around(const ProjectParameters p, __global const float* positions,
+                          __global const float* smoothing_lengths, __global const float* weights,
+                          __global const float* colors, __global const float* intensities,
+                          __global const float* sort_fields, __global uint* listed,
+                          const uint capacity OWN_COLORS_PARAMETER) {
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields OWN_COLORS_ARGUMENT);
+  const uint begin = p.first_particle + (uint)get_global_id(0) * p.block_particles;
+  const uint end = min(begin + p.block_particles, p.end_particle);
+  for (uint i = begin; i < end; i += LANES) {
+    const ParticleLanes particles = load_particles(columns, i, end, p);
+    const Vectors offset = offset_from(particles.position, p.position_high, p.position_low);
+    const INTEGER around =
+        particles.exists & are_good(particles, offset) & are_around(particles.h, offset, p);
+    if (!ANY(around)) continue;
+    int is_around[LANES];
+    STORE(around, is_around);
+    for (uint k = 0; k < LANES; ++k) {
+      if (!is_around[k]) continue;
+      const uint place = atomic_inc(&listed[0]) + 1;
+      if (place > capacity) continue;
+      const ulong key = depth_of(positions + (size_t)(i + k) * 3, p.depth_key).key;
+      listed[3 * place] = i + k;
+      listed[3 * place + 1] = (uint)key;
+      listed[3 * place + 2] = (uint)(key >> 32);
+    }
+  }
+}

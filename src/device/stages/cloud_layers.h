@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "surroundings/cloud_around.h"
+
+namespace splotchcl {
+
+// Clouds [first, end) that have no splats between them, and as many in front of all of them.
+struct CloudLayer {
+  std::size_t first = 0, end = 0;
+  std::uint64_t splats_before = 0;
+};
+
+// Clouds around the camera among the sorted splats of an ordered frame, of which keys are told
+// window by window (KeyWindow), nearest first. Of equal keys clouds lie in front of splats.
+class CloudLayers {
+ public:
+  CloudLayers() = default;
+  // In their order.
+  explicit CloudLayers(std::vector<CloudAround> clouds) : clouds_(std::move(clouds)) {}
+
+  const std::vector<CloudAround>& clouds() const { return clouds_; }
+  // Whether there are some whose place is open and whose keys are below `end`.
+  bool has_open_before(std::uint64_t end) const;
+  // The keys of splats, the nearest of which is number `first` of the order: all splats with keys
+  // below `end` are among them or before them.
+  void place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first, std::uint64_t end);
+  // The next layer that lies in front of splat number `end` - 1, once.
+  std::optional<CloudLayer> take_before(std::uint64_t end);
+
+ private:
+  std::vector<CloudAround> clouds_;
+  std::vector<std::uint64_t> splats_before_;  // of those that have a place
+  std::size_t taken_ = 0;
+};
+
+}  // namespace splotchcl

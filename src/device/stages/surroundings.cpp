@@ -1,0 +1,326 @@
+#include "device/stages/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "device/frame/key_windows.h"
+#include "device/opencl/clear_memory.h"
+#include "device/opencl/launch.h"
+#include "device/stages/project_parameters.h"
+#include "parallel/for_blocks.h"
+#include "scene/depth_key.h"
+#include "scene/particle_rules.h"
+#include "scene/plan/light_structure.h"
+#include "scene/projection.h"
+#include "splotchcl/error.h"
+#include "surroundings/smooth_picture.h"
+
+namespace splotchcl {
+namespace {
+
+// Less of a column of 1 shows nowhere, however many there are.
+constexpr double negligible = 1e-14;
+
+// Of what clouds around the camera may err by, what all of them together lose by ending.
+constexpr double share_of_ends = 1e-3;
+
+// These particles' values. What is made as it is wanted is made for them alone.
+Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
+  if (!column.is_array() || column.size() == 0) return column;
+  const auto source = column.source();
+  std::vector<float> values(width * places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t first = width * static_cast<std::size_t>(places[k]);
+    float* const to = values.data() + width * k;
+    if (source) {
+      source->make(first, first + width, to);
+    } else {
+      std::copy_n(column.data() + first, width, to);
+    }
+  }
+  return Column::owning(std::move(values));
+}
+
+Particles picked(const Particles& particles, const std::vector<std::uint64_t>& places) {
+  Particles some = particles;
+  some.count = places.size();
+  for (Column* const column : {&some.position, &some.color_vector})
+    *column = picked(*column, 3, places);
+  for (Column* const column :
+       {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
+    *column = picked(*column, 1, places);
+  return some;
+}
+
+[[noreturn]] void refuse(const DeviceContext& device, std::uint64_t counted, std::uint64_t listed) {
+  throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
+                    " clouds around the camera and listed " + std::to_string(listed) +
+                    ": draw with another device (--device)");
+}
+
+// A field's bits, turned so that integers have the order of the values, as of the splats' keys.
+std::uint32_t field_key(float value) {
+  if (value == 0) value = 0;  // -0 as well
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+// phi(y) = (1 - exp(-y)) / y.
+double phi(double y) {
+  return y < 1e-4 ? 1 - y / 2 + y * y / 6 : -std::expm1(-y) / y;
+}
+
+// The largest of E w and A w.
+double brightest_of(const CloudAround& cloud) {
+  double brightest = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    brightest = std::max({brightest, cloud.emission[c], cloud.absorption[c]});
+  return brightest;
+}
+
+// What the error of a channel does to light, over max(1, light). Light behind an error of the
+// optical depth has faded by that depth: it errs by as large a part of itself.
+double light_error(LightPlan light, double brightest, const double* exact, const double* foretold,
+                   std::size_t channel) {
+  const double error = std::abs(exact[channel] - foretold[channel]);
+  if (light == LightPlan::emission) return error / std::max(1.0, exact[channel]);
+  if (light == LightPlan::proportional) {
+    return brightest * error / std::max(1.0, -brightest * std::expm1(-exact[channel]));
+  }
+  return error / std::max(1.0, exact[channel]) +
+         std::abs(exact[channel + 3] - foretold[channel + 3]);
+}
+
+// An optical depth as planes carry it (opacity.cl).
+float carried(double depth, bool keeps_transmittance) {
+  const double opacity = -std::expm1(-depth);
+  if (!keeps_transmittance || opacity < 0.5) return static_cast<float>(opacity);
+  return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
+}
+
+}  // namespace
+
+std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
+                                                    const ParticleBuffers& particles,
+                                                    std::uint64_t most) const {
+  DeviceContext& device = context_.device;
+  shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
+  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
+  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  p.block_particles = device.traits.project_block;
+  p.smoothing_length_stride = particles.smoothing_length_stride;
+  p.weight_stride = particles.weight_stride;
+  p.color_stride = particles.color_stride;
+  p.intensity_stride = particles.intensity_stride;
+  p.sort_stride = particles.sort_stride;
+  p.own_color_stride = particles.own_color_stride;
+  const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
+  const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
+  clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
+  const compute::program program = device.programs.get(context_.specialization.list_around());
+  Launch launch(device, "surroundings", program.create_kernel("list_around"));
+  launch.value(p)
+      .arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field)
+      .arg(listed)
+      .value(static_cast<cl_uint>(capacity));
+  if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
+  launch.run_items((chunk.count() + p.block_particles - 1) / p.block_particles);
+  const std::uint32_t count = device.pool.download(listed, 1).front();
+  if (count > capacity) refuse(device, most, count);
+  const std::vector<std::uint32_t> words =
+      device.pool.download(listed, 3 * (std::size_t{count} + 1));
+  std::vector<Found> found;
+  for (std::size_t k = 3; k < words.size(); k += 3) {
+    found.push_back({particles.first + words[k], words[k + 1] | std::uint64_t{words[k + 2]} << 32});
+  }
+  // Work-items list them in any order.
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return a.particle < b.particle; });
+  return found;
+}
+
+// Particles beyond the limits that the scene sets are left out.
+std::vector<Surroundings::Found> Surroundings::within_limits(
+    std::uint32_t c, const std::vector<Found>& found) const {
+  const Frame& frame = context_.frame;
+  const DepthKeyScale scale = make_depth_key_scale(frame, frame.components[c]);
+  std::vector<Found> within;
+  for (const Found& one : found) {
+    const bool is_too_near = frame.near_limit && one.depth < scale.near_key;
+    const bool is_too_far = frame.far_limit && one.depth > scale.far_key;
+    if (!is_too_near && !is_too_far) within.push_back(one);
+  }
+  return within;
+}
+
+// As splats have it (sort_keys.cl).
+std::uint64_t Surroundings::sort_key(const DrawnComponent& component, std::size_t i,
+                                     std::uint64_t depth) const {
+  const SortOrder& sort = context_.frame.sort;
+  if (sort.by == SortOrder::By::depth) return sort.descending ? depth ^ (end_of_keys - 1) : depth;
+  const Column& field = component.particles.sort_field;
+  const std::uint32_t key = field_key(field.is_absent() ? 0.0f : field[i]);
+  return std::uint64_t{sort.descending ? ~key : key} << 16;
+}
+
+void Surroundings::append(std::uint32_t c, const std::vector<Found>& found,
+                          std::vector<CloudAround>& clouds) const {
+  const Frame& frame = context_.frame;
+  const std::vector<Found> within = within_limits(c, found);
+  std::vector<std::uint64_t> places;
+  for (const Found& one : within)
+    places.push_back(one.particle);
+  DrawnComponent component = frame.components[c];
+  component.particles = picked(component.particles, places);
+  const double widest = widest_angle(frame);
+  for (std::size_t k = 0; k < within.size(); ++k) {
+    CloudAround cloud = cloud_around(component, frame, k);
+    cloud.key = sort_key(component, k, within[k].depth);
+    if (brightest_of(cloud) * largest_column_around(cloud, frame, widest) > negligible)
+      clouds.push_back(std::move(cloud));
+  }
+}
+
+// The most light that an optical depth takes away, 1 at least.
+double Surroundings::brightest() const {
+  const std::array<double, 3>& source = context_.plan.source;
+  return std::max(
+      {1.0, *std::max_element(source.begin(), source.end()), brightest_background(context_.frame)});
+}
+
+void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds) const {
+  const double lost = share_of_ends * share_of_promise * context_.plan.shares.promise /
+                      (brightest() * static_cast<double>(clouds.size()));
+  for (CloudAround& cloud : clouds) {
+    const double ends = std::log(brightest_of(cloud) / lost);
+    cloud.farthest2 = std::clamp(ends, 0.0, cloud.farthest2);
+  }
+}
+
+std::vector<CloudAround> Surroundings::find(
+    const std::vector<ParticleChunk>& chunks,
+    const std::function<ParticleBuffers(const ParticleChunk&)>& get, std::uint64_t counted) const {
+  std::vector<CloudAround> clouds;
+  std::uint64_t listed = 0;
+  for (const ParticleChunk& chunk : chunks) {
+    if (listed == counted) break;
+    const std::vector<Found> found = list(chunk, get(chunk), counted - listed);
+    listed += found.size();
+    append(chunk.component, found, clouds);
+  }
+  if (listed != counted) refuse(context_.device, counted, listed);
+  end_where_nothing_shows(clouds);
+  std::stable_sort(clouds.begin(), clouds.end(),
+                   [](const CloudAround& a, const CloudAround& b) { return a.key < b.key; });
+  return clouds;
+}
+
+// The layer's light and depth in each pixel of the crop: in ordered scenes S, then tau, else the
+// sum.
+std::vector<double> Surroundings::pixels_of(const std::vector<CloudAround>& clouds,
+                                            const CloudLayer& layer, std::size_t parts) const {
+  const Frame& frame = context_.frame;
+  const FramePlan& plan = context_.plan;
+  const LightPlan light = plan.light;
+  const bool is_ordered = light == LightPlan::ordered;
+  const auto add_all = [&](int x, int y, double* channels) {
+    std::fill_n(channels, is_ordered ? 6 : 3, 0.0);
+    const Vec3 direction = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
+    for (std::size_t k = layer.first; k < layer.end; ++k) {
+      const CloudAround& cloud = clouds[k];
+      const double column = column_around(cloud, x, y, direction, frame.kernel);
+      if (column == 0) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!is_ordered) {
+          channels[c] +=
+              column * (light == LightPlan::emission ? cloud.emission[c] : cloud.absorption[c]);
+          continue;
+        }
+        const double depth = column * cloud.absorption[c];
+        channels[c] += std::exp(-channels[c + 3]) * cloud.emission[c] * column * phi(depth);
+        channels[c + 3] += depth;
+      }
+    }
+  };
+  SmoothPictureSettings settings;
+  settings.width = frame.width;
+  settings.height = frame.height;
+  settings.crop = frame.crop;
+  settings.channels = is_ordered ? 6 : 3;
+  settings.allowed = 0.25 * share_of_promise * plan.shares.promise / static_cast<double>(parts);
+  settings.error_of = [light, brightest = brightest()](const double* exact,
+                                                       const double* foretold) {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      largest = std::max(largest, light_error(light, brightest, exact, foretold, c));
+    return largest;
+  };
+  return smooth_picture(settings, add_all);
+}
+
+// As the planes of the picture's grid have them, without padding.
+std::vector<float> Surroundings::planes_of(const std::vector<double>& layer) const {
+  const std::size_t pixels = static_cast<std::size_t>(context_.frame.crop.width) *
+                             static_cast<std::size_t>(context_.frame.crop.height);
+  const bool is_ordered = context_.plan.light == LightPlan::ordered;
+  std::vector<float> planes;
+  planes.reserve(pixels * context_.specialization.planes());
+  for (std::size_t c = 0; c < (is_ordered ? 6u : 3u); ++c) {
+    const double* channel = layer.data() + c * pixels;
+    if (context_.plan.is_extended()) {
+      for (std::size_t i = 0; i < pixels; ++i)
+        planes.push_back(static_cast<float>(channel[i]));
+      for (std::size_t i = 0; i < pixels; ++i)
+        planes.push_back(
+            static_cast<float>(channel[i] - static_cast<double>(static_cast<float>(channel[i]))));
+      continue;
+    }
+    // Interpolation may leave less than nothing, by as little as it errs.
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double value = std::max(channel[i], 0.0);
+      planes.push_back(c < 3 ? static_cast<float>(value)
+                             : carried(value, context_.plan.layers.keeps_transmittance));
+    }
+  }
+  return planes;
+}
+
+void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
+  if (!clouds.empty()) put_behind(pixels_of(clouds, {0, clouds.size(), 0}, 1), planes);
+}
+
+// There are no more layers than clouds.
+void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                        const Planes& planes) const {
+  put_behind(pixels_of(clouds, layer, clouds.size()), planes);
+}
+
+void Surroundings::put_behind(const std::vector<double>& layer, const Planes& planes) const {
+  const Rectangle& crop = context_.frame.crop;
+  shared::BehindParameters parameters{};
+  parameters.width = crop.width;
+  parameters.height = crop.height;
+  parameters.crop_x = crop.x;
+  parameters.crop_y = crop.y;
+  DeviceContext& device = context_.device;
+  const Buffer<float> behind = device.pool.upload(planes_of(layer), "clouds around");
+  Launch(device, "surroundings",
+         device.programs.get(context_.specialization.behind()).create_kernel("put_behind"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(behind)
+      .run_grid(static_cast<std::size_t>(crop.width), static_cast<std::size_t>(crop.height), 1);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/records.h"
+#include "device/frame/stage_context.h"
+#include "device/stages/cloud_layers.h"
+#include "surroundings/cloud_around.h"
+
+namespace splotchcl {
+
+// Clouds around the camera, which the projection leaves out and counts: worked out by the host, in
+// double precision, since they are few and smooth. The stage `surroundings`.
+class Surroundings {
+ public:
+  explicit Surroundings(const StageContext& context) : context_(context) {}
+
+  // Those of the particles that the projection has left out, `counted` of them, nearest first, in
+  // file order where keys are equal. `chunks`: of all particles; `get`: those of one.
+  std::vector<CloudAround> find(const std::vector<ParticleChunk>& chunks,
+                                const std::function<ParticleBuffers(const ParticleChunk&)>& get,
+                                std::uint64_t counted) const;
+
+  // All of these clouds, added to what is in the planes of a sum.
+  void draw(const std::vector<CloudAround>& clouds, const Planes& planes) const;
+  // The layer's clouds, behind what is in the planes of an ordered frame.
+  void draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+            const Planes& planes) const;
+
+  // The part of the promise that all of this may spend.
+  static constexpr double share_of_promise = 0.02;
+
+ private:
+  double brightest() const;
+  void end_where_nothing_shows(std::vector<CloudAround>& clouds) const;
+  // Particles and their depths' keys.
+  struct Found {
+    std::uint64_t particle, depth;
+  };
+  std::vector<Found> list(const ParticleChunk& chunk, const ParticleBuffers& particles,
+                          std::uint64_t most) const;
+  std::vector<Found> within_limits(std::uint32_t c, const std::vector<Found>& found) const;
+  void append(std::uint32_t c, const std::vector<Found>& found,
+              std::vector<CloudAround>& clouds) const;
+  std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, std::uint64_t depth) const;
+  // `parts` of the picture share what they may err by.
+  std::vector<double> pixels_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                                std::size_t parts) const;
+  void put_behind(const std::vector<double>& layer, const Planes& planes) const;
+  std::vector<float> planes_of(const std::vector<double>& layer) const;
+
+  const StageContext& context_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,216 @@
+#include "surroundings/smooth_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "parallel/for_blocks.h"
+
+namespace splotchcl {
+namespace {
+
+// Of Lagrange's interpolation: between nodes 3 and 4 of 8.
+constexpr int taps = 8, taps_before = 3;
+constexpr int widest_spacing = 64;
+// Eight taps foretell 2^8 times as well where nodes lie twice as close; so much of that is relied
+// on.
+constexpr double better_when_halved = 8;
+
+int floor_divide(int value, int by) {
+  return value >= 0 ? value / by : -((-value + by - 1) / by);
+}
+
+using Weights = std::array<double, taps>;
+
+// For a place between nodes 3 and 4, at this part of the way.
+Weights lagrange_weights(double part) {
+  Weights weights;
+  for (int i = 0; i < taps; ++i) {
+    double weight = 1;
+    for (int k = 0; k < taps; ++k) {
+      if (k != i) weight *= (part + taps_before - k) / (i - k);
+    }
+    weights[static_cast<std::size_t>(i)] = weight;
+  }
+  return weights;
+}
+
+// Nodes so many pixels apart along one axis, from which a range of pixels is interpolated.
+struct Axis {
+  int spacing, first, count;  // node `first` is pixel first * spacing
+
+  Axis(int first_pixel, int pixels, int by) : spacing(by) {
+    const int before = by == 1 ? 0 : taps_before, behind = by == 1 ? 0 : taps - taps_before - 1;
+    first = floor_divide(first_pixel, by) - before;
+    count = floor_divide(first_pixel + pixels - 1, by) + behind - first + 1;
+  }
+  int pixel(int node) const { return (first + node) * spacing; }
+  // The first of the nodes that a pixel is made from.
+  int base(int pixel) const {
+    return floor_divide(pixel, spacing) - first - (spacing == 1 ? 0 : taps_before);
+  }
+  int phase(int pixel) const { return pixel - floor_divide(pixel, spacing) * spacing; }
+};
+
+class Nodes {
+ public:
+  Nodes(const Rectangle& part, int spacing, int channels)
+      : x_(part.x, part.width, spacing),
+        y_(part.y, part.height, spacing),
+        channels_(static_cast<std::size_t>(channels)),
+        values_(static_cast<std::size_t>(x_.count) * static_cast<std::size_t>(y_.count) *
+                channels_) {
+    for (int phase = 0; phase < spacing; ++phase)
+      weights_.push_back(lagrange_weights(static_cast<double>(phase) / spacing));
+  }
+
+  // Of nodes that are twice as far apart those that are known are taken.
+  void fill(const PixelFunction& pixel, const Nodes* coarse) {
+    for_blocks(static_cast<std::size_t>(y_.count), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t row = first; row < last; ++row) {
+        const int y = y_.pixel(static_cast<int>(row));
+        for (int column = 0; column < x_.count; ++column) {
+          const int x = x_.pixel(column);
+          double* own = at(column, static_cast<int>(row));
+          const double* known = coarse ? coarse->node_at(x, y) : nullptr;
+          if (known) {
+            std::copy_n(known, channels_, own);
+          } else {
+            pixel(x, y, own);
+          }
+        }
+      }
+    });
+  }
+
+  // The largest error of these nodes' foretelling of finer ones, within the picture.
+  double largest_error(const Nodes& fine, const SmoothPictureSettings& settings) const {
+    std::vector<double> foretold(channels_);
+    double largest = 0;
+    for (int row = 0; row < fine.y_.count; ++row) {
+      const int y = fine.y_.pixel(row);
+      if (y < 0 || y >= settings.height) continue;
+      for (int column = 0; column < fine.x_.count; ++column) {
+        const int x = fine.x_.pixel(column);
+        if (x < 0 || x >= settings.width || node_at(x, y)) continue;
+        interpolate(x, y, foretold.data());
+        largest = std::max(largest, settings.error_of(fine.at(column, row), foretold.data()));
+      }
+    }
+    return largest;
+  }
+
+  std::vector<double> pixels_of(const Rectangle& part) const {
+    const auto width = static_cast<std::size_t>(part.width);
+    const auto plane = width * static_cast<std::size_t>(part.height);
+    std::vector<double> pixels(channels_ * plane);
+    for_blocks(static_cast<std::size_t>(part.height), 8, [&](std::size_t first, std::size_t last) {
+      std::vector<double> row(static_cast<std::size_t>(x_.count) * channels_);
+      for (std::size_t k = first; k < last; ++k) {
+        interpolate_row(part.y + static_cast<int>(k), row);
+        for (std::size_t x = 0; x < width; ++x) {
+          const int pixel = part.x + static_cast<int>(x);
+          for (std::size_t c = 0; c < channels_; ++c)
+            pixels[c * plane + k * width + x] = along_row(row, pixel, c);
+        }
+      }
+    });
+    return pixels;
+  }
+
+ private:
+  std::size_t place(int column, int row) const {
+    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(x_.count) +
+            static_cast<std::size_t>(column)) *
+           channels_;
+  }
+  double* at(int column, int row) { return values_.data() + place(column, row); }
+  const double* at(int column, int row) const { return values_.data() + place(column, row); }
+
+  // None where no node is this pixel.
+  const double* node_at(int x, int y) const {
+    if (x_.phase(x) != 0 || y_.phase(y) != 0) return nullptr;
+    const int column = floor_divide(x, x_.spacing) - x_.first;
+    const int row = floor_divide(y, y_.spacing) - y_.first;
+    if (column < 0 || column >= x_.count || row < 0 || row >= y_.count) return nullptr;
+    return at(column, row);
+  }
+
+  const Weights& weights(int phase) const { return weights_[static_cast<std::size_t>(phase)]; }
+
+  // All columns of nodes, at the pixel's height.
+  void interpolate_row(int y, std::vector<double>& row) const {
+    const int base = y_.base(y);
+    if (y_.spacing == 1) {
+      std::copy_n(at(0, base), row.size(), row.begin());
+      return;
+    }
+    std::fill(row.begin(), row.end(), 0.0);
+    for (int k = 0; k < taps; ++k) {
+      const double weight = weights(y_.phase(y))[static_cast<std::size_t>(k)];
+      const double* nodes = at(0, base + k);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] += weight * nodes[i];
+    }
+  }
+
+  double along_row(const std::vector<double>& row, int x, std::size_t channel) const {
+    const auto base = static_cast<std::size_t>(x_.base(x));
+    if (x_.spacing == 1) return row[base * channels_ + channel];
+    const Weights& own = weights(x_.phase(x));
+    double sum = 0;
+    for (std::size_t k = 0; k < own.size(); ++k)
+      sum += own[k] * row[(base + k) * channels_ + channel];
+    return sum;
+  }
+
+  void interpolate(int x, int y, double* channels) const {
+    const int column = x_.base(x), row = y_.base(y);
+    std::fill_n(channels, channels_, 0.0);
+    for (int k = 0; k < taps; ++k) {
+      for (int i = 0; i < taps; ++i) {
+        const double weight = weights(y_.phase(y))[static_cast<std::size_t>(k)] *
+                              weights(x_.phase(x))[static_cast<std::size_t>(i)];
+        const double* node = at(column + i, row + k);
+        for (std::size_t c = 0; c < channels_; ++c)
+          channels[c] += weight * node[c];
+      }
+    }
+  }
+
+  Axis x_, y_;
+  std::size_t channels_;
+  std::vector<double> values_;
+  std::vector<Weights> weights_;  // of each phase
+};
+
+int first_spacing(int side) {
+  int spacing = 1;
+  while (spacing < widest_spacing && 8 * spacing <= side)
+    spacing *= 2;
+  return spacing;
+}
+
+}  // namespace
+
+std::vector<double> smooth_picture(const SmoothPictureSettings& settings,
+                                   const PixelFunction& pixel) {
+  const Rectangle whole = {0, 0, settings.width, settings.height};
+  int spacing = first_spacing(std::min(settings.width, settings.height));
+  Nodes nodes(spacing == 1 ? settings.crop : whole, spacing, settings.channels);
+  nodes.fill(pixel, nullptr);
+  while (spacing > 1) {
+    spacing /= 2;
+    // Pixels themselves need no other, so that of them only those wanted are worked out.
+    Nodes finer(spacing == 1 ? settings.crop : whole, spacing, settings.channels);
+    finer.fill(pixel, &nodes);
+    const bool foretells = spacing > 1 && nodes.largest_error(finer, settings) <=
+                                              better_when_halved * settings.allowed;
+    nodes = std::move(finer);
+    if (foretells) break;
+  }
+  return nodes.pixels_of(settings.crop);
+}
+
+}  // namespace splotchcl

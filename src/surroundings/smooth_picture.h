@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "splotchcl/frame.h"
+
+// Pictures of what is smooth: worked out at nodes, pixels so many apart, and interpolated between
+// them. How far apart is found by trying: nodes are halved until those between are foretold.
+namespace splotchcl {
+
+struct SmoothPictureSettings {
+  int width = 0, height = 0;  // of the whole picture: spacings do not depend on what is drawn of it
+  Rectangle crop;             // what is wanted
+  int channels = 0;           // of a pixel
+  // The most that a pixel may err by; `error_of` says by how much it does, from its channels as
+  // they are and as they were foretold.
+  double allowed = 0;
+  std::function<double(const double* exact, const double* foretold)> error_of;
+};
+
+// Works out a pixel's channels. Also of pixels beside the picture; called from several threads.
+using PixelFunction = std::function<void(int x, int y, double* channels)>;
+
+// The crop's pixels row by row, channel by channel.
+std::vector<double> smooth_picture(const SmoothPictureSettings& settings,
+                                   const PixelFunction& pixel);
+
+}  // namespace splotchcl

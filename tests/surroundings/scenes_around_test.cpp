@@ -1,0 +1,153 @@
+// Random small scenes with clouds around the camera keep their tolerance, in all plans, shapes and
+// projections.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/pictures.h"
+#include "long_tests.h"
+#include "surroundings/frames_around.h"
+
+namespace splotchcl::test {
+namespace {
+
+std::string describe(const Frame& frame) {
+  std::ostringstream out;
+  out << name(choose_light(frame)) << ", projection " << static_cast<int>(frame.projection) << ", "
+      << frame.width << " x " << frame.height << ", crop " << frame.crop.x << "," << frame.crop.y
+      << "," << frame.crop.width << "," << frame.crop.height << ", eye " << frame.camera.eye_offset
+      << ", tolerance " << frame.tolerance;
+  return out.str();
+}
+
+class ScenesAround : public PictureTest {};
+
+TEST_F(ScenesAround, KeepTheirTolerance) {
+  int drawn = 0, lit = 0;
+  for (const std::uint64_t seed : seeds(1, 160)) {
+    ++drawn;
+    const Frame frame = AroundSceneMaker(seed).make();
+    const ReferenceImage exact = reference::render(frame);
+    lit += largest_value(exact) > 0.05;
+    const CompositeShape shape = seed % 3 == 0 ? CompositeShape::groups : CompositeShape::rows;
+    EXPECT_LE(largest_error(draw(frame, shape), exact), frame.tolerance)
+        << "seed " << seed << ": " << describe(frame);
+  }
+  EXPECT_GT(3 * lit, 2 * drawn) << "most scenes should have something to see";
+}
+
+TEST_F(ScenesAround, KeepThePromiseOfToleranceZero) {
+  Renderer pairs({"", CompositeShape::automatic, false});
+  for (const std::uint64_t seed : seeds(1001, 1060)) {
+    Frame frame = AroundSceneMaker(seed).make();
+    frame.tolerance = 0;
+    const ReferenceImage exact = reference::render(frame);
+    const Image image = seed % 2 == 0 ? pairs.render(frame) : draw(frame);
+    EXPECT_LE(largest_error(image, exact), extended_tolerance)
+        << "seed " << seed << ": " << describe(frame);
+  }
+}
+
+TEST_F(ScenesAround, KeepTheirToleranceWithABound) {
+  RendererOptions options;
+  options.certify = true;
+  Renderer renderer(options);
+  for (const std::uint64_t seed : seeds(2001, 2020)) {
+    const Frame frame = AroundSceneMaker(seed).make();
+    EXPECT_LE(largest_error(renderer.render(frame), reference::render(frame)), frame.tolerance)
+        << "seed " << seed << ": " << describe(frame);
+  }
+}
+
+TEST_F(ScenesAround, KeepTheirToleranceInSlabs) {
+  RendererOptions options;
+  options.slabs = 2;
+  options.shape = CompositeShape::rows;
+  Renderer rows(options);
+  options.shape = CompositeShape::groups;
+  Renderer groups(options);
+  int in_slabs = 0;
+  for (const std::uint64_t seed : seeds(3001, 3100)) {
+    constexpr int large_enough_for_coarse_grids = 150;
+    Frame frame = AroundSceneMaker(seed, large_enough_for_coarse_grids).make();
+    frame.tolerance = std::max(frame.tolerance, 1e-3);
+    for (DrawnComponent& component : frame.components)
+      component.brightness *= 0.01;
+    Renderer& renderer = seed % 2 == 0 ? rows : groups;
+    EXPECT_LE(largest_error(renderer.render(frame), reference::render(frame)), frame.tolerance)
+        << "seed " << seed << ": " << describe(frame);
+    in_slabs += renderer.stats().check.worst.slabs > 0;
+  }
+  EXPECT_GT(in_slabs, 0) << "some must be drawn in slabs";
+}
+
+// Narrow splats and a wide one between clouds that the camera stands in: each of them ends a slab.
+TEST_F(ScenesAround, EndSlabsAtTheirDepths) {
+  std::vector<Cloud> clouds;
+  Random random(5);
+  for (int i = 0; i < 40; ++i) {
+    clouds.push_back({0.02 * random.uniform(-1, 1), 0.02 * random.uniform(-1, 1), 0.05 + 0.01 * i,
+                      i % 4 == 0   ? 0.1
+                      : i % 4 == 1 ? 0.003
+                                   : 0.0005,
+                      0.004});
+  }
+  WideCamera camera;
+  camera.projection = Projection::perspective;
+  camera.field_of_view = 40;
+  camera.width = camera.height = 64;
+  DrawnComponent component = component_of(clouds, two_colors());
+  component.absorption = {Absorption::Kind::gray, 0.2};
+  Frame frame = wide_frame(camera, {component});
+  frame.through_clouds = true;
+  frame.tolerance = 1e-3;
+  const ReferenceImage exact = reference::render(frame);
+  ASSERT_GT(largest_value(exact), 0.01);
+  for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
+    RendererOptions options;
+    options.shape = shape;
+    options.slabs = 3;
+    Renderer renderer(options);
+    EXPECT_LE(largest_error(renderer.render(frame), exact), frame.tolerance);
+    EXPECT_EQ(renderer.stats().check.errors_of_promise.size(), 1U) << "drawn again";
+    EXPECT_GT(renderer.stats().check.worst.slabs, 0);
+  }
+}
+
+bool has_stage(const RenderStats& stats, const std::string& stage) {
+  return std::any_of(stats.stages.begin(), stats.stages.end(),
+                     [&](const StageTime& time) { return time.stage == stage; });
+}
+
+// Farther away than twelve sigma all clouds are splats, as without any.
+TEST_F(ScenesAround, KeepTheirBitsWhereNoCloudIsNear) {
+  for (const std::uint64_t seed : seeds(4001, 4040)) {
+    Frame frame = AroundSceneMaker(seed).make();
+    if (seed % 5 == 0) frame.tolerance = 0;
+    for (DrawnComponent& component : frame.components) {
+      Particles& particles = component.particles;
+      std::vector<float> sizes(particles.count);
+      for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const float* place = particles.position.data() + 3 * i;
+        const double distance =
+            std::hypot(static_cast<double>(place[0]), static_cast<double>(place[1]),
+                       static_cast<double>(place[2]));
+        sizes[i] = static_cast<float>(distance / (12.01 * frame.kernel.width));
+      }
+      particles.smoothing_length = Column::owning(std::move(sizes));
+    }
+    const CompositeShape shape = seed % 2 == 0 ? CompositeShape::groups : CompositeShape::rows;
+    const Image with = draw(frame, shape);
+    EXPECT_FALSE(has_stage(renderer(shape).stats(), "surroundings"));
+    frame.through_clouds = false;
+    EXPECT_EQ(with.pixels, draw(frame, shape).pixels) << "seed " << seed << ": " << describe(frame);
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,73 @@
+// Pictures that are worked out at a few pixels and interpolated between them.
+#include "surroundings/smooth_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace splotchcl::test {
+namespace {
+
+SmoothPictureSettings settings_of(int width, int height, double allowed) {
+  SmoothPictureSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.crop = {0, 0, width, height};
+  settings.channels = 1;
+  settings.allowed = allowed;
+  settings.error_of = [](const double* exact, const double* foretold) {
+    return std::abs(*exact - *foretold);
+  };
+  return settings;
+}
+
+double gaussian(int x, int y, double sigma) {
+  const double dx = (x - 80) / sigma, dy = (y - 31.5) / sigma;
+  return std::exp(-dx * dx - dy * dy);
+}
+
+double largest_error(const SmoothPictureSettings& settings, double sigma) {
+  const std::vector<double> pixels = smooth_picture(
+      settings, [sigma](int x, int y, double* value) { *value = gaussian(x, y, sigma); });
+  double largest = 0;
+  std::size_t i = 0;
+  for (int y = settings.crop.y; y < settings.crop.y + settings.crop.height; ++y) {
+    for (int x = settings.crop.x; x < settings.crop.x + settings.crop.width; ++x)
+      largest = std::max(largest, std::abs(pixels[i++] - gaussian(x, y, sigma)));
+  }
+  return largest;
+}
+
+TEST(SmoothPicture, ErrsByNoMoreThanIsAllowed) {
+  for (const double sigma : {1.0, 3.0, 10.0, 40.0, 300.0}) {
+    for (const double allowed : {1e-3, 1e-6, 1e-9})
+      EXPECT_LE(largest_error(settings_of(200, 120, allowed), sigma), allowed) << sigma;
+  }
+}
+
+TEST(SmoothPicture, WorksOutFewPixelsOfWhatIsSmooth) {
+  std::atomic<int> count = 0;
+  smooth_picture(settings_of(512, 512, 1e-5), [&count](int x, int y, double* value) {
+    ++count;
+    *value = gaussian(x, y, 200);
+  });
+  EXPECT_LT(count, 512 * 512 / 20);
+}
+
+TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
+  SmoothPictureSettings settings = settings_of(200, 120, 1e-6);
+  const PixelFunction pixel = [](int x, int y, double* value) { *value = gaussian(x, y, 30); };
+  const std::vector<double> whole = smooth_picture(settings, pixel);
+  settings.crop = {37, 11, 90, 70};
+  const std::vector<double> crop = smooth_picture(settings, pixel);
+  for (std::size_t y = 0; y < 70; ++y) {
+    for (std::size_t x = 0; x < 90; ++x)
+      ASSERT_EQ(crop[y * 90 + x], whole[(y + 11) * 200 + x + 37]);
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test
