@@ -35,7 +35,7 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 137>);
+static_assert(has_words<ProjectParameters, 138>);
 static_assert(has_words<BlockBox, 8>);
 static_assert(has_words<BlockCounts, 4>);
 static_assert(has_words<KeyBins, 2>);
