@@ -24,8 +24,8 @@ bool has_clouds_around(const Frame& frame);
 double ray_part(double distance_in_sigma);
 
 // The column that a ray finds in front of the camera, of a cloud of central column 1. `center` is
-// the cloud's from the camera, in sigma; `direction` a unit vector along the same axes. Rays that pass
-// the center farther away than the square root of `farthest2` find nothing.
+// the cloud's from the camera, in sigma; `direction` a unit vector along the same axes. Rays that
+// pass the center farther away than the square root of `farthest2` find nothing.
 double ray_column(const Vec3& center, const Vec3& direction, double farthest2);
 
 // Where a splat of the cloud lies in the picture, in pixels.

@@ -71,7 +71,7 @@ TEST_P(CropBits, AreThoseOfThePictureAlsoWhereAStarBesideTheCropIsTooSharp) {
   frame.tolerance = 3e-5;
   draw(frame, GetParam());
   ASSERT_FALSE(renderer(GetParam()).stats().drawn_most_exactly);
-  frame.components.push_back(component_of({Cloud{70.2, 30.1, 50, 0.02, 1e12}}, two_colors()));
+  frame.components.push_back(component_of({Cloud{70.2, 30.1, 50, 0.02, 1e15}}, two_colors()));
   frame.components.back().absorption = {Absorption::Kind::none, 0};
   const Image whole = draw(frame, GetParam());
   EXPECT_TRUE(renderer(GetParam()).stats().drawn_most_exactly);
