@@ -139,6 +139,12 @@ Frame many_clouds(int count) {
   return frame_of(setup.width, setup.height, {first, second});
 }
 
+Frame without_absorption(Frame frame) {
+  for (DrawnComponent& component : frame.components)
+    component.absorption = {Absorption::Kind::none, 0};
+  return frame;
+}
+
 TEST_P(Windows, AreAsManyAsMemoryAsksFor) {
   const Frame frame = many_clouds(2000);
   const Image whole = draw(frame);
@@ -236,11 +242,7 @@ TEST_P(Windows, HoldAnEmptyFrame) {
 
 TEST_P(Windows, DrawColumnsInPiecesToTheSameBits) {
   for (const bool is_ordered : {false, true}) {
-    Frame frame = many_clouds(1000);
-    if (!is_ordered) {
-      for (DrawnComponent& component : frame.components)
-        component.absorption = {Absorption::Kind::none, 0};
-    }
+    const Frame frame = is_ordered ? many_clouds(1000) : without_absorption(many_clouds(1000));
     const Image whole = draw(frame);
     const DeviceTraits traits = device().traits;
     device().traits.largest_buffer = 3 * sizeof(float) * 512;
@@ -261,11 +263,7 @@ TEST_P(Windows, DrawColumnsThatComeAndGoToTheSameBits) {
 
 TEST_P(Windows, DrawColumnsThatAreReadChunkByChunkToTheSameBits) {
   for (const bool is_ordered : {false, true}) {
-    Frame frame = many_clouds(1000);
-    if (!is_ordered) {
-      for (DrawnComponent& component : frame.components)
-        component.absorption = {Absorption::Kind::none, 0};
-    }
+    const Frame frame = is_ordered ? many_clouds(1000) : without_absorption(many_clouds(1000));
     EXPECT_EQ(draw(streamed(frame)).pixels, draw(frame).pixels) << is_ordered;
   }
 }

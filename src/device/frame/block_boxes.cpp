@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "device/frame/column_arguments.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
@@ -42,12 +43,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   shared::ProjectParameters p{};
   p.end_particle = static_cast<unsigned>(particles.count);
   p.block_particles = device.traits.project_block;
-  p.smoothing_length_stride = buffers.smoothing_length_stride;
-  p.weight_stride = buffers.weight_stride;
-  p.color_stride = buffers.color_stride;
-  p.intensity_stride = buffers.intensity_stride;
-  p.sort_stride = buffers.sort_stride;
-  p.own_color_stride = buffers.own_color_stride;
+  set_strides(buffers, p);
   const bool has_own_colors = !particles.color_vector.is_absent();
   const std::size_t count =
       (particles.count + p.block_particles - 1) / std::size_t{p.block_particles};
@@ -55,13 +51,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   const compute::program program =
       device.programs.get(Specialization::boxes(device.traits.rows, has_own_colors));
   Launch launch(device, "boxes", program.create_kernel("find_boxes"));
-  launch.value(p)
-      .arg(buffers.position)
-      .arg(buffers.smoothing_length)
-      .arg(buffers.weight)
-      .arg(buffers.color)
-      .arg(buffers.intensity)
-      .arg(buffers.sort_field);
+  pass_columns(launch.value(p), buffers);
   if (has_own_colors) launch.arg(buffers.own_color);
   launch.arg(boxes).run_items(count);
   return device.pool.download(boxes, count);

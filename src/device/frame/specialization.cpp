@@ -229,13 +229,22 @@ ProgramSource Specialization::composite() const {
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
              define_if(rows_ && rows_of_16_, "ROWS_OF_16") + block_defines();
+  return {defines, composite_files()};
+}
+
+std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
                                     "lanes.cl", "shape.cl", "opacity.cl"};
   if (rows_)
     files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
   else
     files.push_back("composite_groups.cl");
-  return {defines, files};
+  return files;
+}
+
+std::vector<std::string> Specialization::join_files() const {
+  return {"splat.h",  "bin.h",      "composite.h",   "common.cl",
+          "lanes.cl", "opacity.cl", "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"};
 }
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
@@ -250,31 +259,21 @@ std::string Specialization::block_defines() const {
 }
 
 ProgramSource Specialization::join() const {
-  return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
-          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl",
-           "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"}};
+  return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"), join_files()};
 }
 
 // Coarse grids are for round splats that are not cut, and take center values.
 ProgramSource Specialization::composite_slab() const {
-  std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
-                                    "lanes.cl", "shape.cl", "opacity.cl"};
-  if (rows_)
-    files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
-  else
-    files.push_back("composite_groups.cl");
   const std::string blocks = small_blocks_ || !rows_ ? define("SPLATS_OF_BLOCK 64u")
                              : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
                                                      : std::string();
   return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
               define_if(rows_, "LANES_8") + define_if(rows_ && rows_of_16_, "ROWS_OF_16") + blocks,
-          files};
+          composite_files()};
 }
 
 ProgramSource Specialization::join_slab() const {
-  return {slab_defines(),
-          {"splat.h", "bin.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl",
-           "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"}};
+  return {slab_defines(), join_files()};
 }
 
 ProgramSource Specialization::lay_slab() {

@@ -83,6 +83,8 @@ class Specialization {
   std::string extended_defines() const;
   std::vector<std::string> view_files() const;
   std::vector<std::string> project_files(ProjectOutput output) const;
+  std::vector<std::string> composite_files() const;  // of single precision
+  std::vector<std::string> join_files() const;
   std::string tile_size_defines() const;
   std::string tile_defines() const;
   std::string slab_defines() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "device/frame/column_arguments.h"
 #include "device/frame/view_bounds.h"
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
@@ -97,12 +98,7 @@ shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
   p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
   p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
   p.block_particles = block_particles();
-  p.smoothing_length_stride = particles.smoothing_length_stride;
-  p.weight_stride = particles.weight_stride;
-  p.color_stride = particles.color_stride;
-  p.intensity_stride = particles.intensity_stride;
-  p.sort_stride = particles.sort_stride;
-  p.own_color_stride = particles.own_color_stride;
+  set_strides(particles, p);
   return p;
 }
 
@@ -149,14 +145,8 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   const compute::program program = device.programs.get(context_.specialization.project(output));
   Launch launch(device, "project", program.create_kernel("project"));
   const DrawnComponent& component = context_.frame.components[parameters.component];
-  launch.value(parameters)
-      .value(make_extended_parameters(context_, component))
-      .arg(particles.position)
-      .arg(particles.smoothing_length)
-      .arg(particles.weight)
-      .arg(particles.color)
-      .arg(particles.intensity)
-      .arg(particles.sort_field)
+  launch.value(parameters).value(make_extended_parameters(context_, component));
+  pass_columns(launch, particles)
       .arg(targets.offsets)
       .arg(targets.counts)
       .arg(targets.splats.splats)

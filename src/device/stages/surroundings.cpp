@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "device/frame/column_arguments.h"
 #include "device/frame/key_windows.h"
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
@@ -113,26 +114,13 @@ std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
   p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
   p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
   p.block_particles = device.traits.project_block;
-  p.smoothing_length_stride = particles.smoothing_length_stride;
-  p.weight_stride = particles.weight_stride;
-  p.color_stride = particles.color_stride;
-  p.intensity_stride = particles.intensity_stride;
-  p.sort_stride = particles.sort_stride;
-  p.own_color_stride = particles.own_color_stride;
+  set_strides(particles, p);
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
   const compute::program program = device.programs.get(context_.specialization.list_around());
   Launch launch(device, "surroundings", program.create_kernel("list_around"));
-  launch.value(p)
-      .arg(particles.position)
-      .arg(particles.smoothing_length)
-      .arg(particles.weight)
-      .arg(particles.color)
-      .arg(particles.intensity)
-      .arg(particles.sort_field)
-      .arg(listed)
-      .value(static_cast<cl_uint>(capacity));
+  pass_columns(launch.value(p), particles).arg(listed).value(static_cast<cl_uint>(capacity));
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   launch.run_items((chunk.count() + p.block_particles - 1) / p.block_particles);
   const std::uint32_t count = device.pool.download(listed, 1).front();

@@ -1,0 +1,23 @@
+#include "device/frame/column_arguments.h"
+
+namespace splotchcl {
+
+void set_strides(const ParticleBuffers& particles, shared::ProjectParameters& parameters) {
+  parameters.smoothing_length_stride = particles.smoothing_length_stride;
+  parameters.weight_stride = particles.weight_stride;
+  parameters.color_stride = particles.color_stride;
+  parameters.intensity_stride = particles.intensity_stride;
+  parameters.sort_stride = particles.sort_stride;
+  parameters.own_color_stride = particles.own_color_stride;
+}
+
+Launch& pass_columns(Launch& launch, const ParticleBuffers& particles) {
+  return launch.arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field);
+}
+
+}  // namespace splotchcl
