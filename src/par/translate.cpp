@@ -86,7 +86,6 @@ std::optional<double> Translation::number_at_start(const std::string& key) {
 
 void translate_camera(Translation& t) {
   translate_center(t);
-  t.scene.set("camera.through_clouds", "false");
   const std::string name = projection(t);
   translate_eyes(name, t);
   const std::vector<std::optional<double>> place = coordinates("camera", t);
@@ -114,6 +113,7 @@ void translate_camera(Translation& t) {
     t.scene.set_number("camera.field_of_view", angle.value_or(45));
   }
   t.scene.set_number("camera.near", near.value_or(0));
+  t.scene.set("camera.through_clouds", "false");
   if (far) t.scene.set_number("camera.far", *far);
 }
 
