@@ -21,6 +21,12 @@ BENCHMARK_CAPTURE(generate, universe, &generate_universe)
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(generate, cluster, &generate_cluster)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(generate, halo, &generate_halo)
     ->Arg(100000)
     ->Arg(1000000)

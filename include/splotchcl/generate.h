@@ -47,6 +47,11 @@ GeneratedSnapshot generate_universe(const GenerateSettings& settings);
 // inclined along every axis. Throws UsageError likewise.
 GeneratedSnapshot generate_halo(const GenerateSettings& settings);
 
+// A cluster of galaxies around the origin: hot gas with smaller haloes in it, groups that fall in,
+// cold streams of gas that reach into it, galaxies, and stars between them. Throws UsageError
+// likewise.
+GeneratedSnapshot generate_cluster(const GenerateSettings& settings);
+
 // Gadget format 2, little-endian. Appears under its name only when complete. Throws
 // DataError.
 void write_gadget2(const std::filesystem::path& path, const GeneratedSnapshot& snapshot);

@@ -232,10 +232,11 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
       app, run, "generate", "Make up a snapshot to try things on", options,
       [&console](const GenerateOptions& o) { return run_generate(o, console); });
   sub->add_option("WHAT", options->what,
-                  wrapped("universe: cosmic web and haloes in a box of 50000 kpc/h; halo: a spiral "
-                          "galaxy with satellites in hot gas"))
+                  wrapped("universe: cosmic web and haloes in a box of 50000 kpc/h; cluster: a "
+                          "cluster of galaxies, with groups and cold streams that fall in; halo: a "
+                          "spiral galaxy with satellites in hot gas"))
       ->required()
-      ->check(CLI::IsMember({"universe", "halo"}));
+      ->check(CLI::IsMember({"universe", "cluster", "halo"}));
   sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget format 2"))
       ->required()
       ->type_name("FILE");

@@ -118,7 +118,7 @@ struct DevicesOptions {
 int run_devices(const DevicesOptions& options);
 
 struct GenerateOptions {
-  std::string what;  // universe or halo
+  std::string what;  // universe, cluster or halo
   std::filesystem::path output;
   GenerateSettings settings;
 };

@@ -36,6 +36,19 @@ std::vector<Vec3> sample_particles(const Frame& frame) {
   return sample;
 }
 
+// Where an eye's picture ends to the left and right: as its frustum says, which need not be even,
+// or in wide angles as far as they are drawn.
+SecondEye second_eye(const CameraFrame& camera, const Vec3& position, int width,
+                     double half_angle) {
+  constexpr double widest = 1.3;  // radians
+  const auto edge = [&](double tangent) {
+    return boost::qvm::normalized(camera.forward + tangent * camera.right);
+  };
+  if (half_angle > widest) return {position, edge(-std::tan(widest)), edge(std::tan(widest))};
+  return {position, edge(-camera.center_x / camera.focal_pixels),
+          edge((width - camera.center_x) / camera.focal_pixels)};
+}
+
 // The eyes of a frame: one, or two where the scene has a pair.
 void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
   const std::vector<FrameView> views = views_of(scene, frame);
@@ -49,7 +62,8 @@ void add_cameras(const Scene& scene, const Frame& frame, PathPlot& plot) {
     // In wide angles an eye is beside the camera for whatever direction is looked at.
     const Vec3 eye = camera.position + camera.eye_offset * frame.camera.right;
     if (boost::qvm::mag(eye - first.position) > 0) {
-      plot.second_eyes.push_back(eye);
+      plot.second_eyes.push_back(
+          second_eye(camera, eye, view.frame.width, plot.half_angles.back()));
       return;
     }
   }

@@ -3,6 +3,7 @@
 
 #include "generate/even_place.h"
 #include "generate/gas.h"
+#include "generate/halo_interior.h"
 #include "generate/haloes.h"
 #include "generate/profile.h"
 #include "generate/web.h"
@@ -18,10 +19,8 @@ constexpr double box = 50000;  // kpc/h
 constexpr double critical_density = cosmology::critical_density;
 constexpr double largest_birth_radius = 0.2;  // of haloes
 constexpr double overdensity = 200;           // of a halo, over the mean
-constexpr double gas_concentration = 7, star_concentration = 12;
-constexpr double star_extent = 0.35;   // of the virial radius
-constexpr double stars_per_gas = 0.1;  // in mass
-constexpr double web_energy = 60;      // (km/s)^2, of gas at the mean density
+constexpr double stars_per_gas = 0.1;         // in mass
+constexpr double web_energy = 60;             // (km/s)^2, of gas at the mean density
 
 double virial_radius(const Halo& halo) {
   return halo.birth_radius / std::cbrt(overdensity);
@@ -34,10 +33,6 @@ double mass(const Halo& halo) {
 
 double circular_speed(const Halo& halo) {
   return std::sqrt(gravitational_constant * mass(halo) / (virial_radius(halo) * box));
-}
-
-Vec3 thermal_speed(const Halo& halo, Random& random) {
-  return random.normal_vector(circular_speed(halo) * M_SQRT1_2);
 }
 
 Vec3 into_box(Vec3 place) {
@@ -54,19 +49,37 @@ struct PlacedGas {
   double heat = 0;  // the part of its internal energy from falling into a halo, (km/s)^2
 };
 
+// Of every halo.
+std::vector<HaloInterior> make_interiors(const Web& web, const std::vector<Halo>& haloes,
+                                         double spacing, Random& random) {
+  std::vector<HaloInterior> interiors;
+  for (const Halo& halo : haloes) {
+    std::array<Vec3, 3> differences;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Vec3 before = halo.birthplace, after = halo.birthplace;
+      before.a[axis] -= halo.birth_radius;
+      after.a[axis] += halo.birth_radius;
+      differences[axis] = web.displaced(after) - web.displaced(before);
+      differences[axis].a[axis] -= 2 * halo.birth_radius;
+    }
+    const double particles = 4 * pi / 3 * std::pow(halo.birth_radius / spacing, 3);
+    interiors.emplace_back(shape_of_halo(differences, 2 * halo.birth_radius), particles, random);
+  }
+  return interiors;
+}
+
 // Gas born in a halo's ball: the inner part fills the profile; towards the rim it still
 // streams in along the web.
-void settle(PlacedGas& gas, const Halo& halo, const Vec3& birthplace, Random& random) {
-  static const NfwProfile profile(gas_concentration);
+void settle(PlacedGas& gas, const Halo& halo, const HaloInterior& interior, const Vec3& birthplace,
+            Random& random) {
   const double distance = boost::qvm::mag(periodic_difference(halo.birthplace, birthplace));
   const double enclosed = std::min(1.0, std::pow(distance / halo.birth_radius, 3));
-  const double radius = virial_radius(halo) * profile.radius(std::min(1.0, 1.25 * enclosed));
-  const Vec3 settled = random.direction() * radius;
+  const HaloInterior::Placed settled = interior.gas(std::min(1.0, 1.25 * enclosed), random);
   const Vec3 streaming = periodic_difference(halo.center, gas.place);
   const double share = 1 - smoothstep((enclosed - 0.4) / 0.6);
-  gas.place = halo.center + settled * share + streaming * (1 - share);
-  gas.speed += thermal_speed(halo, random) * share;
-  gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * std::exp(0.25 * random.normal());
+  gas.place = halo.center + settled.place * (share * virial_radius(halo)) + streaming * (1 - share);
+  gas.speed += settled.speed * (share * circular_speed(halo));
+  gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * settled.heat;
 }
 
 // The smallest hold some thirty particles, and are born of peaks that the waves resolve.
@@ -81,18 +94,29 @@ std::vector<Halo> make_haloes(const Web& web, double spacing) {
   return haloes;
 }
 
-std::vector<PlacedGas> place_gas(const Web& web, std::vector<Halo>& haloes, std::uint64_t count,
-                                 double spacing, Random& random) {
+// Where the web moves gas; the haloes go along.
+std::vector<Vec3> move_along(const Web& web, const std::vector<Vec3>& birthplaces,
+                             std::vector<Halo>& haloes) {
   constexpr std::size_t places_at_once = 4096;
-  std::vector<Vec3> birthplaces;
-  for (std::uint64_t i = 0; i < count; ++i)
-    birthplaces.push_back(even_place(i, random, 0.5 * spacing));
   std::vector<Vec3> places(birthplaces.size());
   for_blocks(places.size(), places_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       places[i] = web.displaced(birthplaces[i]);
   });
-  sharpen_web(places, haloes);
+  sharpen_web(places, web.sharpness(birthplaces), haloes);
+  for_blocks(places.size(), places_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      places[i] += web.strayed(birthplaces[i]);
+  });
+  for (Halo& halo : haloes)
+    halo.center += web.strayed(halo.birthplace);
+  return places;
+}
+
+// `places` are those to which the web alone has moved the gas.
+std::vector<PlacedGas> place_gas(const std::vector<Vec3>& birthplaces,
+                                 const std::vector<Vec3>& places, const std::vector<Halo>& haloes,
+                                 const std::vector<HaloInterior>& interiors, Random& random) {
   const HaloMap map(haloes, 192);
   std::vector<PlacedGas> all;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -102,7 +126,8 @@ std::vector<PlacedGas> place_gas(const Web& web, std::vector<Halo>& haloes, std:
                 (box * cosmology::hubble * cosmology::growth_rate);
     const int halo = map.at(birthplaces[i]);
     if (halo != HaloMap::none) {
-      settle(gas, haloes[static_cast<std::size_t>(halo)], birthplaces[i], random);
+      const auto index = static_cast<std::size_t>(halo);
+      settle(gas, haloes[index], interiors[index], birthplaces[i], random);
     }
     all.push_back(gas);
   }
@@ -118,21 +143,21 @@ std::vector<double> cumulated_star_shares(const std::vector<Halo>& haloes) {
   return shares;
 }
 
-void add_stars(GeneratedParticles& stars, const std::vector<Halo>& haloes, std::uint64_t count,
-               Random& random) {
+void add_stars(GeneratedParticles& stars, const std::vector<Halo>& haloes,
+               const std::vector<HaloInterior>& interiors, std::uint64_t count, Random& random) {
   const std::vector<double> shares = cumulated_star_shares(haloes);
-  const NfwProfile profile(star_concentration);
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto chosen =
         std::upper_bound(shares.begin(), shares.end() - 1, random.uniform() * shares.back());
-    const Halo& halo = haloes[static_cast<std::size_t>(chosen - shares.begin())];
-    const double enclosed = random.uniform();
-    const double radius = star_extent * virial_radius(halo) * profile.radius(enclosed);
-    const Vec3 place = halo.center + random.direction() * radius;
-    stars.add(into_box(place), thermal_speed(halo, random));
+    const auto index = static_cast<std::size_t>(chosen - shares.begin());
+    const Halo& halo = haloes[index];
+    const HaloInterior::Placed star = interiors[index].star(random);
+    stars.add(into_box(halo.center + star.place * virial_radius(halo)),
+              star.speed * circular_speed(halo));
     // Large haloes formed their stars early, and their centres earlier still.
+    const double outwards = std::min(1.0, boost::qvm::mag(star.place));
     const double latest =
-        std::clamp(0.9 - 0.12 * std::log10(mass(halo)) + 0.3 * enclosed, 0.1, 1.0);
+        std::clamp(0.9 - 0.12 * std::log10(mass(halo)) + 0.3 * outwards, 0.1, 1.0);
     stars.age.push_back(static_cast<float>(latest * std::sqrt(random.uniform())));
   }
 }
@@ -145,13 +170,18 @@ GeneratedSnapshot generate_universe(const GenerateSettings& settings) {
   const Web web(box, random);
   const double spacing = 1 / std::cbrt(static_cast<double>(shares.gas));
   std::vector<Halo> haloes = make_haloes(web, spacing);
-  const std::vector<PlacedGas> placed = place_gas(web, haloes, shares.gas, spacing, random);
+  std::vector<Vec3> birthplaces;
+  for (std::uint64_t i = 0; i < shares.gas; ++i)
+    birthplaces.push_back(even_place(i, random, 0.5 * spacing));
+  const std::vector<Vec3> places = move_along(web, birthplaces, haloes);
+  const std::vector<HaloInterior> interiors = make_interiors(web, haloes, spacing, random);
+  const std::vector<PlacedGas> placed = place_gas(birthplaces, places, haloes, interiors, random);
 
   GeneratedSnapshot snapshot;
   snapshot.box_size = box;
   for (const PlacedGas& gas : placed)
     snapshot.gas.add(into_box(gas.place), gas.speed);
-  add_stars(snapshot.stars, haloes, shares.stars, random);
+  add_stars(snapshot.stars, haloes, interiors, shares.stars, random);
 
   const double mean_density = cosmology::baryons * critical_density;
   const double gas_mass = mean_density * box * box * box;

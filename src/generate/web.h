@@ -25,19 +25,27 @@ class Web {
   Web(double box_size, Random& random);
 
   Vec3 displaced(const Vec3& birthplace) const;
+  // By what a place differs from `displaced` because of shorter waves, less than in linear theory:
+  // strands within filaments, and knots along them.
+  Vec3 strayed(const Vec3& birthplace) const;
+  // By which part of the way sharpen_web moves what is born at these places: where less had
+  // collapsed, sheets and the wings of filaments stay wide.
+  std::vector<double> sharpness(const std::vector<Vec3>& birthplaces) const;
   // The density's contrast, grown to today, averaged over balls of this radius.
   PeriodicGrid contrast(double radius) const;
 
  private:
-  PeriodicGrid displacement(int axis) const;
+  // Of waves up to `longest` per box, but not of those up to `shortest`.
+  PeriodicGrid displacement(int axis, double shortest, double longest) const;
 
   RandomWaves waves_;
   double amplitude_;
-  std::array<PeriodicGrid, 3> displacement_;
+  std::array<PeriodicGrid, 3> displacement_, straying_;
 };
 
 // Zeldovich's sheets and filaments stay thick, because matter there crosses and runs on;
-// here it sticks. The haloes go along.
-void sharpen_web(std::vector<Vec3>& places, std::vector<Halo>& haloes);
+// here it sticks, by a part from 0 to 1 of each place's way. The haloes go along.
+void sharpen_web(std::vector<Vec3>& places, const std::vector<double>& parts,
+                 std::vector<Halo>& haloes);
 
 }  // namespace splotchcl

@@ -34,7 +34,7 @@ GenerateSettings small(std::uint64_t seed = 1) {
 using Generator = GeneratedSnapshot (*)(const GenerateSettings&);
 class Generators : public ::testing::TestWithParam<Generator> {};
 INSTANTIATE_TEST_SUITE_P(Generate, Generators,
-                         ::testing::Values(&generate_universe, &generate_halo));
+                         ::testing::Values(&generate_universe, &generate_cluster, &generate_halo));
 
 TEST_P(Generators, MakeAsManyParticlesAsAskedFor) {
   const GeneratedSnapshot snapshot = GetParam()(small());

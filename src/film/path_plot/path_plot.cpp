@@ -23,6 +23,7 @@ constexpr Light outline_light = {0.3F, 0.36F, 0.45F};
 constexpr Light object_light = {0.95F, 0.75F, 0.3F};
 constexpr Light look_light = {0.9F, 0.9F, 0.9F};
 constexpr Light sky_light = {0.35F, 0.9F, 0.4F};
+constexpr Light right_light = {1.0F, 0.6F, 0.25F};
 constexpr Light view_light = {0.5F, 0.5F, 0.55F};
 constexpr Light eye_light = {0.95F, 0.4F, 0.95F};
 constexpr Light text_light = {0.75F, 0.75F, 0.75F};
@@ -159,6 +160,12 @@ void draw_view(PlotPanel& panel, const PathPlot& plot, std::size_t frame, double
   panel.line(eye, panel.place(plot.look_at[frame]), 1, look_light, 0.35F);
   const Vec3 sky = boost::qvm::normalized(plot.sky[frame]);
   panel.arrow(eye, panel.place(camera.position + 0.5 * length * sky), 1.8, sky_light);
+  panel.arrow(eye, panel.place(camera.position + 0.5 * length * camera.right), 1.8, right_light);
+  if (plot.second_eyes.empty()) return;
+  const SecondEye& other = plot.second_eyes[frame];
+  for (const Vec3& edge : {other.left, other.right})
+    panel.line(panel.place(other.position), panel.place(other.position + length * edge), 1.5,
+               eye_light, 0.8F);
 }
 
 void draw_camera(PlotPanel& panel, const PathPlot& plot, double length, const Font& font) {
@@ -174,7 +181,7 @@ void draw_camera(PlotPanel& panel, const PathPlot& plot, double length, const Fo
   for (const std::size_t i : some_frames(count, dots)) {
     const PlotPoint eye = panel.place(plot.cameras[i].position);
     if (!plot.second_eyes.empty()) {
-      const PlotPoint other = panel.place(plot.second_eyes[i]);
+      const PlotPoint other = panel.place(plot.second_eyes[i].position);
       panel.line(eye, other, 1, eye_light, 0.7F);
       panel.ring(other, 4, 1.5, eye_light);
     }
@@ -201,9 +208,10 @@ void draw_legend(Image& image, const PathPlot& plot, const Font& font) {
                                 {"camera, last frame", time_light(1)},
                                 {"look-at point", look_light},
                                 {"sky", sky_light},
+                                {"right", right_light},
                                 {"view", view_light},
                                 {"densest places", object_light}};
-  if (!plot.second_eyes.empty()) entries.push_back({"second eye", eye_light});
+  if (!plot.second_eyes.empty()) entries.push_back({"second eye and its view", eye_light});
   double x = left_margin;
   const double y = image.height - 30.0;
   for (const Entry& entry : entries) {
@@ -228,8 +236,8 @@ Image draw_path_plot(const PathPlot& plot) {
     shown.include(plot.cameras[i].position);
     shown.include(plot.look_at[i]);
   }
-  for (const Vec3& eye : plot.second_eyes)
-    shown.include(eye);
+  for (const SecondEye& eye : plot.second_eyes)
+    shown.include(eye.position);
   const double size = shown.size() > 0 ? 1.16 * shown.size() : 1;
   const std::vector<DenseCell> objects = densest_cells(plot.particles, dense_cells_shown);
   for (std::size_t vertical = 1; vertical < 3; ++vertical) {

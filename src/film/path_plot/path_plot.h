@@ -9,15 +9,20 @@
 
 namespace splotchcl {
 
+// The second eye of a pair, with the directions of the left and right edge of what it sees.
+struct SecondEye {
+  Vec3 position, left, right;
+};
+
 // What the plot of a film's set-up shows.
 struct PathPlot {
-  std::vector<CameraFrame> cameras;  // of each frame
-  std::vector<Vec3> look_at;         // of each frame
-  std::vector<Vec3> sky;             // of each frame
-  std::vector<Vec3> second_eyes;     // of each frame, or none
-  std::vector<double> half_angles;   // of view, horizontal, in radians, of each frame
-  std::vector<Vec3> particles;       // or a sample of them
-  std::optional<double> box_size;    // of a periodic box that begins at 0
+  std::vector<CameraFrame> cameras;    // of each frame
+  std::vector<Vec3> look_at;           // of each frame
+  std::vector<Vec3> sky;               // of each frame
+  std::vector<SecondEye> second_eyes;  // of each frame, or none
+  std::vector<double> half_angles;     // of view, horizontal, in radians, of each frame
+  std::vector<Vec3> particles;         // or a sample of them
+  std::optional<double> box_size;      // of a periodic box that begins at 0
 };
 
 // The places where particles crowd most: cells of a grid over the bulk of them that hold more
@@ -29,9 +34,9 @@ struct DenseCell {
 std::vector<DenseCell> densest_cells(const std::vector<Vec3>& particles, std::size_t limit);
 
 // Two projections side by side, x-y and x-z, at one scale: the particles and their outline,
-// the densest cells by rank, the camera's way from blue to red with its look-at points, sky
-// vectors and views at some frames, and the second eye. Throws UsageError where no font is
-// found.
+// the densest cells by rank, the camera's way from blue to red with its look-at points, and at
+// some frames its sky and right vectors, its view, and the second eye with its own. Throws
+// UsageError where no font is found.
 Image draw_path_plot(const PathPlot& plot);
 
 }  // namespace splotchcl

@@ -96,5 +96,37 @@ TEST(PathPlot, ShowsTheCameraInBothProjections) {
   EXPECT_GT(below, 20);
 }
 
+int count_pixels(const Image& image, float red, float green, float blue) {
+  int count = 0;
+  for (int y = 0; y < 820; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float* const pixel = image.at(x, y);
+      const bool is_it = std::abs(pixel[0] - red) < 0.05F && std::abs(pixel[1] - green) < 0.05F &&
+                         std::abs(pixel[2] - blue) < 0.05F;
+      count += is_it ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// Right is orange, the second eye and what it sees pink.
+TEST(PathPlot, ShowsRightVectorsAndTheSecondEyesView) {
+  PathPlot plot;
+  Camera camera;
+  camera.position = {{0, 0, 10}};
+  camera.look_at = {{0, 0, 0}};
+  camera.sky = {{0, 1, 0}};
+  plot.cameras = {make_camera_frame(camera, 10, 10)};
+  plot.look_at = {camera.look_at};
+  plot.sky = {camera.sky};
+  plot.half_angles = {0.3};
+  plot.particles = {{{-10, -10, -10}}, {{10, 10, 10}}};
+  const Image one = draw_path_plot(plot);
+  EXPECT_GT(count_pixels(one, 1, 0.6F, 0.25F), 40);
+  EXPECT_EQ(count_pixels(one, 0.95F, 0.4F, 0.95F), 0);
+  plot.second_eyes = {{{{3, 0, 10}}, {{-0.6, 0, -0.8}}, {{0, 0, -1}}}};
+  EXPECT_GT(count_pixels(draw_path_plot(plot), 0.95F, 0.4F, 0.95F), 10);
+}
+
 }  // namespace
 }  // namespace splotchcl
