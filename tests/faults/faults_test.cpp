@@ -106,7 +106,11 @@ TEST_F(Faults, OfTheLimitOnMemoryAreOneLine) {
   int failures = 0;
   for (const int megabytes : {60, 120, 200, 300}) {
     const std::string limit = "ulimit -v " + std::to_string(1024 * megabytes) + ";";
-    if (run_with(limit, "render h -o out/a.png --reference --set 'image.size=[2000,2000]'", {})) {
+    // Splats alone: clouds around the camera take the reference minutes in so large a picture.
+    if (run_with(limit,
+                 "render h -o out/a.png --reference --set 'image.size=[2000,2000]' "
+                 "--set camera.through_clouds=false",
+                 {})) {
       ++failures;
     }
   }
