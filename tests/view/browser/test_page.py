@@ -168,7 +168,9 @@ def test_palette_and_range_change_the_picture(page):
 
 def test_all_palettes_are_shown_to_choose_from(page):
     page.browser.find_element(By.TAG_NAME, "summary").click()
-    choices = page.browser.find_elements(By.CSS_SELECTOR, "[role=radiogroup] input")
+    # They are asked for when the list is opened.
+    choices = WebDriverWait(page.browser, 30).until(
+        lambda browser: browser.find_elements(By.CSS_SELECTOR, "[role=radiogroup] input"))
     assert len(choices) > 30
     page.find("cividis for gas").click()
     assert page.setting("component.0.palette") == "cividis"
