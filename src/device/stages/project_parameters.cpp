@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "device/frame/column_arguments.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
@@ -95,14 +96,6 @@ void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
   }
   p.far_limit = frame.far_limit ? -smallest_float_from(-*frame.far_limit)
                                 : std::numeric_limits<float>::infinity();
-}
-
-shared::WideInteger wide(std::uint64_t value) {
-  return {static_cast<unsigned>(value & 0xffffffffu), static_cast<unsigned>(value >> 32)};
-}
-
-shared::WideInteger wide(std::int64_t value) {
-  return wide(static_cast<std::uint64_t>(value));
 }
 
 shared::DepthKeyParameters parameters_of(const DepthKeyScale& scale) {
@@ -270,6 +263,24 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.sort_by_field = frame.sort.by == SortOrder::By::field;
   p.sort_descending = frame.sort.descending;
   return p;
+}
+
+shared::ProjectParameters make_project_parameters(const StageContext& context,
+                                                  const ParticleChunk& chunk,
+                                                  const ParticleBuffers& particles) {
+  shared::ProjectParameters p = make_project_parameters(context, chunk.component);
+  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
+  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  set_strides(particles, p);
+  return p;
+}
+
+shared::WideInteger wide(std::uint64_t value) {
+  return {static_cast<unsigned>(value & 0xffffffffu), static_cast<unsigned>(value >> 32)};
+}
+
+shared::WideInteger wide(std::int64_t value) {
+  return wide(static_cast<std::uint64_t>(value));
 }
 
 }  // namespace splotchcl

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
 #include "device/frame/stage_context.h"
 
 namespace splotchcl {
@@ -10,5 +12,13 @@ namespace splotchcl {
 // without the particles of a launch and the strides of their columns.
 shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   std::uint32_t component);
+// The same with a chunk of its particles, which lies in `particles`, but for the size of blocks.
+shared::ProjectParameters make_project_parameters(const StageContext& context,
+                                                  const ParticleChunk& chunk,
+                                                  const ParticleBuffers& particles);
+
+// The words of an integer, as kernels take it.
+shared::WideInteger wide(std::uint64_t value);
+shared::WideInteger wide(std::int64_t value);
 
 }  // namespace splotchcl

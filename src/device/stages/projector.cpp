@@ -33,13 +33,9 @@ std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
       std::count_if(blocks.begin(), blocks.end(), [](std::uint32_t block) { return block != 0; }));
 }
 
-shared::WideInteger words_of(std::uint64_t value) {
-  return {static_cast<unsigned>(value), static_cast<unsigned>(value >> 32)};
-}
-
 void take_window(const KeyWindow& window, shared::ProjectParameters& parameters) {
-  parameters.window_first = words_of(window.first);
-  parameters.window_end = words_of(window.end);
+  parameters.window_first = wide(window.first);
+  parameters.window_end = wide(window.end);
 }
 
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
@@ -94,11 +90,8 @@ Projector::Projector(const StageContext& context)
 
 shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles) const {
-  shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
-  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
-  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
-  p.block_particles = block_particles();
-  set_strides(particles, p);
+  shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
+  p.block_particles = scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
   return p;
 }
 
@@ -267,10 +260,6 @@ KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
   keyed.key_ends = pool.get<std::uint16_t>(by_depth ? count : 0, "ends of sort keys");
   keyed.order = pool.get<std::uint32_t>(count, "order");
   return keyed;
-}
-
-std::uint32_t Projector::block_particles() const {
-  return scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
 }
 
 Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {

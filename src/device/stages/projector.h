@@ -45,8 +45,6 @@ class Projector {
                                const KeyedSplats& keyed, std::uint32_t first_slot) const;
   // Room for `count` splats and their keys.
   KeyedSplats keyed_memory(std::uint32_t count) const;
-  // Particles of a block of count_keys() and project_window().
-  std::uint32_t block_particles() const;
 
  private:
   struct KeyTargets;

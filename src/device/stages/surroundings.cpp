@@ -110,11 +110,8 @@ std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles,
                                                     std::uint64_t most) const {
   DeviceContext& device = context_.device;
-  shared::ProjectParameters p = make_project_parameters(context_, chunk.component);
-  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
-  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
   p.block_particles = device.traits.project_block;
-  set_strides(particles, p);
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
