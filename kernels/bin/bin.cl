@@ -33,7 +33,11 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
     const Splat splat = splats[order[slot]];
     in_order[slot - p.first] = splat;
     const Grid grid = grids[grid_of(splat)];
+#ifdef TILES_IN_SPLAT
+    const uint touched = tiles_with_memory(splat.tiles, splat, grid);
+#else
     const uint touched = tiles_of(splat, grid);
+#endif
     tiles[slot - p.first] = touched;
     count_in_tiles(touched, splat, grid, count);
   }

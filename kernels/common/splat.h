@@ -63,6 +63,9 @@ struct Splat {
   // x in the lower 16 bits.
   unsigned int place_fractions;
 #endif
+#ifdef TILES_IN_SPLAT
+  unsigned int tiles;  // of the whole picture that it touches (tiles.cl)
+#endif
 #ifdef WHOLE_SECTORS
   unsigned int unused;  // a GPU gathers 32 bytes at a time
 #endif

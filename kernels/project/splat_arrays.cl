@@ -1,6 +1,7 @@
 // LANES splats, to be written one by one, and what kernels that write them take.
 
-#if defined(COUNT_TILES) && !defined(ELLIPSES) && !defined(EXTENDED_NUMBERS)
+#if (defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)) || \
+    (defined(COUNT_TILES) && !defined(ELLIPSES) && !defined(EXTENDED_NUMBERS))
 #define TILES_OF_LANES
 #endif
 
@@ -78,6 +79,9 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 #endif
 #ifdef FINE_PLACES
   splat.place_fractions = (uint)a->place_fractions[k];
+#endif
+#ifdef TILES_IN_SPLAT
+  splat.tiles = (uint)a->tiles[k];
 #endif
   return splat;
 }

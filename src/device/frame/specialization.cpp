@@ -58,7 +58,13 @@ std::uint32_t Specialization::planes() const {
 std::size_t Specialization::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
          (vector_colors_ ? sizeof(shared::OwnColor) : 0) + (fine_places_ ? sizeof(cl_uint) : 0) +
-         (has_whole_sectors() ? sizeof(cl_uint) : 0);
+         (has_whole_sectors() ? sizeof(cl_uint) : 0) + (has_own_tiles() ? sizeof(cl_uint) : 0);
+}
+
+// The lanes that project a splat know its tiles. Sorted splats are gathered one by one, and with
+// that word most of them lie in one line of the cache.
+bool Specialization::has_own_tiles() const {
+  return rows_ && is_ordered() && !ellipses_ && !extended_;
 }
 
 // Splats of seven words are gathered in one sector of a GPU's memory with one more.
@@ -68,7 +74,8 @@ bool Specialization::has_whole_sectors() const {
 
 std::string Specialization::splat_defines() const {
   return define_if(vector_colors_, "VECTOR_COLORS") + define_if(fine_places_, "FINE_PLACES") +
-         define_if(has_whole_sectors(), "WHOLE_SECTORS");
+         define_if(has_whole_sectors(), "WHOLE_SECTORS") +
+         define_if(has_own_tiles(), "TILES_IN_SPLAT");
 }
 
 std::size_t Specialization::extended_splat_bytes() const {
@@ -113,12 +120,16 @@ ProgramSource Specialization::project(ProjectOutput output) const {
     defines += define("OUTPUT_KEYS");
   if (is_of_window(output)) defines += define("KEY_WINDOW");
   if (output == ProjectOutput::key_counts) defines += define("COUNT_KEYS");
-  if (output == ProjectOutput::splats && rows_)
-    defines += define("COUNT_TILES") + tile_size_defines();
+  if (output == ProjectOutput::splats && rows_) defines += define("COUNT_TILES");
+  if (finds_tiles(output)) defines += tile_size_defines();
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
   if (extended_) defines += extended_defines();
   return {defines, project_files(output)};
+}
+
+bool Specialization::finds_tiles(ProjectOutput output) const {
+  return (output == ProjectOutput::splats && rows_) || (writes_splats(output) && has_own_tiles());
 }
 
 // Where the camera sees particles.
@@ -139,8 +150,7 @@ std::vector<std::string> Specialization::project_files(ProjectOutput output) con
   if (!extended_) files.insert(files.end(), {"pair_lanes.cl", "sharp_places.cl"});
   files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
-  if (output == ProjectOutput::splats && rows_)
-    files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
+  if (finds_tiles(output)) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
   files.insert(files.end(), {"sort_keys.cl", "splat_arrays.cl"});
   if (rows_) {
     files.push_back("project.cl");
@@ -202,6 +212,7 @@ ProgramSource Specialization::bin() const {
   const std::string defines =
       tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
       define_if(vector_colors_, "VECTOR_COLORS") + define_if(has_whole_sectors(), "WHOLE_SECTORS") +
+      define_if(has_own_tiles(), "TILES_IN_SPLAT") +
       define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
   if (rows_) {
     return {defines,

@@ -78,6 +78,8 @@ class Specialization {
 
  private:
   bool has_whole_sectors() const;
+  bool has_own_tiles() const;
+  bool finds_tiles(ProjectOutput output) const;
   std::string splat_defines() const;
   std::string wide_angle_defines() const;
   std::string extended_defines() const;
