@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -77,6 +78,23 @@ class Column {
   bool is_made_ = false;  // the owner is what makes the values
 };
 
+// A box around particles, as their column of positions has them, and the largest of their smoothing
+// lengths. Of none: lower above upper.
+struct ParticleBox {
+  float lower[3], upper[3];
+  float largest_smoothing_length;
+};
+
+// Boxes around particles that follow each other, block by block: known before their values are
+// read, so that those out of view need not be (docs/large.md, An index).
+struct ParticleBoxes {
+  std::size_t block_particles = 1;
+  std::vector<ParticleBox> boxes;
+
+  // Around the blocks that particles [first, end) lie in.
+  ParticleBox around(std::size_t first, std::size_t end) const;
+};
+
 // The particles of one component: structure of arrays, as the device takes them. Columns are
 // arrays of `count` values, or as said, or uniform where one value serves all. Only what the
 // scene needs is present. Lengths, masses and densities are in the snapshot's units. A particle
@@ -92,8 +110,14 @@ struct Particles {
   // 3 * count: red, green, blue of each particle, >= 0, factors on the palette's emission
   // and on what it absorbs, unless the palette has absorption of its own. Absent: 1 1 1.
   Column color_vector;
-  Column intensity;   // the intensity field before scaling; absent: 1
-  Column sort_field;  // only when the scene sorts by a field
+  Column intensity;                            // the intensity field before scaling; absent: 1
+  Column sort_field;                           // only when the scene sorts by a field
+  std::shared_ptr<const ParticleBoxes> boxes;  // null: not known
+
+  // All of them, present or not.
+  std::array<const Column*, 7> columns() const {
+    return {&position, &smoothing_length, &weight, &color, &color_vector, &intensity, &sort_field};
+  }
 };
 
 }  // namespace splotchcl

@@ -357,6 +357,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_movie(app, run, console);
   add_path(app, run, console);
   add_info(app, run, console);
+  add_index(app, run, console);
   add_fields(app, run, console);
   add_palettes(app, run, console);
   add_compare(app, run, console);

@@ -97,6 +97,11 @@ int run_info(const InfoOptions& options, Console& console);
 
 int run_fields(const SnapshotQuestion& options, Console& console);
 
+struct IndexOptions {
+  std::filesystem::path snapshot;
+};
+int run_index(const IndexOptions& options, Console& console);
+
 struct PalettesOptions {
   std::vector<std::string> names;  // or files; none: all
   std::optional<std::filesystem::path> preview;

@@ -38,6 +38,23 @@ void add_info(CLI::App& app, Run& run, Console& console) {
       "  splotchcl info table.txt --columns x,y,z,mass,-");
 }
 
+void add_index(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<IndexOptions>();
+  CLI::App* const sub = add_command<IndexOptions>(
+      app, run, "index", "Keep beside a snapshot where its particles are", options,
+      [&console](const IndexOptions& o) { return run_index(o, console); });
+  sub->add_option("SNAPSHOT", options->snapshot,
+                  wrapped("A snapshot; of several files, any one of them"))
+      ->required();
+  sub->footer(
+      "Writes SNAPSHOT.splotchcl_index: boxes around blocks of 8192 particles, 28 bytes for each.\n"
+      "With it, a view of a part of a large snapshot reads only blocks that it may see. It is "
+      "never\n"
+      "needed, changes no picture, and is not used once a file of the snapshot has changed.\n"
+      "Example:\n"
+      "  splotchcl index huge_snapshot.0.hdf5");
+}
+
 void add_fields(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<SnapshotQuestion>();
   CLI::App* const sub = add_command<SnapshotQuestion>(

@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "device/stages/project_parameters.h"
+
 namespace splotchcl {
 namespace {
 
@@ -55,14 +57,15 @@ std::vector<ParticleChunk> Pipeline::particle_chunks() const {
 }
 
 SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
-  const Particles& particles = context_.frame.components[chunk.component].particles;
-  return projector_.project(chunk, particles_.get(particles, chunk));
+  return projector_.project(chunk, particles_in_view(context_, particles_, chunk));
 }
 
 KeyedSplats Pipeline::project_all() {
   std::vector<ParticleBuffers> buffers;
-  for (const DrawnComponent& component : context_.frame.components)
-    buffers.push_back(particles_.get(component.particles));
+  for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
+    const ParticleChunk all = {c, 0, context_.frame.components[c].particles.count};
+    buffers.push_back(particles_in_view(context_, particles_, all));
+  }
   return projector_.project_all(buffers);
 }
 
@@ -80,7 +83,7 @@ Planes Pipeline::draw_sums(Planes planes) {
 
 std::vector<CloudAround> Pipeline::find_around() {
   const auto get = [this](const ParticleChunk& chunk) {
-    return particles_.get(context_.frame.components[chunk.component].particles, chunk);
+    return particles_in_view(context_, particles_, chunk);
   };
   std::vector<CloudAround> clouds = surroundings_.find(particle_chunks(), get, counts_.around);
   counts_.visible += clouds.size();

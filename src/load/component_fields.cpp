@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "between/interpolated_column.h"
+#include "load/component_boxes.h"
 #include "parallel/available_memory.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
@@ -203,6 +205,18 @@ Column ComponentFields::smoothing_lengths() const {
                      [](const TypeFields& type) { return type.smoothing_lengths(); });
   }
   return scalars(component_.size_field, "size.field");
+}
+
+// Of a moment between two snapshots the files of neither tell.
+std::shared_ptr<const ParticleBoxes> ComponentFields::boxes() const {
+  const std::string stale = tell_stale_index(snapshot_);
+  if (!stale.empty()) note(stale);
+  std::vector<int> types;
+  for (std::size_t t = 0; t < types_.size(); ++t) {
+    if (selected_[t] || interpolated(types_[t].positions())) return nullptr;
+    types.push_back(types_[t].info().type);
+  }
+  return component_boxes(component_, snapshot_, types);
 }
 
 void ComponentFields::note(const std::string& text) const {

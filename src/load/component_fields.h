@@ -48,6 +48,9 @@ class ComponentFields {
   // or, for "smoothing_length" where the file has none, found from the particles themselves.
   Column smoothing_lengths() const;
 
+  // Around positions(), in blocks of particles; null where no index beside the snapshot tells.
+  std::shared_ptr<const ParticleBoxes> boxes() const;
+
   // Adds "component NAME: text" to the notes.
   void note(const std::string& text) const;
   std::string label() const;  // "component NAME" for messages

@@ -86,6 +86,7 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   particles.position = fields_.positions();
   particles.smoothing_length = fields_.smoothing_lengths();
   particles.weight = weights(weight);
+  particles.boxes = fields_.boxes();
   apply_fade(fields_, particles);
   particles.color = color();
   if (!component_.color_vector.empty()) {

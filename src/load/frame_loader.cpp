@@ -12,6 +12,7 @@
 #include "load/periodic_wrap.h"
 #include "load/rounded_positions.h"
 #include "load/suggest_scene_camera.h"
+#include "scene/memory_advice.h"
 #include "scene/reference_column.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
@@ -100,6 +101,10 @@ const DrawnComponent& FrameLoader::read(Part& part, WeightModel weight, const Ve
   DrawnComponent drawn = part.reader.drawn(weight);
   if (periodic_box_ > 0 && is_in_the_box(part.reader.component())) {
     wrap_around(look_at, periodic_box_, drawn.particles);
+  }
+  if (drawn.particles.boxes) {
+    for (const Column* const column : drawn.particles.columns())
+      expect_few_values(*column);
   }
   check_particles(drawn, part.reader.fields().snapshot_info().files.front().string());
   return part.drawn.emplace(std::move(drawn));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "load/component_boxes.h"
 #include "parallel/for_blocks.h"
 #include "scene/streamed_column.h"
 #include "splotchcl/error.h"
@@ -41,6 +42,7 @@ void wrap_around(const Vec3& center, double box, Particles& particles) {
     });
     particles.position = Column::owning(std::move(wrapped));
   }
+  if (particles.boxes) particles.boxes = wrapped_boxes(*particles.boxes, shift, box);
   particles.origin = center;
 }
 

@@ -2,35 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 
 #include "common/mapped_file.h"
+#include "common/marked_file.h"
 #include "common/unfinished_file.h"
+#include "common/word_hash.h"
 
 namespace splotchcl {
 namespace {
 
 // The file: this mark, key and count in the machine's own endianness, then the lengths.
-constexpr std::array<char, 16> mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                                       'l', ' ', 'h', ' ', '1', '\n', 0,   0};
+constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
+                           'l', ' ', 'h', ' ', '1', '\n', 0,   0};
 constexpr std::size_t header_bytes = mark.size() + 2 * sizeof(std::uint64_t);
-
-// Mixes numbers into one key (FNV-1a, word by word).
-class Hash {
- public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3U; }
-  void add(double number) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof bits);
-    add(bits);
-  }
-  std::uint64_t value() const { return value_ ^ value_ >> 29; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
 
 }  // namespace
 
@@ -39,7 +25,7 @@ SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type,
                                            std::optional<double> periodic_box, int neighbors)
     : path_(info.files.front()), count_(position.size() / 3) {
   path_ += fmt::format(".type{}.smoothing_lengths", type);
-  Hash hash;
+  WordHash hash;
   hash.add(static_cast<std::uint64_t>(neighbors));
   hash.add(periodic_box.value_or(0));
   hash.add(count_);
@@ -68,13 +54,7 @@ std::optional<Column> SmoothingLengthCache::read() const {
 }
 
 bool SmoothingLengthCache::is_in_the_way() const {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path_, ignored)) return false;
-  if (!std::filesystem::is_regular_file(path_, ignored)) return true;
-  const auto file = MappedFile::open(path_);
-  // A file of ours may have been cut.
-  const auto there = static_cast<std::size_t>(std::min<std::uint64_t>(file->size(), mark.size()));
-  return there > 0 && std::memcmp(file->data(), mark.data(), there) != 0;
+  return is_another_file(path_, mark);
 }
 
 void SmoothingLengthCache::write(const Column& lengths) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/particle_store.h"
@@ -11,14 +13,9 @@
 namespace splotchcl {
 namespace {
 
-std::array<const Column*, 7> columns_of(const Particles& p) {
-  return {&p.position,  &p.smoothing_length, &p.weight,    &p.color,
-          &p.intensity, &p.color_vector,     &p.sort_field};
-}
-
 // Made for one moment between two snapshots, they are not drawn again.
 bool are_of_one_moment(const Particles& particles) {
-  const auto columns = columns_of(particles);
+  const auto columns = particles.columns();
   return std::any_of(columns.begin(), columns.end(),
                      [](const Column* column) { return column->source() != nullptr; });
 }
@@ -32,7 +29,7 @@ bool is_same(const Column& a, const Column& b) {
 }
 
 bool are_same(const Particles& a, const Particles& b) {
-  const auto first = columns_of(a), second = columns_of(b);
+  const auto first = a.columns(), second = b.columns();
   return a.count == b.count &&
          std::equal(first.begin(), first.end(), second.begin(),
                     [](const Column* x, const Column* y) { return is_same(*x, *y); });
@@ -75,7 +72,31 @@ const BlockBoxes::Boxes* BlockBoxes::find(DeviceContext& device, const Particles
   return &known->boxes;
 }
 
+// How many of them are bad is not known: blocks that hold some have no end, and are not left out.
+const BlockBoxes::Boxes& BlockBoxes::given(const std::shared_ptr<const ParticleBoxes>& boxes,
+                                           std::size_t count, std::uint32_t block_particles,
+                                           std::uint64_t frame) {
+  const auto known = std::find_if(given_.begin(), given_.end(),
+                                  [&](const Given& entry) { return entry.boxes == boxes; });
+  if (known != given_.end()) {
+    known->last_frame = frame;
+    return known->of_blocks;
+  }
+  Given given = {boxes, frame, {}};
+  for (std::size_t first = 0; first < count; first += block_particles) {
+    const ParticleBox box = boxes->around(first, std::min(count, first + block_particles));
+    shared::BlockBox block{};
+    std::copy(std::begin(box.lower), std::end(box.lower), block.lower);
+    std::copy(std::begin(box.upper), std::end(box.upper), block.upper);
+    block.largest_h = box.largest_smoothing_length;
+    given.of_blocks.push_back(block);
+  }
+  given_.push_back(std::move(given));
+  return given_.back().of_blocks;
+}
+
 void BlockBoxes::forget_all_but(std::uint64_t frame) {
+  given_.remove_if([frame](const Given& entry) { return entry.last_frame != frame; });
   known_.remove_if([frame](const Known& entry) { return entry.last_frame != frame; });
 }
 

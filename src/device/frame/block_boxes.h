@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <list>
+#include <memory>
 #include <vector>
 
 #include "device/frame/shared.h"
@@ -23,6 +24,9 @@ class BlockBoxes {
   // them; null where there are none. `frame` counts frames.
   const Boxes* find(DeviceContext& device, const Particles& particles,
                     const ParticleBuffers& buffers, std::uint64_t frame);
+  // Those that are known of the particles without their values.
+  const Boxes& given(const std::shared_ptr<const ParticleBoxes>& boxes, std::size_t count,
+                     std::uint32_t block_particles, std::uint64_t frame);
   // Forgets those that `frame` has not asked for.
   void forget_all_but(std::uint64_t frame);
 
@@ -32,7 +36,13 @@ class BlockBoxes {
     std::uint64_t first_frame = 0, last_frame = 0;
     Boxes boxes;
   };
+  struct Given {
+    std::shared_ptr<const ParticleBoxes> boxes;
+    std::uint64_t last_frame = 0;
+    Boxes of_blocks;
+  };
   std::list<Known> known_;
+  std::list<Given> given_;
 };
 
 }  // namespace splotchcl

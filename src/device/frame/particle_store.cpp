@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "device/frame/column_interpolator.h"
+#include "scene/memory_advice.h"
 #include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
@@ -13,10 +14,18 @@ namespace splotchcl {
 namespace {
 
 bool has_streamed_column(const Particles& particles) {
-  return is_streamed(particles.position) || is_streamed(particles.smoothing_length) ||
-         is_streamed(particles.weight) || is_streamed(particles.color) ||
-         is_streamed(particles.intensity) || is_streamed(particles.sort_field) ||
-         is_streamed(particles.color_vector);
+  const auto columns = particles.columns();
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const Column* column) { return is_streamed(*column); });
+}
+
+// Values of particles [first, end) in a column of `count` of them.
+void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
+                   std::uint64_t end) {
+  if (count == 0 || column.size() == 0) return;
+  const std::size_t width = column.size() / count;
+  read_ahead(column, width * static_cast<std::size_t>(first),
+             width * static_cast<std::size_t>(end));
 }
 
 }  // namespace
@@ -107,18 +116,47 @@ compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t value
   if (!column.is_array() || (is_whole && !is_streamed(column)) || interpolated(column))
     return buffer_of(column, value_if_absent, stride);
   stride = 1;
-  if (is_streamed(column)) return streamed_buffer(*source, first, end);
+  if (is_streamed(column)) return streamed_buffer(*source, values_per_particle, piece);
   const Key key = {column.data() + first, (end - first) * sizeof(float), nullptr};
   if (const compute::buffer* const known = find(key)) return *known;
   return keep(key, std::make_shared<const Column>(column));
 }
 
-compute::buffer ParticleStore::streamed_buffer(const ColumnSource& source, std::size_t first,
-                                               std::size_t end) {
-  std::vector<float> values(end - first);
-  source.make(first, end, values.data());
+compute::buffer ParticleStore::streamed_buffer(const ColumnSource& source,
+                                               std::size_t values_per_particle,
+                                               const Piece& piece) {
+  std::vector<float> values((piece.end - piece.first) * values_per_particle);
+  for (const Piece& seen : seen_) {
+    source.make(seen.first * values_per_particle, seen.end * values_per_particle,
+                values.data() + (seen.first - piece.first) * values_per_particle);
+  }
   streamed_.push_back(device_.pool.upload(values, "chunk of a column"));
   return streamed_.back().memory();
+}
+
+// The stretches of a chunk whose blocks are not left out. A chunk of streamed columns is a piece.
+void ParticleStore::list_seen(const Particles& particles, const Piece& chunk,
+                              const ViewBounds* bounds) {
+  seen_.clear();
+  if (!particles.boxes || bounds == nullptr) {
+    seen_.push_back(chunk);
+    return;
+  }
+  const std::uint32_t length = device_.traits.project_block;
+  const BlockBoxes::Boxes& boxes = boxes_.given(particles.boxes, particles.count, length, frame_);
+  for (std::uint64_t first = chunk.first; first < chunk.end; first += length) {
+    if (bounds->leave_out(boxes.at(static_cast<std::size_t>(first / length)))) continue;
+    const std::uint64_t end = std::min<std::uint64_t>(chunk.end, first + length);
+    if (!seen_.empty() && seen_.back().end == first) {
+      seen_.back().end = end;
+    } else {
+      seen_.push_back({first, end});
+    }
+  }
+  for (const Piece& seen : seen_) {
+    for (const Column* const column : particles.columns())
+      read_ahead_of(*column, particles.count, seen.first, seen.end);
+  }
 }
 
 compute::buffer ParticleStore::buffer_of(const std::vector<std::uint32_t>& places,
@@ -211,10 +249,13 @@ ParticleStore::Piece ParticleStore::piece_of(const Particles& particles,
 }
 
 ParticleBuffers ParticleStore::get(const Particles& particles) {
+  list_seen(particles, {0, particles.count}, nullptr);
   return get_piece(particles, {0, particles.count});
 }
 
-ParticleBuffers ParticleStore::get(const Particles& particles, const ParticleChunk& chunk) {
+ParticleBuffers ParticleStore::get(const Particles& particles, const ParticleChunk& chunk,
+                                   const ViewBounds* bounds) {
+  list_seen(particles, {chunk.first, chunk.end}, bounds);
   return get_piece(particles, piece_of(particles, chunk));
 }
 
@@ -236,7 +277,11 @@ ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece
   buffers.sort_field = scalars(particles.sort_field, 0, buffers.sort_stride);
   buffers.own_color = buffer_of(particles.color_vector, 3, piece, 1, buffers.own_color_stride);
   const bool is_whole = piece.end - piece.first == particles.count;
-  if (columns_stay_ && is_whole) buffers.boxes = boxes_.find(device_, particles, buffers, frame_);
+  if (particles.boxes) {
+    buffers.boxes =
+        &boxes_.given(particles.boxes, particles.count, device_.traits.project_block, frame_);
+  } else if (columns_stay_ && is_whole)
+    buffers.boxes = boxes_.find(device_, particles, buffers, frame_);
   return buffers;
 }
 

@@ -9,6 +9,7 @@
 #include "between/interpolated_column.h"
 #include "device/frame/block_boxes.h"
 #include "device/frame/chunks.h"
+#include "device/frame/view_bounds.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/particles.h"
 
@@ -21,7 +22,8 @@ struct ParticleBuffers {
   compute::buffer position, smoothing_length, weight, color, intensity, sort_field, own_color;
   int smoothing_length_stride = 0, weight_stride = 0, color_stride = 0, intensity_stride = 0,
       sort_stride = 0, own_color_stride = 0;
-  const BlockBoxes::Boxes* boxes = nullptr;  // until the frame ends; none in a first frame
+  // Of all blocks of the component, until the frame ends; null where they are not known.
+  const BlockBoxes::Boxes* boxes = nullptr;
 };
 
 // Keeps columns on the device from frame to frame: a second frame of the same data moves
@@ -36,8 +38,10 @@ class ParticleStore {
       : device_(device), columns_stay_(columns_stay) {}
 
   ParticleBuffers get(const Particles& particles);
-  // A piece in which the chunk lies.
-  ParticleBuffers get(const Particles& particles, const ParticleChunk& chunk);
+  // A piece in which the chunk lies. Values that are made as they are wanted are not made for
+  // blocks of particles that `bounds`, which may be null, leave out: those are bad particles then.
+  ParticleBuffers get(const Particles& particles, const ParticleChunk& chunk,
+                      const ViewBounds* bounds = nullptr);
   // Whether get() of a chunk returns all particles.
   bool are_whole(const Particles& particles) const;
   // Bytes on the device, without those that lie in the caller's memory.
@@ -73,7 +77,9 @@ class ParticleStore {
   compute::buffer buffer_of(const Column& column, std::size_t values_per_particle,
                             const Piece& piece, float value_if_absent, int& stride);
   compute::buffer buffer_of(const Column& column, float value_if_absent, int& stride);
-  compute::buffer streamed_buffer(const ColumnSource& source, std::size_t first, std::size_t end);
+  compute::buffer streamed_buffer(const ColumnSource& source, std::size_t values_per_particle,
+                                  const Piece& piece);
+  void list_seen(const Particles& particles, const Piece& chunk, const ViewBounds* bounds);
   void make_room(std::size_t bytes);
   compute::buffer constant(float value);
   // That of an entry, which is wanted by this frame then; null where there is none.
@@ -92,6 +98,7 @@ class ParticleStore {
   std::map<Key, Entry> entries_;
   std::map<float, compute::buffer> constants_;
   std::vector<Buffer<float>> streamed_;  // of the last chunk
+  std::vector<Piece> seen_;              // stretches of it that are in view
   BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;

@@ -275,6 +275,15 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   return p;
 }
 
+ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& particles,
+                                  const ParticleChunk& chunk) {
+  const DrawnComponent& component = context.frame.components[chunk.component];
+  if (!component.particles.boxes) return particles.get(component.particles, chunk);
+  const ViewBounds bounds(context.frame, component,
+                          make_project_parameters(context, chunk.component));
+  return particles.get(component.particles, chunk, &bounds);
+}
+
 shared::WideInteger wide(std::uint64_t value) {
   return {static_cast<unsigned>(value & 0xffffffffu), static_cast<unsigned>(value >> 32)};
 }

@@ -17,6 +17,11 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   const ParticleChunk& chunk,
                                                   const ParticleBuffers& particles);
 
+// The buffers that a chunk lies in, without the values of blocks that are known to be out of view
+// where these are made as they are wanted.
+ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& particles,
+                                  const ParticleChunk& chunk);
+
 // The words of an integer, as kernels take it.
 shared::WideInteger wide(std::uint64_t value);
 shared::WideInteger wide(std::int64_t value);

@@ -119,8 +119,8 @@ std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParam
   if (particles.boxes == nullptr) return {};
   const DrawnComponent& component = context_.frame.components[parameters.component];
   const ViewBounds bounds(context_.frame, component, parameters);
-  // Boxes are of whole columns alone.
-  const std::size_t first = parameters.first_particle / parameters.block_particles;
+  const auto first = static_cast<std::size_t>((particles.first + parameters.first_particle) /
+                                              parameters.block_particles);
   std::vector<std::uint32_t> blocks(block_count(parameters));
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const shared::BlockBox& box = particles.boxes->at(first + b);

@@ -7,6 +7,7 @@
 #include "device/frame/splat_capacity.h"
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/project_parameters.h"
 
 namespace splotchcl {
 namespace {
@@ -40,7 +41,7 @@ WindowProjector::WindowProjector(const StageContext& context, const Projector& p
       bins_(chunks_.size()) {}
 
 ParticleBuffers WindowProjector::particles_of(const ParticleChunk& chunk) const {
-  return particles_.get(context_.frame.components[chunk.component].particles, chunk);
+  return particles_in_view(context_, particles_, chunk);
 }
 
 std::uint64_t WindowProjector::most_splats_of(const ParticleChunk& chunk) const {
