@@ -55,6 +55,13 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
 splotchcl_package(openimageio splotchcl-openimageio science
   "renderer of particle simulations - other picture formats" ${about}
   "." "This lets it read and write the formats of pictures that OpenImageIO knows.")
+# Several processes, for each MPI that was there.
+get_property(mpis GLOBAL PROPERTY SPLOTCHCL_MPIS)
+foreach(mpi IN LISTS mpis)
+  splotchcl_package(${mpi} splotchcl-${mpi} science
+    "renderer of particle simulations - several processes" ${about}
+    "." "This lets several processes draw a picture together, by ${mpi}.")
+endforeach()
 # A module for another Python than Debian's own would not be found.
 if(SPLOTCHCL_PYTHON AND Python_EXECUTABLE MATCHES "^/usr/bin/")
   get_property(minor GLOBAL PROPERTY SPLOTCHCL_PYTHON_MINOR)

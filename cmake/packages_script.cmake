@@ -40,9 +40,13 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   write_documents(${folder} ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
 endforeach()
 
-# It is opened by its name, by what was built with it, and nobody links it.
-file(WRITE ${CPACK_TEMPORARY_DIRECTORY}/openimageio/usr/share/lintian/overrides/splotchcl-openimageio
-  "splotchcl-openimageio: sharedobject-in-library-directory-missing-soname\n")
+# They are opened by their names, by what was built with them, and nobody links them.
+foreach(module IN ITEMS openimageio openmpi mpich)
+  if(module IN_LIST CPACK_COMPONENTS_ALL)
+    file(WRITE ${CPACK_TEMPORARY_DIRECTORY}/${module}/usr/share/lintian/overrides/splotchcl-${module}
+      "splotchcl-${module}: sharedobject-in-library-directory-missing-soname\n")
+  endif()
+endforeach()
 
 set(program ${CPACK_TEMPORARY_DIRECTORY}/program/usr/share)
 file(GLOB pages ${program}/man/man1/*.1)

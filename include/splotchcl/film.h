@@ -25,6 +25,9 @@ struct FilmOptions {
   // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
   std::optional<std::filesystem::path> stats;
   bool only_join = false;  // makes the film of frames that are drawn already
+  // As in FrameDrawerOptions: each frame is drawn by all ranks, which all call make_film. The first
+  // of them has the files. It alone reports notes and progress; what stops it stops all.
+  std::shared_ptr<Communicator> ranks = nullptr;
 };
 
 // Who is told while a film is made. Each may be empty.

@@ -28,6 +28,8 @@ struct FrameDrawerOptions {
   CompositeShape shape = CompositeShape::automatic;
   bool columns_stay = false;       // as in RendererOptions: not for arrays that change in place
   std::uint64_t memory_bytes = 0;  // as in RendererOptions
+  // As in RendererOptions. All ranks draw the same scenes and have the same pictures.
+  std::shared_ptr<Communicator> ranks = nullptr;
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

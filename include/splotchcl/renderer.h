@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "splotchcl/communicator.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"
@@ -58,6 +59,13 @@ struct RendererOptions {
   // particles are then looked at once for where they lie, when they are drawn a second time, and
   // those out of view are not projected. Pictures have the same bits.
   bool columns_stay = false;
+  // Ranks that draw each frame together: all make the same renderer and draw the same frames with
+  // it, and all have the picture, of the same bits that one process gives. They need devices of the
+  // same kind: those of one host take different ones, where it has several. Null: this process
+  // alone.
+  std::shared_ptr<Communicator> ranks = nullptr;
+  // Of a sum (chunks.h), for tests: 0: as the device has them.
+  std::uint32_t leaf_chunks = 0;
   // Told from part to part of a frame how much of it is drawn, from 0 to 1, once for each time that
   // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
   // is drawn as if nothing had been. Must not use the renderer.
@@ -67,6 +75,15 @@ struct RendererOptions {
 struct StageTime {
   std::string stage;  // project, sort, bin, composite, resolve, ...
   double seconds = 0;
+};
+
+// What one of several ranks did for a frame.
+struct ProcessStats {
+  std::string host;
+  std::uint64_t particles = 0;   // that it projected, of its share
+  std::uint64_t splats = 0;      // that it composited
+  std::uint64_t sent_bytes = 0;  // to others: splats, planes
+  double seconds = 0;            // from the first to the last of them, waiting included
 };
 
 struct RenderStats {
@@ -93,7 +110,8 @@ struct RenderStats {
   // machine lets them wait. Where kernels were compiled, `host` is too small.
   std::vector<StageTime> serial;
   FrameCheck check;
-  std::string note;  // what the user should know of the device; empty: nothing
+  std::vector<ProcessStats> processes;  // by rank, the same at all; none where one process drew
+  std::string note;                     // what the user should know of the device; empty: nothing
 };
 
 // Draws frames on one OpenCL device. Keeps compiled kernels and buffers between frames.

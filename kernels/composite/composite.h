@@ -16,7 +16,14 @@ struct BehindParameters {
   int crop_x, crop_y;  // in the picture
 };
 
+// Of planes that are added to others (add_light.cl).
+struct AddLightParameters {
+  unsigned int first_low, first_high;  // float of the first plane, 64 bits
+  unsigned int plane_floats;           // of each
+};
+
 #ifdef __OPENCL_VERSION__
+typedef struct AddLightParameters AddLightParameters;
 typedef struct CompositeParameters CompositeParameters;
 typedef struct BehindParameters BehindParameters;
 #endif

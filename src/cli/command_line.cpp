@@ -111,11 +111,13 @@ void add_render(CLI::App& app, Run& run, Console& console) {
                           "where that is more than 1, as an image: an .exr has the numbers"))
       ->type_name("FILE");
   sub->footer(
+      "Started by mpirun or srun, several processes draw the picture together, to the same bits.\n"
       "Examples:\n"
       "  splotchcl render snapshot_006 -o universe.png\n"
       "  splotchcl render snapshot_006 --size 1920x1080\n"
       "  splotchcl render snapshot_006 --explain > scene.toml\n"
-      "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128");
+      "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128\n"
+      "  mpirun -n 8 splotchcl render scene.toml -o large.png");
 }
 
 void add_convert(CLI::App& app, Run& run, Console& console) {
@@ -162,7 +164,8 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
                 wrapped("Draw nothing: make the film of frames that are all there"));
   sub->footer(
       "A film that was interrupted is continued by the same command: its frames are kept in\n"
-      "FILE.frames until it is complete.\n"
+      "FILE.frames until it is complete. Started by mpirun or srun, several processes draw each\n"
+      "frame together.\n"
       "Examples:\n"
       "  splotchcl movie flight.toml -o flight.mp4\n"
       "  splotchcl movie flight.toml --explain\n"

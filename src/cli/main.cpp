@@ -9,9 +9,11 @@
 
 #include "cli/command_line.h"
 #include "cli/console.h"
+#include "cli/processes.h"
 #include "common/crash_guard.h"
 #include "common/quiet_errors.h"
 #include "common/shrink_guard.h"
+#include "ranks/agreement.h"
 #include "splotchcl/error.h"
 
 namespace {
@@ -19,21 +21,43 @@ namespace {
 constexpr int failed = 1;        // the data or the device
 constexpr int called_wrong = 2;  // the call or the scene
 
+int run_alone(int argc, char** argv, splotchcl::cli::Console& console) {
+  const int code = splotchcl::cli::run_command_line(argc, argv, console);
+  std::cout.flush();
+  if (!std::cout)
+    throw splotchcl::DataError("standard output could not be written: is the disk full?");
+  return code;
+}
+
+bool is_agreed(const std::exception& error) {
+  return dynamic_cast<const splotchcl::AgreedFailure*>(&error) != nullptr;
+}
+
+// Tells what went wrong, and ends the processes that were started with this one.
+int fail(const std::exception& error, const char* message, int code,
+         splotchcl::cli::Console& console) {
+  console.error(message);
+  splotchcl::cli::leave_processes(code, is_agreed(error));
+  return code;
+}
+
 int run(int argc, char** argv, splotchcl::cli::Console& console) {
   try {
-    const int code = splotchcl::cli::run_command_line(argc, argv, console);
-    std::cout.flush();
-    if (std::cout) return code;
-    console.error("standard output could not be written: is the disk full?");
+    const int code = run_alone(argc, argv, console);
+    splotchcl::cli::leave_processes(code, true);
+    return code;
+  } catch (const splotchcl::FailedElsewhere& elsewhere) {
+    const int code = elsewhere.is_usage() ? called_wrong : failed;
+    splotchcl::cli::leave_processes(code, true);
+    return code;
   } catch (const splotchcl::UsageError& error) {
-    console.error(error.what());
-    return called_wrong;
-  } catch (const std::bad_alloc&) {
-    console.error("out of memory; fewer particles or a smaller picture need less");
+    return fail(error, error.what(), called_wrong, console);
+  } catch (const std::bad_alloc& error) {
+    return fail(error, "out of memory; fewer particles or a smaller picture need less", failed,
+                console);
   } catch (const std::exception& error) {
-    console.error(error.what());
+    return fail(error, error.what(), failed, console);
   }
-  return failed;
 }
 
 int run(int argc, char** argv) {

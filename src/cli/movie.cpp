@@ -7,10 +7,12 @@
 
 #include "cli/commands.h"
 #include "cli/explanation.h"
+#include "cli/processes.h"
 #include "cli/render_stats.h"
 #include "common/unfinished_file.h"
 #include "film/frames/film_scene.h"
 #include "film/movie/frame_range.h"
+#include "ranks/agreement.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/load.h"
@@ -107,8 +109,9 @@ class Watch {
   std::vector<FilmFrameStats> drawn_;
 };
 
-FilmOptions film_options(const MovieOptions& options) {
+FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Communicator>& ranks) {
   FilmOptions film;
+  film.ranks = ranks;
   film.scene = options.scene;
   film.stats = options.stats;
   film.output = *options.output;
@@ -167,12 +170,20 @@ int run_movie(const MovieOptions& options, Console& console) {
         "movie: found no --output, expected a film such as film.mp4, or numbered images such as "
         "frame_%04d.png; see splotchcl movie --help");
   }
-  if (options.stats) check_output_path(*options.stats);
-  if (options.explain) explain_film(options, console);
+  const std::shared_ptr<Communicator> ranks = join_processes(console);
+  const bool writes = writes_files(ranks);
+  agree(ranks.get(), [&] {
+    if (ranks && options.reference) {
+      throw UsageError("--reference: found " + std::to_string(ranks->size()) +
+                       " processes, expected one: it draws alone");
+    }
+    if (writes && options.stats) check_output_path(*options.stats);
+    if (writes && options.explain) explain_film(options, console);
+  });
   if (!options.output) return 0;
   Watch watch(console);
-  const FilmResult result = make_film(film_options(options), watch.report());
-  if (options.stats) {
+  const FilmResult result = make_film(film_options(options, ranks), watch.report());
+  if (writes && options.stats) {
     FilmStats stats;
     stats.scene = options.scene.string();
     stats.output = options.output->string();

@@ -5,10 +5,12 @@
 
 #include "cli/commands.h"
 #include "cli/explanation.h"
+#include "cli/processes.h"
 #include "cli/render_stats.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "open_scene/input_files.h"
+#include "ranks/agreement.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"
@@ -128,22 +130,21 @@ Image make_error_map(const FrameCheck& check, const Rectangle& crop) {
   return map;
 }
 
-}  // namespace
-
-int run_render(const RenderOptions& options, Console& console) {
-  // Whatever would fail at the end is tried first.
-  const std::optional<std::filesystem::path> output = choose_output(options);
-  if (output) check_image_path(*output);
-  if (options.stats) check_output_path(*options.stats);
+// Everything up to the frame. Only one process looks at what is to be written.
+SceneWithSnapshot open_checked(const RenderOptions& options,
+                               const std::optional<std::filesystem::path>& output, bool writes,
+                               Console& console) {
+  if (writes && output) check_image_path(*output);
+  if (writes && options.stats) check_output_path(*options.stats);
   if (options.error_map) {
     if (options.reference) throw UsageError("--error-map: the reference has no errors to be drawn");
-    check_image_path(*options.error_map);
+    if (writes) check_image_path(*options.error_map);
   }
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
-
-  const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
   for (const std::string& note : source.notes)
     console.note(note);
+  if (!writes) return source;
   const ImageSettings& picture = source.scene.image;
   std::vector<OutputFile> outputs;
   if (output) {
@@ -154,26 +155,79 @@ int run_render(const RenderOptions& options, Console& console) {
   if (options.stats) outputs.push_back({*options.stats, "--stats"});
   if (options.error_map) outputs.push_back({*options.error_map, "--error-map"});
   check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
+  return source;
+}
+
+FrameDrawerOptions drawer_options(const RenderOptions& options,
+                                  const std::shared_ptr<Communicator>& ranks, Console& console) {
+  FrameDrawerOptions of_drawer{options.device,         options.reference,
+                               show_progress(console), options.certify || options.error_map,
+                               options.shape,          false,
+                               options.memory_bytes};
+  of_drawer.ranks = ranks;
+  return of_drawer;
+}
+
+// The pictures, and what was asked for beside them.
+void write_all(const RenderOptions& options, const std::filesystem::path& output,
+               const SceneWithSnapshot& source, const DrawnFrame& drawn, RenderReport& report,
+               Console& console) {
+  std::optional<Image> map;
+  if (options.error_map) map = make_error_map(report.stats.check, report.frame.crop);
+  const Stopwatch writing;
+  console.status("writing " + output.string());
+  Scene drawn_scene = source.scene;
+  if (drawn.finish) drawn_scene.finish = *drawn.finish;
+  write_pictures(output, drawn.pictures,
+                 image_file_options(source.scene, metadata(drawn_scene, options, drawn.stats)));
+  if (map) write_image(*options.error_map, *map, image_file_options(source.scene, {}));
+  report.write_seconds = writing.seconds();
+  if (!options.stats) return;
+  report.scene = options.scene.string();
+  report.snapshot = source.snapshot->info().files.front().string();
+  report.output = output.string();
+  report.reference = options.reference;
+  write_stats(*options.stats, report);
+}
+
+std::string by_processes(const RenderStats& stats) {
+  return stats.processes.empty() ? "" : fmt::format(" by {} processes", stats.processes.size());
+}
+
+}  // namespace
+
+int run_render(const RenderOptions& options, Console& console) {
+  const std::shared_ptr<Communicator> ranks = join_processes(console);
+  const bool writes = writes_files(ranks);
+  // Whatever would fail at the end is tried first.
+  const std::optional<std::filesystem::path> output = choose_output(options);
+  std::optional<SceneWithSnapshot> opened;
   std::optional<FrameDrawer> drawer;
+  RenderReport report;
+  agree(ranks.get(), [&] {
+    if (ranks && options.reference) {
+      throw UsageError("--reference: found " + std::to_string(ranks->size()) +
+                       " processes, expected one: it draws alone");
+    }
+    opened.emplace(open_checked(options, output, writes, console));
+  });
+  const SceneWithSnapshot& source = *opened;
   if (output) {
     if (!options.reference) console.status("starting the device");
-    drawer.emplace(FrameDrawerOptions{options.device, options.reference, show_progress(console),
-                                      options.certify || options.error_map, options.shape, false,
-                                      options.memory_bytes});
+    drawer.emplace(drawer_options(options, ranks, console));
   }
-
-  RenderReport report;
-  const Stopwatch reading;
-  report.frame = read_frame(source, options, console);
-  report.read_seconds = reading.seconds();
-  if (options.explain || options.stats) {
-    PlanOptions plan;
-    plan.certify = options.certify || options.error_map;
-    report.plan = make_plan(report.frame, plan);
-  }
-  if (options.explain) {
-    print_explanation(report.plan, report.frame, source.scene, options, 1);
-  }
+  agree(ranks.get(), [&] {
+    const Stopwatch reading;
+    report.frame = read_frame(source, options, console);
+    report.read_seconds = reading.seconds();
+    if (options.explain || options.stats) {
+      PlanOptions plan;
+      plan.certify = options.certify || options.error_map;
+      report.plan = make_plan(report.frame, plan);
+    }
+    if (options.explain && writes)
+      print_explanation(report.plan, report.frame, source.scene, options, 1);
+  });
   if (!output) return 0;
 
   const Stopwatch drawing;
@@ -184,28 +238,14 @@ int run_render(const RenderOptions& options, Console& console) {
   for (const std::string& note : drawn.all_notes())
     console.note(note);
   report.draw_seconds = drawing.seconds();
-  std::optional<Image> map;
-  if (options.error_map) map = make_error_map(report.stats.check, report.frame.crop);
-  const Stopwatch writing;
-  console.status("writing " + output->string());
-  Scene drawn_scene = source.scene;
-  if (drawn.finish) drawn_scene.finish = *drawn.finish;
-  write_pictures(*output, drawn.pictures,
-                 image_file_options(source.scene, metadata(drawn_scene, options, drawn.stats)));
-  if (map) write_image(*options.error_map, *map, image_file_options(source.scene, {}));
-  report.write_seconds = writing.seconds();
-  if (options.stats) {
-    report.scene = options.scene.string();
-    report.snapshot = source.snapshot->info().files.front().string();
-    report.output = output->string();
-    report.reference = options.reference;
-    write_stats(*options.stats, report);
-  }
-  console.done(fmt::format("{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}",
-                           output->string(), drawn.pictures.front().image.width,
-                           drawn.pictures.front().image.height, report.stats.particles,
-                           report.read_seconds, report.draw_seconds, report.stats.device,
-                           compilation(report.stats)));
+  agree(ranks.get(), [&] {
+    if (writes) write_all(options, *output, source, drawn, report, console);
+  });
+  console.done(fmt::format(
+      "{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}{}", output->string(),
+      drawn.pictures.front().image.width, drawn.pictures.front().image.height,
+      report.stats.particles, report.read_seconds, report.draw_seconds, report.stats.device,
+      by_processes(report.stats), compilation(report.stats)));
   return 0;
 }
 

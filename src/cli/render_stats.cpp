@@ -1,5 +1,6 @@
 #include "cli/render_stats.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -53,6 +54,19 @@ Json stages_to_json(const std::vector<StageTime>& times) {
   return stages;
 }
 
+// One process has nobody to share with.
+Json processes_to_json(const std::vector<ProcessStats>& processes) {
+  Json ranks = Json::array();
+  for (const ProcessStats& process : processes) {
+    ranks.push_back({{"host", process.host},
+                     {"particles", process.particles},
+                     {"splats", process.splats},
+                     {"sent_bytes", process.sent_bytes},
+                     {"seconds", process.seconds}});
+  }
+  return {{"number", std::max<std::size_t>(1, processes.size())}, {"ranks", ranks}};
+}
+
 // What a scene may leave to its picture.
 Json finish_to_json(const std::optional<FinishSettings>& finish) {
   if (!finish || !finish->exposure || !finish->white) return nullptr;
@@ -80,6 +94,7 @@ Json to_json(const RenderReport& report) {
           {"blocks_left_out", report.stats.blocks_left_out},
           {"windows", report.stats.windows},
           {"device_bytes", report.stats.device_bytes},
+          {"processes", processes_to_json(report.stats.processes)},
           {"seconds", seconds_to_json(report)},
           {"stages", stages_to_json(report.stats.stages)},
           {"serial", stages_to_json(report.stats.serial)}};
@@ -92,6 +107,7 @@ Json to_json(const FilmFrameStats& frame) {
           {"blocks_left_out", frame.stats.blocks_left_out},
           {"windows", frame.stats.windows},
           {"device_bytes", frame.stats.device_bytes},
+          {"processes", processes_to_json(frame.stats.processes)},
           {"seconds",
            {{"draw", frame.stats.total_seconds},
             {"serial", sum_of(frame.stats.serial)},

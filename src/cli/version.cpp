@@ -5,11 +5,14 @@
 
 namespace splotchcl::cli {
 
-std::string version_text() {
-  std::string text = "splotchcl " SPLOTCHCL_VERSION;
+std::string version_and_commit() {
   const std::string commit = SPLOTCHCL_COMMIT;  // empty: not built from a repository
-  if (!commit.empty()) text += " (commit " + commit + ")";
-  return text + "\nOpenCL loader: " + opencl_loader() + "\nbuilt with " SPLOTCHCL_BUILT_WITH;
+  return SPLOTCHCL_VERSION + (commit.empty() ? "" : " (commit " + commit + ")");
+}
+
+std::string version_text() {
+  return "splotchcl " + version_and_commit() + "\nOpenCL loader: " + opencl_loader() +
+         "\nbuilt with " SPLOTCHCL_BUILT_WITH;
 }
 
 }  // namespace splotchcl::cli

@@ -1,29 +1,15 @@
 #include "device/pipeline.h"
 
-#include <optional>
 #include <utility>
 
+#include "device/ranks/leaf_sums.h"
+#include "device/stages/carry_splats.h"
 #include "device/stages/project_parameters.h"
 
 namespace splotchcl {
-namespace {
-
-// All 48 bits.
-std::vector<std::uint64_t> sort_keys_of(const StageContext& context, const KeyedSplats& keyed) {
-  BufferPool& pool = context.device.pool;
-  const bool has_ends = keyed.key_ends.size() > 0;
-  const std::vector<std::uint32_t> upper = pool.download(keyed.keys, keyed.count);
-  const std::vector<std::uint16_t> ends = pool.download(keyed.key_ends, has_ends ? keyed.count : 0);
-  std::vector<std::uint64_t> keys(upper.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    keys[i] = std::uint64_t{upper[i]} << 16 | (has_ends ? ends[i] : 0);
-  return keys;
-}
-
-}  // namespace
 
 Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
-                   const FramePlan& plan, std::function<void(double)> progress)
+                   const FramePlan& plan, std::function<void(double)> progress, FrameRanks* ranks)
     : particles_(particles),
       context_(device, frame, plan),
       projector_(context_),
@@ -33,15 +19,17 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       resolver_(context_),
       certifier_(context_),
       surroundings_(context_),
-      progress_(std::move(progress)) {}
+      progress_(std::move(progress)),
+      ranks_(ranks) {
+  if (ranks_ != nullptr) transfer_.emplace(context_, compositor_, *ranks_);
+}
 
 Image Pipeline::draw() {
   counts_ = {};
   around_ = {};
   counts_.particles = particle_count(context_.frame);
-  Planes planes = compositor_.start();
-  planes =
-      context_.plan.needs_sort() ? draw_ordered(std::move(planes)) : draw_sums(std::move(planes));
+  Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
+  if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
   return resolver_.resolve(std::move(planes));
 }
 
@@ -69,33 +57,65 @@ KeyedSplats Pipeline::project_all() {
   return projector_.project_all(buffers);
 }
 
-// Order does not matter: particles pass through in chunks, and the working memory is a
-// chunk's, however many there are.
-Planes Pipeline::draw_sums(Planes planes) {
+// Order does not matter: particles pass through in chunks, and the working memory is a chunk's and
+// that of a few sums, however many there are.
+Planes Pipeline::draw_sums() {
   const std::vector<ParticleChunk> chunks = particle_chunks();
-  for (std::size_t i = 0; i < chunks.size() && counts_.too_sharp == 0; ++i) {
-    tell(i, chunks.size());
-    planes = add_chunk(chunks[i], std::move(planes));
-  }
-  if (counts_.around > 0 && counts_.too_sharp == 0) surroundings_.draw(find_around(), planes);
-  return planes;
+  const std::vector<ChunkRange> leaves = sum_leaves(chunks.size(), context_.device.traits);
+  LeafSums sums(context_, leaves.size(), ranks_, transfer_ ? &*transfer_ : nullptr);
+  std::vector<ParticleChunk> own_chunks;
+  sums.draw([&](std::size_t leaf) {
+    const auto begin = chunks.begin();
+    own_chunks.insert(own_chunks.end(), begin + static_cast<std::ptrdiff_t>(leaves[leaf].first),
+                      begin + static_cast<std::ptrdiff_t>(leaves[leaf].end));
+    return draw_leaf(chunks, leaves[leaf]);
+  });
+  const std::uint64_t own_around = counts_.around;
+  add_up_counts();
+  if (leaves.empty() || counts_.too_sharp > 0) return compositor_.start();
+  std::vector<CloudAround> around;
+  if (counts_.around > 0)
+    around = ranks_ == nullptr ? find_around() : gather_around(own_chunks, own_around);
+  SplatLight light = sums.join();
+  certifier_.put_cells(std::move(light.cells));
+  if (is_first()) surroundings_.draw(around, light.planes);
+  return std::move(light.planes);
 }
 
-std::vector<CloudAround> Pipeline::find_around() {
+SplatLight Pipeline::draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf) {
+  SplatLight light;
+  light.planes = compositor_.start();
+  for (std::size_t i = leaf.first; i < leaf.end && counts_.too_sharp == 0; ++i) {
+    tell(i, chunks.size());
+    light.planes = add_chunk(chunks[i], std::move(light.planes));
+  }
+  light.cells = certifier_.take_cells();
+  return light;
+}
+
+std::vector<CloudAround> Pipeline::list_around(const std::vector<ParticleChunk>& chunks,
+                                               std::uint64_t counted) {
   const auto get = [this](const ParticleChunk& chunk) {
     return particles_in_view(context_, particles_, chunk);
   };
-  std::vector<CloudAround> clouds = surroundings_.find(particle_chunks(), get, counts_.around);
+  return surroundings_.list(chunks, get, counted);
+}
+
+std::vector<CloudAround> Pipeline::find_around() {
+  std::vector<CloudAround> clouds =
+      surroundings_.in_order(list_around(particle_chunks(), counts_.around));
   counts_.visible += clouds.size();
   return clouds;
 }
 
 Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
+  if (ranks_ != nullptr) ranks_->work.particles += chunk.count();
   SplatBlocks blocks = project(chunk);
   counts_.blocks_left_out += blocks.left_out;
   planes = draw_lists(binner_.count(blocks), std::move(planes));
   // Read last: the device has long counted them.
   const ParticleCounts particles = projector_.count(blocks);
+  if (ranks_ != nullptr) ranks_->work.splats += particles.visible;
   counts_.visible += particles.visible;
   counts_.bad += particles.bad;
   counts_.too_sharp += particles.too_sharp;
@@ -115,6 +135,7 @@ bool Pipeline::has_room_for_all_splats() const {
 
 // Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
 Planes Pipeline::draw_ordered(Planes planes) {
+  if (ranks_ != nullptr) return draw_slices(std::move(planes));
   if (!has_room_for_all_splats()) return draw_windows(std::move(planes));
   KeyedSplats keyed = project_all();
   counts_.blocks_left_out = keyed.left_out;
@@ -217,7 +238,12 @@ void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {
 // Tiles do not depend on each other, so lists that do not fit together are made and drawn
 // band by band of the picture, to the same bits.
 Planes Pipeline::draw_lists(const CountedSplats& counted, Planes planes) {
-  for (const TileBand& band : counted.bands) {
+  return draw_lists(counted, counted.bands, std::move(planes));
+}
+
+Planes Pipeline::draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
+                            Planes planes) {
+  for (const TileBand& band : bands) {
     const TileLists lists = binner_.make_lists(counted, band);
     counts_.tile_entries += lists.entry_count;
     certifier_.collect(lists);

@@ -3,12 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
+#include "device/ranks/light_transfer.h"
+#include "device/ranks/rank_work.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
 #include "device/stages/compositor.h"
@@ -20,6 +23,9 @@
 #include "splotchcl/image.h"
 
 namespace splotchcl {
+
+class SplatExchange;
+struct SlicePart;
 
 struct DrawCounts {
   std::uint64_t particles = 0;  // in the components
@@ -36,17 +42,19 @@ struct DrawCounts {
 class Pipeline {
  public:
   // All of them outlive the pipeline. The device's shape is that of its traits. `progress` as in
-  // RendererOptions.
+  // RendererOptions. `ranks` draw the frame together, with the same plan; null: one process does.
   Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
-           const FramePlan& plan, std::function<void(double)> progress = {});
+           const FramePlan& plan, std::function<void(double)> progress = {},
+           FrameRanks* ranks = nullptr);
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Of no use where counts() tells of particles that are too sharp: it ends early then.
+  // Of no use where counts() tells of particles that are too sharp: it ends early then. Of ranks
+  // the first has the picture, the others a black one.
   Image draw();
-  // Of all splats that have been drawn.
+  // Of all splats that have been drawn; of ranks the first knows.
   CollectedSplats collected() const;
-  const DrawCounts& counts() const { return counts_; }  // of what has been drawn
+  const DrawCounts& counts() const { return counts_; }  // of what has been drawn, by all ranks
 
   const StageContext& context() const { return context_; }
   std::vector<ParticleChunk> particle_chunks() const;
@@ -59,8 +67,10 @@ class Pipeline {
   const Resolver& resolver() const { return resolver_; }
 
  private:
+  bool is_first() const { return ranks_ == nullptr || ranks_->rank() == 0; }
   Planes add_chunk(const ParticleChunk& chunk, Planes planes);
-  Planes draw_sums(Planes planes);
+  SplatLight draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf);
+  Planes draw_sums();
   Planes draw_ordered(Planes planes);
   bool has_room_for_all_splats() const;
   Planes draw_windows(Planes planes);
@@ -70,6 +80,24 @@ class Pipeline {
   Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
   Planes end_order(std::uint64_t splats, Planes planes);
   std::vector<CloudAround> find_around();
+  std::vector<CloudAround> list_around(const std::vector<ParticleChunk>& chunks,
+                                       std::uint64_t counted);
+
+  // Several ranks (pipeline_ranks.cpp).
+  std::vector<CloudAround> gather_around(const std::vector<ParticleChunk>& own_chunks,
+                                         std::uint64_t own);
+  void add_up_counts();
+  Planes draw_slices(Planes planes);
+  void place_around_of_round(const SplatExchange& exchange, std::size_t round,
+                             const std::vector<std::uint64_t>& own_keys);
+  SplatLight draw_slice(const SortedSplats& sorted, const SlicePart& part,
+                        const std::vector<SplatChunk>& chunks, SplatLight light);
+  SplatLight draw_slice_in_bands(const SortedSplats& sorted, const SlicePart& part,
+                                 const std::vector<SplatChunk>& chunks, SplatLight light);
+  Planes draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
+                    Planes planes);
+  void send_state(const SplatLight& light, int to);
+  SplatLight receive_state(int from);
   void place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
   void draw_around(const CloudLayer& layer, const Planes& planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
@@ -88,6 +116,8 @@ class Pipeline {
   CloudLayers around_;
   DrawCounts counts_;
   std::function<void(double)> progress_;
+  FrameRanks* ranks_;                      // null: one process
+  std::optional<LightTransfer> transfer_;  // between ranks
 };
 
 }  // namespace splotchcl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "parallel/thread_seconds.h"
+#include "ranks/agreement.h"
+#include "ranks/values.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -86,11 +89,17 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
 }
 
+// Ranks of one host take its devices in turn.
+int device_of_rank(const Communicator* ranks) {
+  return ranks == nullptr ? 0 : ranks->rank_on_host();
+}
+
 }  // namespace
 
 struct Renderer::State {
   explicit State(const RendererOptions& options)
-      : device(choose_device(options.device)), particles(device, options.columns_stay) {
+      : device(choose_device(options.device, device_of_rank(options.ranks.get()))),
+        particles(device, options.columns_stay) {
     // The shape decides for all stages: a processor that is asked for groups runs the kernels and
     // the sizes of a GPU.
     if (options.shape != CompositeShape::automatic) {
@@ -101,9 +110,14 @@ struct Renderer::State {
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
     progress = options.progress;
+    if (options.leaf_chunks > 0) device.traits.leaf_chunks = options.leaf_chunks;
+    join_ranks(options);
   }
 
+  void join_ranks(const RendererOptions& options);
+
   Image render(const Frame& frame, const FramePlan& plan);
+  bool is_first() const { return !ranks || ranks->rank() == 0; }
   // Draws until the promise is kept.
   DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan);
   // Draws those parts of the picture in order that slabs did not suffice for, where they are small.
@@ -111,6 +125,10 @@ struct Renderer::State {
   // Draws, and what was drawn.
   Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
   void note(const DrawCounts& counts);
+  void note_processes();
+  // What the first of several ranks knows becomes known to all.
+  void share(Certificate& certificate) const;
+  void share(Image& image) const;
 
   DeviceContext device;
   ParticleStore particles;
@@ -118,7 +136,23 @@ struct Renderer::State {
   double check_seconds = 0;  // of the frame, by the thread that draws
   PlanOptions plan_options;
   std::function<void(double)> progress;
+  std::shared_ptr<Communicator> ranks;  // null: one process
+  RankWork work;                        // this one's, for the frame
 };
+
+// Ranks of one host share its memory.
+void Renderer::State::join_ranks(const RendererOptions& options) {
+  if (!options.ranks || options.ranks->size() < 2) return;
+  ranks = options.ranks;
+  if (options.memory_bytes == 0 && device.traits.shares_host_memory)
+    device.memory.total /= static_cast<std::uint64_t>(ranks->size_on_host());
+  const DeviceTraits& traits = device.traits;
+  require_same(*ranks, "device",
+               device.device.name() + ", driver " + device.device.driver_version() +
+                   (traits.rows ? ", rows" : ", groups") + (traits.rows_of_16 ? " of 16" : "") +
+                   (traits.double_numbers ? "" : ", pairs"),
+               "choose the same everywhere with --device");
+}
 
 Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   check_frame(frame);
@@ -134,13 +168,16 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   particles.begin_frame();
 
   stats.check.is_bound = plan.certify;
+  work = {};
   Image image = draw_until_kept(frame, plan).image;
+  share(image);
   particles.end_frame();
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
   stats.stages = device.timer.times();
   stats.build_seconds = device.programs.build_seconds() - built_before;
   stats.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  note_processes();
   const double host_seconds = thread_seconds() - host_start - stats.build_seconds - check_seconds;
   stats.serial = device.timer.serial_times();
   stats.serial.push_back({"check", check_seconds});
@@ -162,9 +199,12 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
       continue;
     }
     const double before = thread_seconds();
-    picture.certificate = drawn.is_extended()
-                              ? certify_extended(picture.image, frame)
-                              : certify(splats.collected, picture.image, frame, drawn);
+    if (is_first()) {
+      picture.certificate = drawn.is_extended()
+                                ? certify_extended(picture.image, frame)
+                                : certify(splats.collected, picture.image, frame, drawn);
+    }
+    share(picture.certificate);
     check_seconds += thread_seconds() - before;
     note_check(picture.certificate, stats.check);
     if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
@@ -206,12 +246,15 @@ bool Renderer::State::mend_in_order(const Frame& frame, const FramePlan& plan,
 }
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
-  Pipeline pipeline(device, particles, frame, plan, progress);
+  std::optional<FrameRanks> of_frame;
+  if (ranks) of_frame.emplace(FrameRanks{*ranks, work});
+  Pipeline pipeline(device, particles, frame, plan, progress, of_frame ? &*of_frame : nullptr);
   Image image = pipeline.draw();
   splats.counts = pipeline.counts();
+  if (of_frame) work = of_frame->work;
   device.queue.finish();
   const double before = thread_seconds();
-  if (splats.counts.too_sharp == 0) splats.collected = pipeline.collected();
+  if (splats.counts.too_sharp == 0 && is_first()) splats.collected = pipeline.collected();
   check_seconds += thread_seconds() - before;
   return image;
 }
@@ -223,6 +266,35 @@ void Renderer::State::note(const DrawCounts& counts) {
   stats.tile_entries = counts.tile_entries;
   stats.blocks_left_out = counts.blocks_left_out;
   stats.windows = counts.windows;
+}
+
+void Renderer::State::note_processes() {
+  if (!ranks) return;
+  const std::vector<std::string> hosts = gather_texts(*ranks, ranks->host());
+  const std::vector<std::uint64_t> projected = gather_values(*ranks, work.particles);
+  const std::vector<std::uint64_t> composited = gather_values(*ranks, work.splats);
+  const std::vector<std::uint64_t> sent = gather_values(*ranks, work.sent_bytes);
+  const auto microseconds = static_cast<std::uint64_t>(1e6 * stats.total_seconds);
+  const std::vector<std::uint64_t> times = gather_values(*ranks, microseconds);
+  for (std::size_t r = 0; r < hosts.size(); ++r) {
+    stats.processes.push_back(
+        {hosts[r], projected[r], composited[r], sent[r], 1e-6 * static_cast<double>(times[r])});
+  }
+}
+
+void Renderer::State::share(Certificate& certificate) const {
+  if (!ranks) return;
+  broadcast_value(*ranks, certificate.error_of_promise);
+  broadcast_value(*ranks, certificate.worst);
+  broadcast_value(*ranks, certificate.needs);
+  broadcast_value(*ranks, certificate.blocks.columns);
+  broadcast_value(*ranks, certificate.blocks.rows);
+  broadcast_values(*ranks, certificate.blocks.errors);
+}
+
+// All go on from the same picture: to its exposure, or to what is drawn next.
+void Renderer::State::share(Image& image) const {
+  if (ranks) broadcast_values(*ranks, image.pixels);
 }
 
 Renderer::Renderer(const RendererOptions& options) {

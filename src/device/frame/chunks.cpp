@@ -47,4 +47,21 @@ std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTrait
   return chunks;
 }
 
+std::vector<ChunkRange> sum_leaves(std::size_t chunks, const DeviceTraits& traits) {
+  constexpr std::size_t most_leaves = 1024;
+  const std::size_t length =
+      std::max<std::size_t>(traits.leaf_chunks, (chunks + most_leaves - 1) / most_leaves);
+  std::vector<ChunkRange> leaves;
+  for (std::size_t first = 0; first < chunks; first += length)
+    leaves.push_back({first, std::min(first + length, chunks)});
+  return leaves;
+}
+
+std::size_t left_leaves(std::size_t leaves) {
+  std::size_t left = 1;
+  while (2 * left < leaves)
+    left *= 2;
+  return left;
+}
+
 }  // namespace splotchcl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct ParticleChunk {
   std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
 };
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
+
+// The light of a sum's chunks is added up leaf by leaf, and leaves by a fixed binary tree, so that
+// ranks may share them out to the same bits. A leaf has the same number of chunks whoever draws,
+// but for the last; there are never more of them than a tree keeps planes for.
+struct ChunkRange {
+  std::size_t first = 0, end = 0;
+};
+std::vector<ChunkRange> sum_leaves(std::size_t chunks, const DeviceTraits& traits);
+// Of a node of the tree with so many leaves, two or more: how many its left branch has.
+std::size_t left_leaves(std::size_t leaves);
 
 // Splats [first, first + count) of the sorted order: a step of an ordered frame.
 struct SplatChunk {

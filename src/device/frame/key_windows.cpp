@@ -4,22 +4,20 @@
 #include <utility>
 
 namespace splotchcl {
-namespace {
 
-constexpr int bits_of_bin = 16;
-
-// Bin `bin` as a window of its own.
-KeyWindow window_of(const CountedKeys& counted, std::size_t bin) {
+KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin) {
   const std::uint64_t width = std::uint64_t{1} << counted.shift;
   // The counted keys agree in all bits above those that number the bins.
-  const std::uint64_t upper = counted.window.first >> (counted.shift + bits_of_bin)
-                                                          << (counted.shift + bits_of_bin);
+  const std::uint64_t upper = counted.window.first >> (counted.shift + bits_of_key_bin)
+                                                          << (counted.shift + bits_of_key_bin);
   KeyWindow window;
   window.first = std::max(counted.window.first, upper + bin * width);
   window.end = std::min(counted.window.end, upper + (bin + 1) * width);
   window.splats = counted.bins[bin];
   return window;
 }
+
+namespace {
 
 class WindowChooser {
  public:
@@ -29,9 +27,9 @@ class WindowChooser {
   void add(const CountedKeys& counted) {
     for (std::size_t bin = 0; bin < counted.bins.size(); ++bin) {
       if (counted.bins[bin] == 0) continue;
-      const KeyWindow window = window_of(counted, bin);
+      const KeyWindow window = window_of_bin(counted, bin);
       if (window.splats > capacity_ && counted.shift > 0) {
-        const int shift = counted.shift - bits_of_bin;
+        const int shift = counted.shift - bits_of_key_bin;
         add(count_(window, shift));
       } else {
         append(window);

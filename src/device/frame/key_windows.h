@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -22,6 +23,11 @@ struct CountedKeys {
   int shift = 32;
   std::vector<std::uint64_t> bins;
 };
+
+// The bits of a key that number its bin.
+constexpr int bits_of_key_bin = 16;
+// Bin `bin` as a window of its own.
+KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin);
 
 // Counts the keys of a window in bins of 2^shift of them.
 using CountKeys = std::function<CountedKeys(const KeyWindow& window, int shift)>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct PictureLayout {
   std::uint32_t tile_count = 0;    // of all grids
   std::uint64_t plane_floats = 0;  // all planes of all grids
 };
+
+// Where the grid's planes begin, one after the other, in floats.
+inline std::size_t floats_before(const shared::Grid& grid) {
+  return grid.first_float_low | std::size_t{grid.first_float_high} << 32;
+}
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
                                   const Specialization& specialization);

@@ -79,6 +79,13 @@ struct Planes {
   std::uint32_t used_grids = 0;  // bit g: grid g has light; the planes of others are undefined
 };
 
+// What splats of a sum, or the nearest of an ordered frame, have come to: their light, and what the
+// check needs of them (Certifier).
+struct SplatLight {
+  Planes planes;
+  Buffer<float> cells;  // none where nothing has been collected
+};
+
 // What slabs of an ordered frame add to its planes.
 struct SlabLight {
   Buffer<float> before;  // the picture's own planes as they were before this slab

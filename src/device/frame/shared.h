@@ -53,6 +53,7 @@ static_assert(has_words<GroupBinParameters, 16>);
 static_assert(has_words<Segment, 4>);
 static_assert(has_words<CompositeParameters, 6>);
 static_assert(has_words<BehindParameters, 4>);
+static_assert(has_words<AddLightParameters, 3>);
 static_assert(has_words<OctaveCells, 2>);
 static_assert(has_words<CertifyParameters, 90>);
 static_assert(has_words<BlurParameters, 72>);

@@ -327,6 +327,10 @@ ProgramSource Specialization::coarse_grids() {
   return {"", {"splat.h", "resolve.h", "common.cl", "blur.cl", "refine.cl"}};
 }
 
+ProgramSource Specialization::add_light() {
+  return {"", {"splat.h", "composite.h", "add_light.cl"}};
+}
+
 ProgramSource Specialization::resolve() const {
   const std::string defines = define("LANES_8") + number_defines() +
                               define_if(extended_, "EXTENDED_NUMBERS") +

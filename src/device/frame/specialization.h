@@ -75,6 +75,7 @@ class Specialization {
   static ProgramSource carry();
   static ProgramSource scan();
   static ProgramSource coarse_grids();
+  static ProgramSource add_light();
 
  private:
   bool has_whole_sectors() const;

@@ -87,6 +87,20 @@ class BufferPool {
     return values;
   }
 
+  // Values from number `first` on, of memory that is there; both wait for it.
+  template <class T>
+  void write(const Buffer<T>& buffer, std::uint64_t first, const T* values, std::size_t count) {
+    if (count == 0) return;
+    timer_.add_copy(
+        queue_.enqueue_write_buffer(buffer.memory(), first * sizeof(T), count * sizeof(T), values));
+  }
+  template <class T>
+  void read(const Buffer<T>& buffer, std::uint64_t first, T* values, std::size_t count) {
+    if (count == 0) return;
+    timer_.add_copy(
+        queue_.enqueue_read_buffer(buffer.memory(), first * sizeof(T), count * sizeof(T), values));
+  }
+
   // The largest total since reset_peak().
   std::uint64_t peak_bytes() const { return peak_bytes_; }
   void reset_peak() { peak_bytes_ = total_bytes_; }

@@ -12,8 +12,9 @@
 
 namespace splotchcl {
 
-// Throws DeviceError when there is no device, UsageError when none has that name.
-compute::device choose_device(const std::string& part_of_name);
+// Throws DeviceError when there is no device, UsageError when none has that name. Of several alike
+// it is number `which`, round and round.
+compute::device choose_device(const std::string& part_of_name, int which = 0);
 
 // What may be in use at one time, in bytes.
 struct DeviceMemory {

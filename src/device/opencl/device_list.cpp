@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,17 @@ std::size_t default_index(const std::vector<compute::device>& devices) {
   return gpu == devices.end() ? 0 : static_cast<std::size_t>(gpu - devices.begin());
 }
 
+compute::device one_like(const compute::device& first, const std::vector<compute::device>& devices,
+                         int which) {
+  std::vector<compute::device> alike;
+  std::copy_if(devices.begin(), devices.end(), std::back_inserter(alike),
+               [&](const compute::device& device) {
+                 return device.name() == first.name() &&
+                        device.platform().id() == first.platform().id();
+               });
+  return alike[static_cast<std::size_t>(which) % alike.size()];
+}
+
 }  // namespace
 
 std::string no_device_advice() {
@@ -69,14 +81,14 @@ std::vector<DeviceInfo> list_devices() {
   return list;
 }
 
-compute::device choose_device(const std::string& part_of_name) {
+compute::device choose_device(const std::string& part_of_name, int which) {
   const std::vector<compute::device> devices = all_devices();
   if (devices.empty()) throw DeviceError(no_device_advice());
-  if (part_of_name.empty()) return devices[default_index(devices)];
+  if (part_of_name.empty()) return one_like(devices[default_index(devices)], devices, which);
   const std::string wanted = lower(part_of_name);
   for (const compute::device& device : devices) {
     const std::string name = lower(device.platform().name() + " " + device.name());
-    if (name.find(wanted) != std::string::npos) return device;
+    if (name.find(wanted) != std::string::npos) return one_like(device, devices, which);
   }
   throw UsageError("--device: found '" + part_of_name +
                    "', expected a part of the name of one of: " + names_of(devices));

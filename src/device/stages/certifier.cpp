@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
@@ -118,12 +119,24 @@ void Certifier::start() {
       std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile;
   cells_ = context_.device.pool.get<float>(floats, "peak cells");
   clear_memory(context_.device, "certify", cells_.memory(), 0, floats * sizeof(float));
-  has_started_ = true;
+}
+
+Buffer<float> Certifier::take_cells() {
+  return std::exchange(cells_, {});
+}
+
+const Buffer<float>& Certifier::begin_cells() {
+  if (!context_.plan.is_extended() && !has_started()) start();
+  return cells_;
+}
+
+void Certifier::put_cells(Buffer<float> cells) {
+  cells_ = std::move(cells);
 }
 
 void Certifier::collect(const TileLists& lists) {
   if (context_.plan.is_extended() || lists.segment_count == 0) return;
-  if (!has_started_) start();
+  if (!has_started()) start();
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;
   if (!context_.device.traits.rows) {
@@ -163,7 +176,7 @@ void Certifier::collect_in_groups(const TileLists& lists,
 
 CollectedSplats Certifier::collected() const {
   CollectedSplats found;
-  if (!has_started_) return found;
+  if (!has_started()) return found;
   const CellsOfTiles tiles = {context_.device.pool.download(cells_, cells_.size()),
                               parameters_.cells_per_tile,
                               static_cast<int>(context_.specialization.tile_width()),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "certificate/certificate.h"
@@ -18,6 +19,14 @@ class Certifier {
   // Of all lists so far; waits for the device. Octaves without splats are left out.
   CollectedSplats collected() const;
 
+  // The same as it lies on the device, tile by tile, none where there were no lists: begins anew,
+  // or goes on with what was taken.
+  Buffer<float> take_cells();
+  // Of no lists yet, where there are none.
+  const Buffer<float>& begin_cells();
+  void put_cells(Buffer<float> cells);
+  std::uint32_t cells_per_tile() const { return parameters_.cells_per_tile; }
+
  private:
   void start();
   void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
@@ -25,8 +34,8 @@ class Certifier {
   const StageContext& context_;
   shared::CertifyParameters parameters_{};
   compute::program program_;
-  Buffer<float> cells_;
-  bool has_started_ = false;
+  Buffer<float> cells_;  // none: not started
+  bool has_started() const { return cells_.size() > 0; }
 };
 
 }  // namespace splotchcl

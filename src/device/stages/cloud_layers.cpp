@@ -29,6 +29,17 @@ void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint6
   }
 }
 
+std::vector<std::uint64_t> CloudLayers::open_keys(std::uint64_t end) const {
+  std::vector<std::uint64_t> keys;
+  for (std::size_t i = splats_before_.size(); i < clouds_.size() && clouds_[i].key < end; ++i)
+    keys.push_back(clouds_[i].key);
+  return keys;
+}
+
+void CloudLayers::place(const std::vector<std::uint64_t>& splats_before) {
+  splats_before_.insert(splats_before_.end(), splats_before.begin(), splats_before.end());
+}
+
 std::optional<CloudLayer> CloudLayers::take_before(std::uint64_t end) {
   if (taken_ == splats_before_.size() || splats_before_[taken_] >= end) return std::nullopt;
   CloudLayer layer = {taken_, taken_, splats_before_[taken_]};

@@ -29,6 +29,10 @@ class CloudLayers {
   // The keys of splats, the nearest of which is number `first` of the order: all splats with keys
   // below `end` are among them or before them.
   void place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first, std::uint64_t end);
+  // The keys of those below `end` whose place is open, in their order; and their places, known from
+  // elsewhere: how many splats lie before each.
+  std::vector<std::uint64_t> open_keys(std::uint64_t end) const;
+  void place(const std::vector<std::uint64_t>& splats_before);
   // The next layer that lies in front of splat number `end` - 1, once.
   std::optional<CloudLayer> take_before(std::uint64_t end);
 

@@ -33,8 +33,7 @@ Planes Compositor::start() const {
 
 void Compositor::clear_grid(std::size_t g, Planes& planes) const {
   const shared::Grid& grid = context_.layout.grids[g];
-  const std::size_t first =
-      grid.first_float_low | (static_cast<std::size_t>(grid.first_float_high) << 32);
+  const std::size_t first = floats_before(grid);
   const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
   clear_memory(context_.device, "composite", planes.light.memory(), 4 * first, 4 * floats);
   planes.used_grids |= 1u << g;

@@ -189,7 +189,7 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
 
 void Resolver::begin_slab(const Planes& planes, const SlabLight& slab) const {
   const shared::Grid& grid = context_.layout.grids.front();
-  const std::size_t first = grid.first_float_low | std::size_t{grid.first_float_high} << 32;
+  const std::size_t first = floats_before(grid);
   const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
   context_.device.timer.add(
       "resolve",

@@ -192,7 +192,7 @@ void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds) con
   }
 }
 
-std::vector<CloudAround> Surroundings::find(
+std::vector<CloudAround> Surroundings::list(
     const std::vector<ParticleChunk>& chunks,
     const std::function<ParticleBuffers(const ParticleChunk&)>& get, std::uint64_t counted) const {
   std::vector<CloudAround> clouds;
@@ -204,6 +204,10 @@ std::vector<CloudAround> Surroundings::find(
     append(chunk.component, found, clouds);
   }
   if (listed != counted) refuse(context_.device, counted, listed);
+  return clouds;
+}
+
+std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds) const {
   end_where_nothing_shows(clouds);
   std::stable_sort(clouds.begin(), clouds.end(),
                    [](const CloudAround& a, const CloudAround& b) { return a.key < b.key; });

@@ -20,11 +20,13 @@ class Surroundings {
  public:
   explicit Surroundings(const StageContext& context) : context_(context) {}
 
-  // Those of the particles that the projection has left out, `counted` of them, nearest first, in
-  // file order where keys are equal. `chunks`: of all particles; `get`: those of one.
-  std::vector<CloudAround> find(const std::vector<ParticleChunk>& chunks,
+  // Those of the chunks' particles that the projection has left out, `counted` of them, in file
+  // order; `get`: the particles of one chunk.
+  std::vector<CloudAround> list(const std::vector<ParticleChunk>& chunks,
                                 const std::function<ParticleBuffers(const ParticleChunk&)>& get,
                                 std::uint64_t counted) const;
+  // All of a frame: nearest first, in file order where keys are equal, and no larger than shows.
+  std::vector<CloudAround> in_order(std::vector<CloudAround> clouds) const;
 
   // All of these clouds, added to what is in the planes of a sum.
   void draw(const std::vector<CloudAround>& clouds, const Planes& planes) const;

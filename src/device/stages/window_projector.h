@@ -9,6 +9,7 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
+#include "device/stages/key_counter.h"
 #include "device/stages/projector.h"
 #include "device/stages/sorter.h"
 
@@ -28,8 +29,8 @@ class WindowProjector {
 
   // First of all; waits for the device. Where particles are too sharp there is nothing to draw.
   void count_keys();
-  const ParticleCounts& particles() const { return counts_; }
-  std::uint32_t left_out() const { return left_out_; }  // blocks out of view
+  const ParticleCounts& particles() const { return counter_.particles(); }
+  std::uint32_t left_out() const { return counter_.left_out(); }  // blocks out of view
   std::size_t steps() const { return steps_.size(); }
 
   // What of `sorted` is left from place `first` on, and behind it the splats of step `step`.
@@ -44,23 +45,14 @@ class WindowProjector {
     KeyWindow window;  // whose splats are the most that there may be
     std::size_t first_chunk = 0, end_chunk = 0;
   };
-  CountedKeys count(const KeyWindow& window, int shift);
   void add_steps(const KeyWindow& window);
-  std::vector<std::uint32_t> blocks_without(std::size_t chunk, const KeyWindow& window) const;
-  ParticleBuffers particles_of(const ParticleChunk& chunk) const;
-  std::uint64_t most_splats_of(const ParticleChunk& chunk) const;
-  void carry(const SortedSplats& sorted, std::uint32_t first, const KeyedSplats& keyed) const;
 
   const StageContext& context_;
   const Projector& projector_;
   const Sorter& sorter_;
-  ParticleStore& particles_;
-  const std::vector<ParticleChunk> chunks_;
+  KeyCounter counter_;
   const std::uint64_t capacity_;
-  std::vector<std::vector<shared::KeyBins>> bins_;  // of each chunk's blocks: key >> 32
   std::vector<Step> steps_;
-  ParticleCounts counts_;
-  std::uint32_t left_out_ = 0;
 };
 
 }  // namespace splotchcl

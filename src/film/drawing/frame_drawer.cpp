@@ -34,6 +34,18 @@ void add(const std::vector<StageTime>& frame, std::vector<StageTime>& total) {
   }
 }
 
+// Ranks do all that they do for each frame of a picture.
+void add(const std::vector<ProcessStats>& frame, std::vector<ProcessStats>& total) {
+  if (total.empty()) total.resize(frame.size());
+  for (std::size_t r = 0; r < frame.size(); ++r) {
+    total[r].host = frame[r].host;
+    total[r].particles += frame[r].particles;
+    total[r].splats += frame[r].splats;
+    total[r].sent_bytes += frame[r].sent_bytes;
+    total[r].seconds += frame[r].seconds;
+  }
+}
+
 // The frames of one picture share their particles.
 void add(const RenderStats& frame, RenderStats& total) {
   total.device = frame.device;
@@ -47,6 +59,7 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.drawn_most_exactly |= frame.drawn_most_exactly;
   total.device_bytes = std::max(total.device_bytes, frame.device_bytes);
   add(frame.check, total.check);
+  add(frame.processes, total.processes);
   total.build_seconds += frame.build_seconds;
   total.total_seconds += frame.total_seconds;
   add(frame.stages, total.stages);
@@ -80,6 +93,7 @@ struct FrameDrawer::State {
       of_renderer.shape = options.shape;
       of_renderer.columns_stay = options.columns_stay;
       of_renderer.memory_bytes = options.memory_bytes;
+      of_renderer.ranks = options.ranks;
       of_renderer.progress = [this](double fraction) {
         if (progress) progress("drawing", fraction);
       };

@@ -37,6 +37,7 @@ RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snap
   tell(drawn.notes);
   tell_of_bad_particles(drawn);
   finish();
+  if (output.empty()) return drawn.stats;
   writing_ = std::async(
       std::launch::async,
       [output, pictures = std::move(drawn.pictures),

@@ -31,7 +31,8 @@ class FilmDrawer {
   // that the film does not flicker. Throws as FrameDrawer::draw.
   void decide_tone(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes);
 
-  // The frame of this number as the scene shows it, to picture_path(output, ...). What it took.
+  // The frame of this number as the scene shows it, to picture_path(output, ...), or to nowhere
+  // where another rank writes it: an empty path. What it took.
   // Throws as FrameDrawer::draw, and what writing an earlier frame has thrown.
   RenderStats draw(int frame, const Scene& scene, const Snapshot& snapshot,
                    OtherScenes& other_scenes, const std::filesystem::path& output);

@@ -13,6 +13,8 @@
 #include "film/movie/frame_files.h"
 #include "film/movie/frame_range.h"
 #include "pictures/other_scenes.h"
+#include "ranks/agreement.h"
+#include "ranks/values.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/image_file.h"
@@ -73,25 +75,43 @@ class Film {
         scene_(options.scene, options.settings),
         start_(scene_.scene_at(0)),
         files_(options.output, suffixes_of(start_)) {
-    check_pictures(files_, start_);
+    if (has_files()) check_pictures(files_, start_);
     frames_ = select_frames(options.frames, scene_.path().frame_count());
     part_ = select_part(options.part, frames_);
-    check_files();
+    if (has_files()) check_files();
   }
 
+  // Collective, where there are several ranks: the first one knows what is to be drawn, and makes
+  // the film.
   FilmResult make() {
-    if (options_.only_join && !files_.is_begun()) {
-      require_complete();
-      return result(FilmState::complete_before);
+    bool is_complete = false;
+    std::vector<int> frames;
+    agree(options_.ranks.get(), [&] {
+      is_complete = has_files() && options_.only_join && !files_.is_begun();
+      if (is_complete) return require_complete();
+      status("reading");
+      scene_.decide();
+      if (!has_files()) return;
+      files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference));
+      if (!options_.only_join) frames = missing(part_);
+    });
+    if (options_.ranks) {
+      broadcast_value(*options_.ranks, is_complete);
+      broadcast_values(*options_.ranks, frames);
     }
-    status("reading");
-    scene_.decide();
-    files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference));
-    if (!options_.only_join) draw(missing(part_));
-    return complete();
+    if (is_complete) return result(FilmState::complete_before);
+    draw(frames);
+    FilmResult made = result(FilmState::part_is_drawn);
+    agree(options_.ranks.get(), [&] {
+      if (has_files()) made = complete();
+    });
+    return made;
   }
 
  private:
+  // Of several ranks the first.
+  bool has_files() const { return !options_.ranks || options_.ranks->rank() == 0; }
+
   // Frames of a film have as many bits as the film needs, images as many as the scene says.
   Scene as_stored(Scene scene) const {
     if (files_.is_film()) scene.image.bits = frame_bits(start_.movie);
@@ -149,7 +169,7 @@ class Film {
   }
 
   void draw(const std::vector<int>& frames) {
-    files_.remove_leftovers(frames);
+    if (has_files()) files_.remove_leftovers(frames);
     if (frames.empty()) return;
     if (!options_.by_reference) status("starting the device");
     FrameDrawerOptions of_drawer;
@@ -157,23 +177,28 @@ class Film {
     of_drawer.by_reference = options_.by_reference;
     of_drawer.columns_stay = true;
     of_drawer.memory_bytes = options_.memory_bytes;
+    of_drawer.ranks = options_.ranks;
     FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());
     decide_tone(drawer);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       if (report_.frame) report_.frame(frames[i], i, frames.size());
       const Scene scene = as_stored(scene_.scene_at(frames[i]));
-      const RenderStats stats = drawer.draw(frames[i], scene, *scene_.snapshot_at(scene),
-                                            scene_.other_scenes(), files_.picture(frames[i], ""));
+      const auto output = has_files() ? files_.picture(frames[i], "") : std::filesystem::path();
+      const RenderStats stats =
+          drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output);
       if (report_.drawn) report_.drawn(frames[i], stats);
-      if (report_.is_stopped && report_.is_stopped()) {
-        drawer.finish();
-        throw DataError(
-            "stopped; the frames that were drawn are kept, and the same command goes on with the "
-            "next");
-      }
+      agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
+    agree(options_.ranks.get(), [&] { drawer.finish(); });
+  }
+
+  void stop_if_asked(FilmDrawer& drawer) const {
+    if (!has_files() || !report_.is_stopped || !report_.is_stopped()) return;
     drawer.finish();
+    throw DataError(
+        "stopped; the frames that were drawn are kept, and the same command goes on with the "
+        "next");
   }
 
   // Makes the film where all its frames are there.
@@ -222,7 +247,9 @@ class Film {
 }  // namespace
 
 FilmResult make_film(const FilmOptions& options, const FilmReport& report) {
-  return Film(options, report).make();
+  std::optional<Film> film;
+  agree(options.ranks.get(), [&] { film.emplace(options, report); });
+  return film->make();
 }
 
 }  // namespace splotchcl

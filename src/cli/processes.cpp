@@ -1,0 +1,46 @@
+#include "cli/processes.h"
+
+#include "cli/version.h"
+#include "ranks/agreement.h"
+#include "ranks/mpi_library.h"
+#include "ranks/shared_host.h"
+
+namespace splotchcl::cli {
+namespace {
+
+struct Processes {
+  bool are_joined = false;
+  std::shared_ptr<Communicator> ranks;
+};
+
+Processes& processes() {
+  static Processes all;
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<Communicator> join_processes(Console& console) {
+  Processes& all = processes();
+  if (all.are_joined) return all.ranks;
+  all.are_joined = true;
+  all.ranks = started_with_mpi();
+  if (!all.ranks) return nullptr;
+  share_cores(*all.ranks);
+  if (all.ranks->rank() > 0) console.set_verbosity(Verbosity::quiet);
+  require_same(*all.ranks, "version", version_and_commit(), "install the same version everywhere");
+  return all.ranks;
+}
+
+bool writes_files(const std::shared_ptr<Communicator>& ranks) {
+  return !ranks || ranks->rank() == 0;
+}
+
+void leave_processes(int code, bool is_agreed) {
+  Processes& all = processes();
+  if (!all.ranks) return;
+  if (!is_agreed) all.ranks->abort(code);
+  all.ranks.reset();
+}
+
+}  // namespace splotchcl::cli

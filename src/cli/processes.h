@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include "cli/console.h"
+#include "splotchcl/communicator.h"
+
+// Several processes that were started together, by mpirun or srun (docs/large.md).
+namespace splotchcl::cli {
+
+// All of them, where there are others: they share out the cores of each host, only the first tells
+// anything but errors, and all must be of one version. Null: this process alone. Before the first
+// OpenCL call; the same for each call.
+std::shared_ptr<Communicator> join_processes(Console& console);
+
+// The first of the processes, or the only one: it has the files that are written.
+bool writes_files(const std::shared_ptr<Communicator>& ranks);
+
+// This process ends with this code, and with it all others: where they have not agreed upon that,
+// they may wait for this one.
+void leave_processes(int code, bool is_agreed);
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,65 @@
+#include "device/ranks/leaf_sums.h"
+
+#include <utility>
+
+#include "device/ranks/rank_share.h"
+
+namespace splotchcl {
+
+LeafSums::LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks* ranks,
+                   const LightTransfer* transfer)
+    : adder_(context),
+      leaves_(leaves),
+      ranks_(ranks),
+      transfer_(transfer),
+      own_(ranks == nullptr ? ChunkRange{0, leaves}
+                            : leaves_of_rank(leaves, ranks->rank(), ranks->size())) {}
+
+int LeafSums::owner_of(const Node& node) const {
+  return ranks_ == nullptr ? 0 : owner_of_leaf(node.first, leaves_, ranks_->size());
+}
+
+void LeafSums::draw(const DrawLeaf& draw_leaf) {
+  if (leaves_ > 0) draw_parts({0, leaves_}, draw_leaf);
+}
+
+void LeafSums::draw_parts(const Node& node, const DrawLeaf& draw_leaf) {
+  if (node.end <= own_.first || node.first >= own_.end) return;
+  if (is_own(node)) {
+    drawn_[node.first] = draw_node(node, draw_leaf);
+    return;
+  }
+  const std::size_t middle = node.first + left_leaves(node.end - node.first);
+  draw_parts({node.first, middle}, draw_leaf);
+  draw_parts({middle, node.end}, draw_leaf);
+}
+
+SplatLight LeafSums::draw_node(const Node& node, const DrawLeaf& draw_leaf) const {
+  if (node.end - node.first == 1) return draw_leaf(node.first);
+  const std::size_t middle = node.first + left_leaves(node.end - node.first);
+  SplatLight left = draw_node({node.first, middle}, draw_leaf);
+  SplatLight right = draw_node({middle, node.end}, draw_leaf);
+  return adder_.add(std::move(left), std::move(right));
+}
+
+SplatLight LeafSums::join() {
+  return leaves_ > 0 ? join_node({0, leaves_}) : SplatLight();
+}
+
+// A right branch is sent when it is whole, to the rank that has its left one and waits for it.
+SplatLight LeafSums::join_node(const Node& node) {
+  if (is_own(node)) return std::move(drawn_.at(node.first));
+  if (node.end - node.first == 1) return {};  // another rank's
+  const std::size_t middle = node.first + left_leaves(node.end - node.first);
+  const Node left_node = {node.first, middle}, right_node = {middle, node.end};
+  SplatLight left = join_node(left_node), right = join_node(right_node);
+  const int own = ranks_->rank(), of_left = owner_of(left_node), of_right = owner_of(right_node);
+  if (of_left == own) {
+    if (of_right != own) right = transfer_->receive(of_right);
+    return adder_.add(std::move(left), std::move(right));
+  }
+  if (of_right == own) transfer_->send(right, of_left);
+  return {};
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,78 @@
+#include "ranks/mpi_library.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+std::string variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+bool is_above_one(const std::string& number) {
+  return std::strtol(number.c_str(), nullptr, 10) > 1;
+}
+
+// Beside the program or library that this is part of, where it is there.
+std::string module_file(const std::string& module_name) {
+  static const char here = 0;
+  Dl_info part;
+  if (dladdr(&here, &part) == 0 || part.dli_fname == nullptr) return module_name;
+  const std::filesystem::path beside =
+      std::filesystem::absolute(part.dli_fname).parent_path() / module_name;
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? beside.string() : module_name;
+}
+
+// Never unloaded.
+const MpiLibrary& load(const std::string& mpi) {
+  const std::string module_name = "libsplotchcl_" + mpi + ".so";
+  // Open MPI's own plugins look for its functions among what is global.
+  void* const module = dlopen(module_file(module_name).c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (module == nullptr) {
+    const std::string reason = dlerror();
+    throw DataError("started by an MPI (" + mpi + ") with other processes, which needs " +
+                    module_name + ", which cannot be loaded (" + reason +
+                    "); install it beside the program, or let each process draw by itself with "
+                    "SPLOTCHCL_MPI=none");
+  }
+  void* const entry = dlsym(module, mpi_library_entry);
+  if (entry == nullptr) {
+    throw DataError(module_name + " is not of this version of splotchcl (" + dlerror() +
+                    "); install both again");
+  }
+  return *reinterpret_cast<MpiLibraryEntry*>(entry)();
+}
+
+}  // namespace
+
+std::string mpi_of_environment() {
+  const std::string chosen = variable("SPLOTCHCL_MPI");
+  if (chosen == "none") return "";
+  if (chosen == "openmpi" || chosen == "mpich") return chosen;
+  if (!chosen.empty()) {
+    throw UsageError("SPLOTCHCL_MPI: found '" + chosen + "', expected openmpi, mpich or none");
+  }
+  if (is_above_one(variable("OMPI_COMM_WORLD_SIZE"))) return "openmpi";
+  // Hydra and Slurm's PMI.
+  if (is_above_one(variable("PMI_SIZE"))) return "mpich";
+  // srun --mpi=pmix.
+  if (!variable("PMIX_RANK").empty() && is_above_one(variable("SLURM_NTASKS"))) return "openmpi";
+  return "";
+}
+
+std::shared_ptr<Communicator> started_with_mpi() {
+  const std::string mpi = mpi_of_environment();
+  if (mpi.empty()) return nullptr;
+  std::shared_ptr<Communicator> ranks = load(mpi).start();
+  return ranks->size() > 1 ? ranks : nullptr;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,36 @@
+#include "ranks/values.h"
+
+#include <algorithm>
+
+namespace splotchcl {
+
+std::vector<std::uint64_t> gather_values(Communicator& ranks, std::uint64_t own) {
+  Communicator::Bytes bytes(sizeof(own));
+  std::memcpy(bytes.data(), &own, sizeof(own));
+  std::vector<std::uint64_t> values;
+  for (const Communicator::Bytes& of_rank : ranks.gather(bytes)) {
+    values.emplace_back();
+    std::memcpy(&values.back(), of_rank.data(), sizeof(own));
+  }
+  return values;
+}
+
+std::vector<std::string> gather_texts(Communicator& ranks, const std::string& own) {
+  Communicator::Bytes bytes(own.size());
+  std::transform(own.begin(), own.end(), bytes.begin(),
+                 [](char letter) { return static_cast<std::byte>(letter); });
+  std::vector<std::string> texts;
+  for (const Communicator::Bytes& of_rank : ranks.gather(bytes)) {
+    std::string& text = texts.emplace_back(of_rank.size(), '\0');
+    std::transform(of_rank.begin(), of_rank.end(), text.begin(),
+                   [](std::byte letter) { return static_cast<char>(letter); });
+  }
+  return texts;
+}
+
+std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own) {
+  const std::vector<std::uint64_t> values = gather_values(ranks, own);
+  return *std::min_element(values.begin(), values.end());
+}
+
+}  // namespace splotchcl

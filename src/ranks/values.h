@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "splotchcl/communicator.h"
+
+// Values and texts among ranks.
+namespace splotchcl {
+
+// One of each rank, by rank; known to all.
+std::vector<std::uint64_t> gather_values(Communicator& ranks, std::uint64_t own);
+std::vector<std::string> gather_texts(Communicator& ranks, const std::string& own);
+std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own);
+
+// The root's, at every rank; of any length.
+template <class T>
+void broadcast_values(Communicator& ranks, std::vector<T>& values, int root = 0) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::uint64_t count = values.size();
+  ranks.broadcast(&count, sizeof(count), root);
+  values.resize(static_cast<std::size_t>(count));
+  if (count > 0) ranks.broadcast(values.data(), values.size() * sizeof(T), root);
+}
+
+template <class T>
+void broadcast_value(Communicator& ranks, T& value, int root = 0) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  ranks.broadcast(&value, sizeof(T), root);
+}
+
+}  // namespace splotchcl

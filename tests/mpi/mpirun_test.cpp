@@ -1,0 +1,208 @@
+// The program started by mpirun: the bits of one process, and one line where a process fails.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace splotchcl::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Mpi {
+  std::string name;  // of the module
+  std::string run;   // with the number of processes behind it
+};
+
+std::ostream& operator<<(std::ostream& out, const Mpi& mpi) {
+  return out << mpi.name;
+}
+
+struct SmallScene {
+  std::string name, text;
+};
+
+constexpr char gas[] = R"(
+[[component]]
+name = "gas"
+types = "gas"
+color = { field = "internal_energy", scaling = "log" }
+palette = "temperature"
+)";
+constexpr char stars[] = R"(
+[[component]]
+name = "stars"
+types = "stars"
+palette = "stars"
+absorption = 0.3
+)";
+
+std::vector<SmallScene> small_scenes() {
+  const std::string head = "snapshot = \"u\"\n[image]\nsize = [160, 80]\n";
+  const std::string both = std::string(gas) + "absorption = 0.2\n" + stars;
+  return {
+      {"emission", head + gas + "absorption = 0\n"},
+      {"proportional", head + gas},
+      {"ordered", head + both},
+      {"by_a_field", head + "[sort]\nby = \"mass\"\n" + both},
+      {"panorama", head +
+                       "[camera]\nprojection = \"equirectangular\"\n"
+                       "position = [25000, 25000, 25000]\nlook_at = [40000, 25000, 25000]\n" +
+                       both},
+      {"most_exact", "tolerance = 0\n" + head + both},
+      {"two_eyes", head + "[stereo]\nlayout = \"side_by_side\"\n" + both},
+  };
+}
+
+class MpiRun : public ::testing::TestWithParam<Mpi> {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    const std::filesystem::path module =
+        test::program_path().parent_path() / ("libsplotchcl_" + GetParam().name + ".so");
+    if (!std::filesystem::exists(module)) GTEST_SKIP() << "built without " << GetParam().name;
+    folder_ = std::make_unique<TemporaryFolder>();
+    if (run("command -v " + program()).exit_code != 0)
+      GTEST_SKIP() << "no " << program() << " here; scripts/setup installs it";
+    ASSERT_EQ(run("\"$splotchcl\" generate universe -o u --particles 30000").exit_code, 0);
+  }
+
+  std::string program() const { return GetParam().run.substr(0, GetParam().run.find(' ')); }
+  // Compiled kernels are kept, so that only the first process of a kind compiles them. Open MPI
+  // has to be told that containers and test machines have one user.
+  ProgramResult run(const std::string& command) const {
+    return run_in(*folder_,
+                  "export SPLOTCHCL_CACHE=$PWD/kernels OMPI_ALLOW_RUN_AS_ROOT=1 "
+                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " +
+                      command);
+  }
+  std::string mpirun(int processes) const {
+    return "timeout 300 " + GetParam().run + " " + std::to_string(processes) + " ";
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(*folder_ / name) << text;
+  }
+  // What the program itself has told: MPIs tell of processes that have failed as well.
+  static std::vector<std::string> own_lines(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);) {
+      if (line.rfind("splotchcl: ", 0) == 0) lines.push_back(line);
+    }
+    return lines;
+  }
+
+  std::unique_ptr<TemporaryFolder> folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Mpis, MpiRun,
+                         ::testing::Values(Mpi{"openmpi", "mpirun.openmpi --oversubscribe -n"},
+                                           Mpi{"mpich", "mpirun.mpich -n"}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(MpiRun, DrawsTheBitsOfOneProcess) {
+  int processes = 2;
+  for (const SmallScene& scene : small_scenes()) {
+    write(scene.name + ".toml", scene.text);
+    const std::string command = "\"$splotchcl\" render " + scene.name + ".toml -o ";
+    const ProgramResult one = run(command + "one.exr");
+    ASSERT_EQ(one.exit_code, 0) << scene.name << ": " << one.err;
+    const ProgramResult many = run(mpirun(processes) + command + "many.exr --stats stats.json");
+    ASSERT_EQ(many.exit_code, 0) << scene.name << ": " << many.err;
+    EXPECT_EQ(read_text(*folder_ / "many.exr"), read_text(*folder_ / "one.exr")) << scene.name;
+    const auto stats = nlohmann::json::parse(read_text(*folder_ / "stats.json"));
+    EXPECT_EQ(stats["processes"]["number"], processes) << scene.name;
+    EXPECT_EQ(stats["processes"]["ranks"].size(), static_cast<std::size_t>(processes));
+    processes = processes == 4 ? 2 : processes + 1;
+  }
+}
+
+TEST_P(MpiRun, MakesTheFramesOfOneProcess) {
+  write("film.toml", small_scenes()[2].text + "[path.orbit]\ndegrees = 20\n[movie]\nframes = 3\n");
+  ASSERT_EQ(run("\"$splotchcl\" movie film.toml -o one_%d.png").exit_code, 0);
+  const ProgramResult many = run(mpirun(2) + "\"$splotchcl\" movie film.toml -o many_%d.png");
+  ASSERT_EQ(many.exit_code, 0) << many.err;
+  for (const std::string frame : {"0", "1", "2"}) {
+    EXPECT_EQ(read_text(*folder_ / ("many_" + frame + ".png")),
+              read_text(*folder_ / ("one_" + frame + ".png")));
+  }
+}
+
+TEST_P(MpiRun, TellsOnceThatASceneIsMissing) {
+  const ProgramResult result = run(mpirun(3) + "\"$splotchcl\" render no.toml -o a.png");
+  EXPECT_NE(result.exit_code, 0);
+  const std::vector<std::string> lines = own_lines(result.err);
+  ASSERT_EQ(lines.size(), 1u) << result.err;
+  EXPECT_THAT(lines.front(), HasSubstr("no.toml"));
+}
+
+TEST_P(MpiRun, NamesTheProcessForWhichAFileIsMissing) {
+  write("scene.toml", small_scenes()[0].text);
+  write("in_its_folder",
+        "#!/bin/sh\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\nmkdir -p $rank; cd $rank\n"
+        "ln -sf ../scene.toml .\n[ $rank = 1 ] || ln -sf ../u .\n"
+        "exec \"$splotchcl\" render scene.toml -o ../a.png\n");
+  const ProgramResult result = run("chmod +x in_its_folder; " + mpirun(3) + "./in_its_folder");
+  EXPECT_NE(result.exit_code, 0);
+  const std::vector<std::string> lines = own_lines(result.err);
+  ASSERT_EQ(lines.size(), 1u) << result.err;
+  EXPECT_THAT(lines.front(), HasSubstr("process 1 on "));
+  EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));
+}
+
+TEST_P(MpiRun, EndsWhereThePictureCannotBeWritten) {
+  write("scene.toml", small_scenes()[0].text);
+  const ProgramResult result = run("ln -s /dev/full full.png; " + mpirun(2) +
+                                   "\"$splotchcl\" render scene.toml -o full.png");
+  EXPECT_NE(result.exit_code, 0);
+  const std::vector<std::string> lines = own_lines(result.err);
+  ASSERT_EQ(lines.size(), 1u) << result.err;
+  EXPECT_THAT(lines.front(), HasSubstr("full.png: cannot be written"));
+}
+
+// It dies while kernels are compiled, which takes longer.
+TEST_P(MpiRun, EndsWhereAProcessIsKilled) {
+  write("scene.toml", small_scenes()[2].text);
+  write("one_is_killed",
+        "#!/bin/sh\nexport SPLOTCHCL_CACHE=\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\n"
+        "if [ $rank = 1 ]; then\n"
+        "  \"$splotchcl\" render scene.toml -o b.png & sleep 0.5; kill -KILL $!; exit 137\nfi\n"
+        "exec \"$splotchcl\" render scene.toml -o a.png\n");
+  const ProgramResult result = run("chmod +x one_is_killed; " + mpirun(3) + "./one_is_killed");
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
+  EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_->path()))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+TEST_P(MpiRun, LeavesProcessesAloneThatAreToldSo) {
+  write("scene.toml", small_scenes()[0].text);
+  const ProgramResult result =
+      run("SPLOTCHCL_MPI=none " + mpirun(2) + "sh -c '\"$splotchcl\" render scene.toml -o $$.png'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto entries = std::filesystem::directory_iterator(folder_->path());
+  EXPECT_EQ(std::count_if(begin(entries), end(entries),
+                          [](const auto& entry) { return entry.path().extension() == ".png"; }),
+            2);
+}
+
+TEST_P(MpiRun, RefusesTheReference) {
+  write("scene.toml", small_scenes()[0].text);
+  const ProgramResult result =
+      run(mpirun(2) + "\"$splotchcl\" render scene.toml --reference -o a.png");
+  const std::vector<std::string> lines = own_lines(result.err);
+  ASSERT_EQ(lines.size(), 1u) << result.err;
+  EXPECT_THAT(lines.front(), HasSubstr("--reference: found 2 processes, expected one"));
+}
+
+}  // namespace
+}  // namespace splotchcl::testing

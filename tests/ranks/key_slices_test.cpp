@@ -1,0 +1,120 @@
+#include "device/frame/key_slices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace splotchcl::test {
+namespace {
+
+// Splats of known keys and chunks, and how they are counted.
+struct Splats {
+  std::vector<SplatPlace> places;
+
+  CountedKeys count(const KeyWindow& window, int shift) const {
+    CountedKeys counted{window, shift, std::vector<std::uint64_t>(1 << bits_of_key_bin)};
+    for (const SplatPlace& place : places) {
+      if (place.key >= window.first && place.key < window.end)
+        ++counted.bins[place.key >> shift & ((1 << bits_of_key_bin) - 1)];
+    }
+    return counted;
+  }
+  std::vector<std::uint64_t> count_chunks(const KeyWindow& window) const {
+    std::vector<std::uint64_t> chunks(10);
+    for (const SplatPlace& place : places) {
+      if (place.key >= window.first && place.key < window.end) ++chunks[place.chunk];
+    }
+    return chunks;
+  }
+  std::vector<KeySlice> cut(std::size_t ranks, std::uint64_t capacity) const {
+    return cut_in_slices(
+        count({}, 32), ranks, capacity,
+        [this](const KeyWindow& window, int shift) { return count(window, shift); },
+        [this](const KeyWindow& window) { return count_chunks(window); });
+  }
+};
+
+Splats splats_of_keys(std::size_t count, std::uint64_t first, std::uint64_t step) {
+  Splats splats;
+  for (std::size_t i = 0; i < count; ++i)
+    splats.places.push_back({first + step * i, i % 10});
+  return splats;
+}
+
+void expect_all_in_their_slices(const Splats& splats, const std::vector<KeySlice>& slices) {
+  std::vector<std::uint64_t> found(slices.size());
+  for (const SplatPlace& place : splats.places) {
+    const std::size_t slice = slice_of(place, slices.data(), slices.size());
+    ASSERT_LT(slice, slices.size());
+    ++found[slice];
+  }
+  std::uint64_t first = 0;
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    EXPECT_EQ(slices[s].splats, found[s]) << s;
+    EXPECT_EQ(slices[s].first, first);
+    first += found[s];
+  }
+}
+
+TEST(KeySlices, ShareOutSplatsEvenly) {
+  const Splats splats = splats_of_keys(1000, 1, (std::uint64_t{1} << 48) / 1001);
+  for (const std::size_t ranks : {1u, 2u, 3u, 7u}) {
+    const std::vector<KeySlice> slices = splats.cut(ranks, 1u << 20);
+    ASSERT_EQ(slices.size(), ranks);
+    expect_all_in_their_slices(splats, slices);
+    for (const KeySlice& slice : slices)
+      EXPECT_NEAR(static_cast<double>(slice.splats), 1000.0 / static_cast<double>(ranks), 1.5);
+  }
+}
+
+TEST(KeySlices, LookCloserWhereKeysLieTogether) {
+  const Splats splats = splats_of_keys(1000, std::uint64_t{5} << 40, 3);
+  const std::vector<KeySlice> slices = splats.cut(4, 1u << 20);
+  expect_all_in_their_slices(splats, slices);
+  for (const KeySlice& slice : slices)
+    EXPECT_NEAR(static_cast<double>(slice.splats), 250, 2);
+}
+
+TEST(KeySlices, CutOneKeyByChunks) {
+  Splats splats;
+  for (std::size_t i = 0; i < 1000; ++i)
+    splats.places.push_back({77, i / 100});
+  const std::vector<KeySlice> slices = splats.cut(4, 1u << 20);
+  expect_all_in_their_slices(splats, slices);
+  for (const KeySlice& slice : slices)
+    EXPECT_NEAR(static_cast<double>(slice.splats), 250, 100);
+}
+
+TEST(KeySlices, ComeInRoundsWhereRanksHaveNoRoom) {
+  const Splats splats = splats_of_keys(1000, 1, (std::uint64_t{1} << 48) / 1001);
+  const std::vector<KeySlice> slices = splats.cut(3, 60);
+  EXPECT_EQ(slices.size() % 3, 0u);
+  EXPECT_GE(slices.size(), 17u);
+  expect_all_in_their_slices(splats, slices);
+  for (const KeySlice& slice : slices)
+    EXPECT_LE(slice.splats, 60u);
+}
+
+TEST(KeySlices, MayBeEmpty) {
+  const Splats one = splats_of_keys(1, 12345, 1);
+  const std::vector<KeySlice> slices = one.cut(3, 100);
+  ASSERT_EQ(slices.size(), 3u);
+  expect_all_in_their_slices(one, slices);
+  for (const KeySlice& slice : Splats().cut(3, 100))
+    EXPECT_EQ(slice.splats, 0u);
+}
+
+TEST(KeySlices, LeaveOutWhatLiesInOthers) {
+  const Splats splats = splats_of_keys(100, 1, (std::uint64_t{1} << 48) / 101);
+  const std::vector<KeySlice> slices = splats.cut(4, 1000);
+  const std::uint64_t before = slices[1].begin.key - 1, behind = slices[2].end.key;
+  EXPECT_EQ(slice_of({before, 0}, &slices[1], 2), 2u);
+  EXPECT_EQ(slice_of({behind, 0}, &slices[1], 2), 2u);
+  EXPECT_EQ(window_of(&slices[1], 2).first, slices[1].begin.key);
+  EXPECT_EQ(window_of(&slices[1], 2).end, behind);
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,277 @@
+// Frames that several ranks draw together have the bits of one process, whatever their number.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "device/opencl/device_context.h"
+#include "device/pipeline.h"
+#include "device/scene_maker.h"
+#include "device/stages.h"
+#include "long_tests.h"
+#include "ranks/thread_ranks.h"
+
+namespace splotchcl::test {
+namespace {
+
+// Of a device's own, as another process has it; made once for all tests.
+DeviceContext& device_of_rank(int rank) {
+  static std::vector<std::unique_ptr<DeviceContext>> devices;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  while (devices.size() <= static_cast<std::size_t>(rank))
+    devices.push_back(std::make_unique<DeviceContext>(choose_device("")));
+  return *devices[static_cast<std::size_t>(rank)];
+}
+
+struct Drawn {
+  Image image;
+  DrawCounts counts;
+  CollectedSplats collected;
+  std::vector<RankWork> work;
+};
+
+bool are_equal(const CollectedSplats& a, const CollectedSplats& b) {
+  return a.longest_list == b.longest_list && a.of_slabs == b.of_slabs && a.around == b.around &&
+         std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(),
+                    [](const PeakCells& c, const PeakCells& d) {
+                      return c.level == d.level && c.octave == d.octave &&
+                             c.peaks.values == d.peaks.values &&
+                             c.endings.values == d.endings.values;
+                    });
+}
+
+class RankFrames : public testing::TestWithParam<bool> {
+ protected:
+  // Few splats of a chunk and few particles of a block, so that small scenes have many.
+  void set_sizes(DeviceContext& device) const {
+    choose_shape(device.traits, GetParam());
+    device.traits.project_block = GetParam() ? 16 : GROUP_ITEMS;
+    device.traits.chunk_blocks = GetParam() ? 4 : 1;
+    device.traits.leaf_chunks = 1;
+    device.traits.sorted_chunk = 32;
+    device.memory.total = memory_;
+  }
+
+  // By so many ranks; 0: by one process, without any.
+  Drawn draw(const Frame& frame, int ranks, int slabs = -1) {
+    PlanOptions options;
+    options.slabs = slabs;
+    const FramePlan plan = make_plan(frame, options);
+    Drawn drawn;
+    drawn.work.resize(static_cast<std::size_t>(std::max(1, ranks)));
+    const auto draw_with = [&](DeviceContext& device, FrameRanks* with) {
+      set_sizes(device);
+      ParticleStore particles(device);
+      particles.begin_frame();
+      Pipeline pipeline(device, particles, frame, plan, {}, with);
+      Image image = pipeline.draw();
+      device.queue.finish();
+      if (with != nullptr) drawn.work[static_cast<std::size_t>(with->rank())] = with->work;
+      if (with != nullptr && with->rank() > 0) return;
+      drawn.image = std::move(image);
+      drawn.counts = pipeline.counts();
+      if (drawn.counts.too_sharp == 0) drawn.collected = pipeline.collected();
+    };
+    if (ranks == 0) {
+      draw_with(device_of_rank(0), nullptr);
+    } else {
+      ThreadRanks::run(ranks, [&](Communicator& all) {
+        FrameRanks with = {all, {}};
+        draw_with(device_of_rank(all.rank()), &with);
+      });
+    }
+    return drawn;
+  }
+
+  void expect_same_bits(const Frame& frame, int ranks, int slabs = -1) {
+    const Drawn one = draw(frame, 0, slabs), many = draw(frame, ranks, slabs);
+    EXPECT_EQ(many.image.pixels, one.image.pixels) << ranks << " ranks";
+    EXPECT_TRUE(are_equal(many.collected, one.collected)) << ranks << " ranks";
+    EXPECT_EQ(many.counts.particles, one.counts.particles);
+    EXPECT_EQ(many.counts.visible, one.counts.visible);
+    EXPECT_EQ(many.counts.bad, one.counts.bad);
+    EXPECT_EQ(many.counts.around, one.counts.around);
+    EXPECT_EQ(many.counts.tile_entries, one.counts.tile_entries);
+  }
+
+  // The least memory that has room for so many splats at a time.
+  void make_room_for(std::uint64_t splats, const Frame& frame) {
+    DeviceContext& device = device_of_rank(0);
+    set_sizes(device);
+    const FramePlan plan = make_plan(frame);
+    const StageContext context(device, frame, plan);
+    std::uint64_t low = 0, high = std::uint64_t{1} << 40;
+    while (high - low > 1) {
+      device.memory.total = (low + high) / 2;
+      (splat_capacity(context) >= splats ? high : low) = device.memory.total;
+    }
+    memory_ = high;
+  }
+
+ private:
+  std::uint64_t memory_ = std::uint64_t{1} << 34;
+};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, RankFrames, testing::Bool(),
+                         [](const auto& info) { return info.param ? "rows" : "groups"; });
+
+Frame many_clouds(int count) {
+  CloudSetup setup;
+  setup.count = count;
+  setup.sigma_high = 6;
+  setup.column_high = 0.1;
+  DrawnComponent first = random_clouds(setup);
+  first.absorption = {Absorption::Kind::gray, 0.2};
+  setup.seed = 2;
+  DrawnComponent second = random_clouds(setup);
+  second.absorption = {Absorption::Kind::gray, 0.4};
+  return frame_of(setup.width, setup.height, {first, second});
+}
+
+Frame with_absorption(Frame frame, Absorption absorption) {
+  for (DrawnComponent& component : frame.components)
+    component.absorption = absorption;
+  return frame;
+}
+
+TEST_P(RankFrames, HaveTheBitsOfOneProcessInAllScenes) {
+  // Each rank compiles kernels of its own.
+  for (const std::uint64_t seed : seeds(1, 28))
+    expect_same_bits(SceneMaker(seed).make(), 2);
+}
+
+TEST_P(RankFrames, HaveTheBitsOfOneProcessInSums) {
+  for (const Absorption& absorption :
+       {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0}}) {
+    for (const int ranks : {2, 3, 4, 7})
+      expect_same_bits(with_absorption(many_clouds(1000), absorption), ranks);
+  }
+}
+
+TEST_P(RankFrames, HaveTheBitsOfOneProcessInOrder) {
+  for (const int ranks : {2, 3, 4, 7})
+    expect_same_bits(many_clouds(1000), ranks);
+}
+
+TEST_P(RankFrames, ShareOutParticlesAndSplats) {
+  const Frame frame = many_clouds(4000);
+  const Drawn drawn = draw(frame, 4);
+  std::uint64_t particles = 0, splats = 0;
+  for (const RankWork& work : drawn.work) {
+    particles += work.particles;
+    splats += work.splats;
+    EXPECT_NEAR(static_cast<double>(work.particles), 2000, 300);
+    EXPECT_NEAR(static_cast<double>(work.splats), static_cast<double>(drawn.counts.visible) / 4,
+                static_cast<double>(drawn.counts.visible) / 8);
+    EXPECT_GT(work.sent_bytes, 0u);
+  }
+  EXPECT_EQ(particles, drawn.counts.particles);
+  EXPECT_EQ(splats, drawn.counts.visible);
+}
+
+TEST_P(RankFrames, ShareOutSums) {
+  const Drawn drawn = draw(with_absorption(many_clouds(4000), {Absorption::Kind::none, 0}), 4);
+  for (const RankWork& work : drawn.work)
+    EXPECT_NEAR(static_cast<double>(work.particles), 2000, 300);
+}
+
+TEST_P(RankFrames, DrawInRoundsWhereMemoryAsksForIt) {
+  const Frame frame = many_clouds(2000);
+  const Drawn one = draw(frame, 0);
+  for (const int ranks : {2, 3}) {
+    make_room_for(300, frame);
+    const Drawn many = draw(frame, ranks);
+    EXPECT_EQ(many.image.pixels, one.image.pixels) << ranks;
+    EXPECT_GE(many.counts.windows, 6u);
+  }
+}
+
+TEST_P(RankFrames, HoldSlabs) {
+  Frame frame = many_clouds(1000);
+  frame.tolerance = 1e-2;
+  for (const int slabs : {1, 3}) {
+    for (const int ranks : {2, 4})
+      expect_same_bits(frame, ranks, slabs);
+  }
+}
+
+TEST_P(RankFrames, KeepTheOrderOfSplatsOfOneKey) {
+  Frame frame = many_clouds(1000);
+  frame.sort.by = SortOrder::By::field;
+  for (const bool descending : {false, true}) {
+    frame.sort.descending = descending;
+    for (DrawnComponent& component : frame.components) {
+      std::vector<float> fields(component.particles.count, 1.0f);
+      for (std::size_t i = 0; i < fields.size(); i += 10)
+        fields[i] = static_cast<float>(i % 3);
+      component.particles.sort_field = Column::owning(fields);
+    }
+    for (const int ranks : {2, 3})
+      expect_same_bits(frame, ranks);
+  }
+}
+
+TEST_P(RankFrames, HoldExtendedPrecision) {
+  Frame frame = many_clouds(300);
+  frame.tolerance = 0;
+  expect_same_bits(frame, 2);
+  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 2);
+}
+
+TEST_P(RankFrames, HoldTheCopiesOfPanoramas) {
+  Camera camera;
+  camera.position = {{0, 0, 50}};
+  camera.look_at = {{0, 0, 60}};
+  camera.sky = {{0, -1, 0}};
+  camera.projection = Projection::equirectangular;
+  Frame frame = many_clouds(500);
+  frame.width = 120;
+  frame.height = 60;
+  frame.crop = {0, 0, 120, 60};
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  expect_same_bits(frame, 2);
+}
+
+// Those lie between splats, whichever ranks have them.
+TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
+  Camera camera;
+  camera.position = {{0, 0, 20}};
+  camera.look_at = {{0, 0, 60}};
+  camera.sky = {{0, -1, 0}};
+  Frame frame = many_clouds(300);
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.through_clouds = true;
+  frame.tolerance = 1e-2;
+  for (const int slabs : {0, 3}) {
+    for (const bool descending : {false, true}) {
+      frame.sort.descending = descending;
+      expect_same_bits(frame, 3, slabs);
+    }
+  }
+  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 3);
+}
+
+TEST_P(RankFrames, HoldFramesWithFewerSplatsThanRanks) {
+  for (const int count : {1, 2, 3}) {
+    Frame frame = many_clouds(count);
+    expect_same_bits(frame, 7);
+    expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 7);
+  }
+}
+
+TEST_P(RankFrames, HoldAnEmptyFrame) {
+  Frame frame = many_clouds(100);
+  frame.camera.position = {{0, 0, 1e6}};
+  expect_same_bits(frame, 3);
+  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 3);
+  frame.components.clear();
+  expect_same_bits(frame, 3);
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,94 @@
+// Renderers of several ranks: what is decided while a frame is drawn is decided alike.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "device/scenes.h"
+#include "ranks/thread_ranks.h"
+#include "splotchcl/renderer.h"
+
+namespace splotchcl::test {
+namespace {
+
+struct Rendered {
+  Image image;
+  RenderStats stats;
+};
+
+Rendered render_alone(const Frame& frame) {
+  Renderer renderer;
+  return {renderer.render(frame), renderer.stats()};
+}
+
+std::vector<Rendered> render_together(const Frame& frame, int ranks) {
+  std::vector<Rendered> rendered(static_cast<std::size_t>(ranks));
+  ThreadRanks::run(ranks, [&](Communicator& all) {
+    RendererOptions options;
+    options.ranks = std::shared_ptr<Communicator>(std::shared_ptr<Communicator>(), &all);
+    Renderer renderer(options);
+    Rendered& own = rendered[static_cast<std::size_t>(all.rank())];
+    own.image = renderer.render(frame);
+    own.stats = renderer.stats();
+  });
+  return rendered;
+}
+
+Frame crowd(double tolerance, Absorption absorption) {
+  CloudSetup setup;
+  setup.count = 20000;
+  setup.sigma_high = 4;
+  setup.column_high = 0.2;
+  DrawnComponent clouds = random_clouds(setup);
+  clouds.absorption = absorption;
+  Frame frame = frame_of(setup.width, setup.height, {clouds});
+  frame.tolerance = tolerance;
+  return frame;
+}
+
+void expect_same(const Frame& frame) {
+  const Rendered alone = render_alone(frame);
+  for (const Rendered& one : render_together(frame, 2)) {
+    EXPECT_EQ(one.image.pixels, alone.image.pixels);
+    EXPECT_EQ(one.stats.check.errors_of_promise, alone.stats.check.errors_of_promise);
+    EXPECT_EQ(one.stats.check.blocks.errors, alone.stats.check.blocks.errors);
+    EXPECT_EQ(one.stats.drawn_particles, alone.stats.drawn_particles);
+    EXPECT_EQ(one.stats.drawn_most_exactly, alone.stats.drawn_most_exactly);
+  }
+}
+
+TEST(RankRenderers, HaveThePictureEverywhere) {
+  expect_same(crowd(1e-3, {Absorption::Kind::gray, 0.2}));
+  expect_same(crowd(1e-3, {Absorption::Kind::none, 0}));
+}
+
+TEST(RankRenderers, DrawAgainTogether) {
+  Frame frame = crowd(1e-5, {Absorption::Kind::gray, 0.2});
+  // Far brighter than a plan expects.
+  for (DrawnComponent& component : frame.components)
+    component.brightness *= 1000;
+  EXPECT_GT(render_alone(frame).stats.check.errors_of_promise.size(), 1u);
+  expect_same(frame);
+}
+
+TEST(RankRenderers, TellWhatEachHasDone) {
+  const std::vector<Rendered> rendered =
+      render_together(crowd(1e-3, {Absorption::Kind::gray, 0.2}), 3);
+  for (const Rendered& one : rendered) {
+    ASSERT_EQ(one.stats.processes.size(), 3u);
+    std::uint64_t particles = 0, splats = 0;
+    for (const ProcessStats& process : one.stats.processes) {
+      particles += process.particles;
+      splats += process.splats;
+      EXPECT_GT(process.sent_bytes, 0u);
+      EXPECT_GT(process.seconds, 0);
+    }
+    EXPECT_EQ(particles, one.stats.particles);
+    EXPECT_EQ(splats, one.stats.drawn_particles);
+    EXPECT_EQ(one.stats.processes[2].host, "host2");
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test
