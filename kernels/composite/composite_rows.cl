@@ -172,7 +172,7 @@ inline int set_rows(Window* window, int2 rows, int width, __global const TileSpl
 }
 
 inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
-                           float mean_sigma, float deepest, const CompositeParameters* p) {
+                           float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
@@ -182,32 +182,34 @@ inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 ro
   Window window;
   window.x = columns.x;
 #ifdef ROWS_OF_16
-  if (takes_rows_of_16(deepest, p)) {
+  if (takes_rows_of_16(form)) {
     for (; columns.y - window.x >= 8; window.x += 16) {
       const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
       update_window_of_16(tile, &window, load_sixteen(along_x + (window.x - columns.x)), along,
-                          splat);
+                          splat, form);
     }
   }
 #endif
   for (; window.x <= columns.y; window.x += 8) {
     const float* along = along_y + (set_rows(&window, rows, 8, splat) - rows.x);
-    update_window(tile, &window, vload8(0, along_x + (window.x - columns.x)), along, splat, deepest,
-                  p);
+    update_window(tile, &window, vload8(0, along_x + (window.x - columns.x)), along, splat, form);
   }
 }
 
 // Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
+// Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
 inline int add_splat(float* tile, __global const TileSplat* splat, float mean_sigma,
-                     const CompositeParameters* p) {
+                     float* depth_of_block, const CompositeParameters* p) {
   const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
-  float deepest = 0.0f;
+  int form = 0;
 #ifdef LIGHT_ORDERED
-  deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
-            (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+                        (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+  *depth_of_block += deepest;
+  form = form_of_layer(deepest, *depth_of_block, p);
 #endif
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
@@ -224,8 +226,7 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
         (float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3) - low, sigma);
     float along[4];
     vstore4(means.hi, 0, along);
-    update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, deepest,
-                  p);
+    update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, form);
     return 1;
   }
 #endif
@@ -252,10 +253,10 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
                                   : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat),
                                              inverse_of(sigma_x));
 #endif
-    update_window(tile, &window, across, along, splat, deepest, p);
+    update_window(tile, &window, across, along, splat, form);
     return 1;
   }
-  add_wide_splat(tile, splat, rows, columns, mean_sigma, deepest, p);
+  add_wide_splat(tile, splat, rows, columns, mean_sigma, form);
   return 1;
 }
 
@@ -297,12 +298,13 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   clear_planes(front);
 #endif
   uint drawn = 0, end = segment.end;
+  float depth_of_block = 0.0f;
 #ifdef LIGHT_ORDERED
   if (segment.partial == NO_PARTIAL) load_opacities(front, planes, grid, corner);
   if (is_opaque(front, tile, p.stop)) end = segment.begin;
 #endif
   for (uint k = segment.begin; k < end; ++k) {
-    if (!add_splat(tile, entries + k, grid.mean_sigma, &p)) continue;
+    if (!add_splat(tile, entries + k, grid.mean_sigma, &depth_of_block, &p)) continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
     if (drawn % 256u == 0u && is_opaque(front, tile, p.stop)) break;
@@ -311,6 +313,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
     if (drawn % SPLATS_OF_BLOCK == 0u) {
       add_block(tile, front);
       clear_planes(tile);
+      depth_of_block = 0.0f;
     }
 #endif
   }

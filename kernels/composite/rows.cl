@@ -57,23 +57,27 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
     store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
   }
 
-// The same with two terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2, and
-// every line is one multiplication and addition.
-#define THIN_CHANNEL(c, FLOATS, LOAD_ROW, STORE_ROW)                         \
-  {                                                                          \
-    float* const source = pixel + c * TILE_PIXELS;                           \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;                    \
-    const FLOATS o = LOAD_ROW(opacity);                                      \
-    const FLOATS covered = shape - (shape * shape) * (0.5f * absorption##c); \
-    const FLOATS u = covered - o * covered;                                  \
-    STORE_ROW(LOAD_ROW(source) + u * emission##c, source);                   \
-    STORE_ROW(o + u * absorption##c, opacity);                               \
+// The same with two or three terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2
+// + (A^2 / 6) X^3, and nearly every line is one multiplication and addition.
+#define COVERED_BY_TWO_TERMS(c) (shape - (shape * shape) * (0.5f * absorption##c))
+#define COVERED_BY_THREE_TERMS(c) \
+  (shape - (shape * shape) *      \
+               (0.5f * absorption##c - shape * (0.166666667f * absorption##c * absorption##c)))
+#define THIN_CHANNEL(c, COVERED, FLOATS, LOAD_ROW, STORE_ROW) \
+  {                                                           \
+    float* const source = pixel + c * TILE_PIXELS;            \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;     \
+    const FLOATS o = LOAD_ROW(opacity);                       \
+    const FLOATS covered = COVERED(c);                        \
+    const FLOATS u = covered - o * covered;                   \
+    STORE_ROW(LOAD_ROW(source) + u * emission##c, source);    \
+    STORE_ROW(o + u * absorption##c, opacity);                \
   }
 
-#define THIN_LAYER(FLOATS, LOAD_ROW, STORE_ROW) \
-  THIN_CHANNEL(0, FLOATS, LOAD_ROW, STORE_ROW)  \
-  THIN_CHANNEL(1, FLOATS, LOAD_ROW, STORE_ROW)  \
-  THIN_CHANNEL(2, FLOATS, LOAD_ROW, STORE_ROW)
+#define THIN_LAYER(COVERED, FLOATS, LOAD_ROW, STORE_ROW) \
+  THIN_CHANNEL(0, COVERED, FLOATS, LOAD_ROW, STORE_ROW)  \
+  THIN_CHANNEL(1, COVERED, FLOATS, LOAD_ROW, STORE_ROW)  \
+  THIN_CHANNEL(2, COVERED, FLOATS, LOAD_ROW, STORE_ROW)
 
 #define LAYER_ROWS(CHANNELS)                                                             \
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                 \
@@ -86,11 +90,25 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
   LAYER_CHANNEL(1, PHI, PASSED)     \
   LAYER_CHANNEL(2, PHI, PASSED)
 
+// How a splat's layer is computed: what serves for its depth.
+#define BY_TWO_TERMS 0
+#define BY_THREE_TERMS 1
+#define BY_SERIES 2
+#define IN_FULL 3
+
 #ifdef KEEP_TRANSMITTANCE
-#define THIN_CHANNELS LAYER_CHANNELS(phi_short, passed_by_series)
+// Of a block of splats that are no deeper than this together no pixel is so opaque that its
+// transmittance is carried.
+#define DEPTH_OF_OPACITIES 0.45f
 #else
-#define THIN_CHANNELS THIN_LAYER(float8, load_eight, store_eight)
+#define DEPTH_OF_OPACITIES INFINITY
 #endif
+
+inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
+  if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES)
+    return deepest <= p->phi_short ? BY_TWO_TERMS : BY_THREE_TERMS;
+  return deepest <= p->phi_series ? BY_SERIES : IN_FULL;
+}
 #endif
 
 #ifndef LIGHT_ORDERED
@@ -125,8 +143,7 @@ typedef struct Window {
 
 // Updates the window with across[8] * along[rows].
 inline void update_window(float* tile, const Window* window, float8 across, const float* along,
-                          __global const TileSplat* splat, float deepest,
-                          const CompositeParameters* p) {
+                          __global const TileSplat* splat, int form) {
 #ifdef KERNEL_CUT
   const float8 dx =
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
@@ -139,9 +156,11 @@ inline void update_window(float* tile, const Window* window, float8 across, cons
   const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
-  if (deepest <= p->phi_short) {
-    LAYER_ROWS(THIN_CHANNELS)
-  } else if (deepest <= p->phi_series) {
+  if (form == BY_TWO_TERMS) {
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_TWO_TERMS, float8, load_eight, store_eight))
+  } else if (form == BY_THREE_TERMS) {
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS, float8, load_eight, store_eight))
+  } else if (form == BY_SERIES) {
     LAYER_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
   } else {
     LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))

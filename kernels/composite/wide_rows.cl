@@ -17,11 +17,17 @@ DEFINE_CUT_SHAPE(cut_shape_of_16, float16, int16)
 #define cut_shape_of_16(shape, dx, dy, cut2, squeeze) (shape)
 #endif
 
+#define LAYER_ROWS_OF_16(COVERED)                                                               \
+  for (int k = 0; k < rows; ++k, pixel += ROW) {                                                \
+    const float16 shape = cut_shape_of_16(across * along[k], dx, dy + (float)k, cut2, squeeze); \
+    THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                                   \
+  }
+
 // A call, and its argument tells the compiler that it may use registers of sixteen floats, from
 // which it keeps away otherwise.
 __attribute__((noinline)) void update_window_of_16(float* tile, const Window* window,
                                                    float16 across, const float* along,
-                                                   __global const TileSplat* splat) {
+                                                   __global const TileSplat* splat, int form) {
 #ifdef KERNEL_CUT
   const float16 dx = (float)window->x + FIRST_X - splat->x +
                      (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15) -
@@ -36,9 +42,10 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
   const float16 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float16 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float16 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
-  for (int k = 0; k < rows; ++k, pixel += ROW) {
-    const float16 shape = cut_shape_of_16(across * along[k], dx, dy + (float)k, cut2, squeeze);
-    THIN_LAYER(float16, load_sixteen, store_sixteen)
+  if (form == BY_TWO_TERMS) {
+    LAYER_ROWS_OF_16(COVERED_BY_TWO_TERMS)
+  } else {
+    LAYER_ROWS_OF_16(COVERED_BY_THREE_TERMS)
   }
 #else
   SUMMED_CHANNELS(float16)
@@ -49,14 +56,12 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
 #endif
 }
 
-// Whether rows of sixteen serve for a splat of such a depth.
-inline int takes_rows_of_16(float deepest, const CompositeParameters* p) {
-#ifndef LIGHT_ORDERED
-  return 1;
-#elif defined(KEEP_TRANSMITTANCE)
-  return 0;
+// Whether rows of sixteen serve for a splat's layer.
+inline int takes_rows_of_16(int form) {
+#ifdef LIGHT_ORDERED
+  return form <= BY_THREE_TERMS;
 #else
-  return deepest <= p->phi_short;
+  return 1;
 #endif
 }
 #endif

@@ -51,7 +51,7 @@ static_assert(has_words<BinParameters, 15>);
 static_assert(has_words<SplatTiles, 4>);
 static_assert(has_words<GroupBinParameters, 16>);
 static_assert(has_words<Segment, 4>);
-static_assert(has_words<CompositeParameters, 6>);
+static_assert(has_words<CompositeParameters, 7>);
 static_assert(has_words<BehindParameters, 4>);
 static_assert(has_words<AddLightParameters, 3>);
 static_assert(has_words<OctaveCells, 2>);

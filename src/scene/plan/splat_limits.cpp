@@ -55,9 +55,10 @@ SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceSha
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
                                 double brightest_behind, double response) {
   LayerLimits limits;
-  // Two terms of the series err by y^2 / 6 of phi, four by y^4 / 120.
+  // Two terms of the series err by y^2 / 6 of phi, three by y^3 / 24, four by y^4 / 120.
   const double phi = shares.phi / std::max(1.0, response);
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
+  limits.phi_third = static_cast<float>(std::min(0.5, std::cbrt(24 * phi)));
   limits.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * phi, 0.25)));
   limits.stop = stop_limit(brightest_behind, shares.early_stop);
   // An opacity close to 1 errs by ten roundings of 1 (exp, phi's difference and quotient, three
