@@ -111,7 +111,6 @@ struct Renderer::State {
     plan_options.slabs = options.slabs;
     progress = options.progress;
     if (options.leaf_chunks > 0) device.traits.leaf_chunks = options.leaf_chunks;
-    join_ranks(options);
   }
 
   void join_ranks(const RendererOptions& options);
@@ -298,13 +297,15 @@ void Renderer::State::share(Image& image) const {
 }
 
 Renderer::Renderer(const RendererOptions& options) {
-  const auto lock = lock_runtime();
   try {
+    const auto lock = lock_runtime();
     state_ = std::make_unique<State>(options);
   } catch (const compute::opencl_error& error) {
     throw DeviceError("cannot open the OpenCL device: " + error.error_string() +
                       "; see that its driver works, or choose another device");
   }
+  // Others may wait for the runtime, and this one for them.
+  state_->join_ranks(options);
 }
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
