@@ -36,6 +36,7 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
 Image Pipeline::draw() {
   counts_ = {};
   around_ = {};
+  in_lists_ = {};
   counts_.particles = particle_count(context_.frame);
   Planes planes = compositor_.start();
   planes =
@@ -76,6 +77,28 @@ Planes Pipeline::draw_sums(Planes planes) {
   }
   if (counts_.around > 0 && counts_.too_sharp == 0) surroundings_.draw(find_around(), planes);
   return planes;
+}
+
+// Whether what was counted can be drawn with the plan. Each cloud that lies between splats ends a
+// slab, which takes a pass over the picture.
+bool Pipeline::can_draw() {
+  constexpr std::uint64_t most_around = 64;
+  counts_.ends_too_many_slabs = context_.plan.slabs > 0 && counts_.around > most_around;
+  return counts_.too_sharp == 0 && !counts_.ends_too_many_slabs;
+}
+
+// Of an ordered frame.
+void Pipeline::take_around() {
+  if (counts_.around == 0) return;
+  std::vector<CloudAround> clouds = find_around();
+  if (CloudsInLists::can_hold(context_, clouds)) {
+    surroundings_.end_nearer(clouds);
+    in_lists_ = CloudsInLists(context_, clouds);
+    counts_.in_lists = clouds.size();
+    compositor_.take_clouds(in_lists_.tables());
+  } else {
+    around_ = CloudLayers(std::move(clouds));
+  }
 }
 
 std::vector<CloudAround> Pipeline::find_around() {
@@ -119,11 +142,9 @@ Planes Pipeline::draw_ordered(Planes planes) {
   counts_.bad = keyed.particles.bad;
   counts_.too_sharp = keyed.particles.too_sharp;
   counts_.around = keyed.particles.around;
-  if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) {
-    around_ = CloudLayers(find_around());
-    place_around(keyed, 0, end_of_keys);
-  }
+  if (!can_draw()) return planes;
+  take_around();
+  place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
       splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
@@ -143,9 +164,10 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.too_sharp = windows.particles().too_sharp;
   counts_.around = windows.particles().around;
   counts_.windows = windows.steps();
-  if (counts_.too_sharp > 0) return planes;
-  const std::uint64_t splats = counts_.visible;
-  if (counts_.around > 0) around_ = CloudLayers(find_around());
+  if (!can_draw()) return planes;
+  const std::uint64_t without_clouds = counts_.visible;
+  take_around();
+  const std::uint64_t splats = without_clouds + in_lists_.count();
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
@@ -153,10 +175,10 @@ Planes Pipeline::draw_windows(Planes planes) {
   std::uint64_t first = 0, drawn = 0;
   std::size_t next = 0;
   for (std::size_t step = 0; step < windows.steps(); ++step) {
-    sorted = windows.next(step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
-                          [&](const KeyedSplats& keyed, const KeyWindow& window) {
-                            place_around(keyed, drawn, window.end);
-                          });
+    sorted = windows.next(
+        step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
+        {[&](std::uint64_t end_key) { return in_lists_.open_before(end_key); },
+         [&](std::uint64_t end_key, KeyedSplats& keyed) { place_around(keyed, drawn, end_key); }});
     first = drawn;
     planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
     drawn = next < chunks.size() ? chunks[next].first : splats;
@@ -201,7 +223,8 @@ Planes Pipeline::end_order(std::uint64_t splats, Planes planes) {
   return planes;
 }
 
-void Pipeline::place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
+void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
+  in_lists_.append_before(end_key, keyed);
   if (around_.has_open_before(end_key))
     around_.place_among(sort_keys_of(context_, keyed), first, end_key);
 }

@@ -11,6 +11,7 @@
 #include "device/frame/stage_context.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
+#include "device/stages/clouds_in_lists.h"
 #include "device/stages/compositor.h"
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
@@ -26,9 +27,11 @@ struct DrawCounts {
   std::uint64_t visible = 0, bad = 0;
   std::uint64_t too_sharp = 0;        // for the plan's precision
   std::uint64_t around = 0;           // clouds around the camera
+  std::uint64_t in_lists = 0;         // of those, entries of lists
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
   std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
+  bool ends_too_many_slabs = false;   // clouds around the camera do: nothing was drawn
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
@@ -42,7 +45,8 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Of no use where counts() tells of particles that are too sharp: it ends early then.
+  // Of no use where counts() tells of particles that are too sharp, or of too many ends of slabs:
+  // it ends early then.
   Image draw();
   // Of all splats that have been drawn.
   CollectedSplats collected() const;
@@ -63,6 +67,7 @@ class Pipeline {
   Planes draw_sums(Planes planes);
   Planes draw_ordered(Planes planes);
   bool has_room_for_all_splats() const;
+  bool can_draw();
   Planes draw_windows(Planes planes);
   // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
   Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,
@@ -70,7 +75,10 @@ class Pipeline {
   Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
   Planes end_order(std::uint64_t splats, Planes planes);
   std::vector<CloudAround> find_around();
-  void place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
+  void take_around();
+  // Puts clouds around the camera with keys below `end_key` among splats, the nearest of which is
+  // number `first`, or finds their places between them.
+  void place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
   void draw_around(const CloudLayer& layer, const Planes& planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
   void tell(std::size_t done, std::size_t total) const;
@@ -80,12 +88,13 @@ class Pipeline {
   const Projector projector_;
   const Sorter sorter_;
   const Binner binner_;
-  const Compositor compositor_;
+  Compositor compositor_;
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
   const Surroundings surroundings_;
-  CloudLayers around_;
+  CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
+  CloudLayers around_;      // ... or layers between them
   DrawCounts counts_;
   std::function<void(double)> progress_;
 };

@@ -161,6 +161,10 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
       drawn = extend_plan(frame, drawn);
       continue;
     }
+    if (splats.counts.ends_too_many_slabs) {
+      drawn = in_order_plan(frame, drawn);
+      continue;
+    }
     const double before = thread_seconds();
     picture.certificate = drawn.is_extended()
                               ? certify_extended(picture.image, frame)
@@ -211,7 +215,8 @@ Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSpla
   splats.counts = pipeline.counts();
   device.queue.finish();
   const double before = thread_seconds();
-  if (splats.counts.too_sharp == 0) splats.collected = pipeline.collected();
+  if (splats.counts.too_sharp == 0 && !splats.counts.ends_too_many_slabs)
+    splats.collected = pipeline.collected();
   check_seconds += thread_seconds() - before;
   return image;
 }

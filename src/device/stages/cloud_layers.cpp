@@ -18,9 +18,9 @@ void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint6
   // Of each of these clouds the splats between it and the one before.
   std::vector<std::uint64_t> between(static_cast<std::size_t>(open_end - begin) + 1);
   for (const std::uint64_t key : keys) {
-    const auto behind = std::upper_bound(
+    const auto behind = std::lower_bound(
         begin, open_end, key,
-        [](std::uint64_t splat, const CloudAround& cloud) { return splat < cloud.key; });
+        [](const CloudAround& cloud, std::uint64_t splat) { return cloud.key < splat; });
     ++between[static_cast<std::size_t>(behind - begin)];
   }
   for (auto cloud = begin; cloud != open_end; ++cloud) {

@@ -16,7 +16,7 @@ struct CloudLayer {
 };
 
 // Clouds around the camera among the sorted splats of an ordered frame, of which keys are told
-// window by window (KeyWindow), nearest first. Of equal keys clouds lie in front of splats.
+// window by window (KeyWindow), nearest first. Of equal keys clouds lie behind splats.
 class CloudLayers {
  public:
   CloudLayers() = default;

@@ -56,6 +56,8 @@ void WindowProjector::count_keys() {
   };
   for (const KeyWindow& window : choose_windows(counted, capacity_, count_again))
     add_steps(window);
+  // Clouds around the camera may be all that there is.
+  if (steps_.empty()) steps_.push_back({});
 }
 
 // The device counts in 32 bits, so many chunks at a time as that allows.
@@ -122,9 +124,14 @@ std::vector<std::uint32_t> WindowProjector::blocks_without(std::size_t chunk,
   return without;
 }
 
+std::uint64_t WindowProjector::end_of_step(std::size_t step) const {
+  return step + 1 < steps_.size() ? steps_[step + 1].window.first : end_of_keys;
+}
+
 SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::uint32_t first,
-                                   const KeyReader& read_keys) const {
+                                   const MoreSplats& more) const {
   const Step& wanted = steps_[step];
+  const std::uint64_t end = end_of_step(step);
   const std::uint32_t carried = sorted.count - first;
   // What is left is put aside first: two windows have no room at one time.
   KeyedSplats left;
@@ -133,8 +140,8 @@ SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::u
     carry(sorted, first, left);
   }
   sorted = {std::move(left.splats), std::move(left.order), carried};
-  KeyedSplats keyed =
-      projector_.keyed_memory(carried + static_cast<std::uint32_t>(wanted.window.splats));
+  KeyedSplats keyed = projector_.keyed_memory(
+      carried + static_cast<std::uint32_t>(wanted.window.splats) + more.count(end));
   if (carried > 0) carry(sorted, 0, keyed);
   std::uint32_t slot = carried;
   for (std::size_t c = wanted.first_chunk; c < wanted.end_chunk; ++c) {
@@ -144,7 +151,7 @@ SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::u
                                       keyed, slot);
   }
   keyed.count = slot;
-  if (read_keys) read_keys(keyed, wanted.window);
+  more.append(end, keyed);
   return sorter_.sort(std::move(keyed));
 }
 
