@@ -44,7 +44,7 @@ std::vector<Splat> project(const Frame& frame);
 // color of its own < 0.
 std::uint64_t count_bad(const Frame& frame);
 
-// By key, nearest first as frame.sort says; of equal keys clouds around the camera first; stable.
+// By key, nearest first as frame.sort says; of equal keys clouds around the camera last; stable.
 void sort(std::vector<Splat>& splats, const SortOrder& order);
 
 // X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two

@@ -11,6 +11,34 @@ struct CompositeParameters {
   float stop;        // where every pixel's transmittance is at most this; below 0: never
 };
 
+// Clouds around the camera (docs/projections.md) in the lists of an ordered frame. Their entries
+// have a sigma of -CLOUD_SIGMA times one more than the cloud's number, where no splat has one.
+#define CLOUD_SIGMA 1048576.0f
+
+struct CloudEntry {
+  float center[3];  // from the camera along right, down and forward, in sigma
+  float distance2;  // the square of its length
+  float ray;        // the part that rays find
+  float farthest2;  // nothing of it shows farther from its center, in sigma, squared
+  float absorption[3], emission[3];     // A w, E w
+  float deepest;                        // no pixel's optical depth is more
+  unsigned int is_bright;               // well above 1
+  unsigned int first_splat, end_splat;  // the part that splats show: copies of one
+};
+
+struct CloudSplat {
+  float x, y;                  // pixels from the middle of the picture's grid
+  float inverse_x, inverse_y;  // 1 / sigma
+  float mean_x, mean_y;        // 1 / sigma^2; 0 where the value at a pixel's center serves
+  float part;
+};
+
+// Pixels of a tile look in directions that are no farther from this one than an angle.
+struct DirectionCone {
+  float direction[3];
+  float sine, cosine;  // of the angle
+};
+
 // Of a layer that is put behind the planes of the picture's own grid (behind.cl).
 struct BehindParameters {
   int width, height;   // of the crop
@@ -26,6 +54,9 @@ struct AddLightParameters {
 #ifdef __OPENCL_VERSION__
 typedef struct AddLightParameters AddLightParameters;
 typedef struct CompositeParameters CompositeParameters;
+typedef struct CloudEntry CloudEntry;
+typedef struct CloudSplat CloudSplat;
+typedef struct DirectionCone DirectionCone;
 typedef struct BehindParameters BehindParameters;
 #endif
 

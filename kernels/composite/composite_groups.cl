@@ -115,9 +115,36 @@ INLINED void fetch(__local Batch* batch, __global const TileSplat* entries, uint
   if (item < PARTS) batch->drawn[item] = 0;
 }
 
+#ifdef CLOUDS_IN_LISTS
+#define TILE_CLOUDS_PARAMETER , const TileClouds* clouds
+#define TILE_CLOUDS_ARGUMENT , &of_tile
+#define TILE_CLOUDS_PASSED , clouds
+
+INLINED void prepare_cloud(__local Batch* batch, uint k, __global const CloudEntry* cloud) {
+  __local float4* amplitudes = batch->amplitudes + k * AMPLITUDES;
+  const float4 absorption =
+      (float4)(cloud->absorption[0], cloud->absorption[1], cloud->absorption[2], cloud->deepest);
+  // Columns of clouds are worked out where layers may be thick.
+  atomic_or(&batch->thick, BIT_OF(k));
+  amplitudes[0] = absorption;
+  amplitudes[1] = 0.5f * absorption;
+  amplitudes[2] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
+}
+#else
+#define TILE_CLOUDS_PARAMETER
+#define TILE_CLOUDS_ARGUMENT
+#define TILE_CLOUDS_PASSED
+#endif
+
 INLINED void prepare_amplitudes(__local Batch* batch, uint k, float mean_sigma,
-                                const CompositeParameters p) {
+                                const CompositeParameters p TILE_CLOUDS_PARAMETER) {
   const __local TileSplat* splat = batch->splats + k;
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) {
+    prepare_cloud(batch, k, cloud_of(splat->sigma, clouds));
+    return;
+  }
+#endif
   __local float4* amplitudes = batch->amplitudes + k * AMPLITUDES;
 #ifdef LIGHT_ORDERED
   const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
@@ -134,23 +161,41 @@ INLINED void prepare_amplitudes(__local Batch* batch, uint k, float mean_sigma,
 #endif
 }
 
+// Whether an entry touches the tile, or the part of it around (x, y).
+INLINED int touches(const __local Batch* batch, uint k TILE_CLOUDS_PARAMETER) {
+  const __local TileSplat* splat = batch->splats + k;
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
+#endif
+  return reaches_tile(splat);
+}
+
+INLINED int touches_part(const __local Batch* batch, uint k, float x, float y,
+                         float mean_sigma TILE_CLOUDS_PARAMETER) {
+  const __local TileSplat* splat = batch->splats + k;
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
+#endif
+  return reaches_part(splat, x, y, mean_sigma);
+}
+
 // What all pixels of the tile need of the batch. An item has one column or row of all splats that
 // it takes, and one part: there are as many parts of all splats as items.
 INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
-                     const CompositeParameters p) {
+                     const CompositeParameters p TILE_CLOUDS_PARAMETER) {
   const uint item = get_local_id(0), axis = item % AXES;
   const int is_column = axis < TILE_WIDTH;
   const float center = is_column ? (float)axis + FIRST_X : (float)(axis - TILE_WIDTH) + FIRST_Y;
   for (uint k = item / AXES; k < count; k += GROUP / AXES)
     batch->axes[k * AXES + axis] = axis_of_splat(batch, k, is_column, center, mean_sigma);
   if (item < count) {
-    prepare_amplitudes(batch, item, mean_sigma, p);
-    if (reaches_tile(batch->splats + item)) atomic_or(&batch->touching, BIT_OF(item));
+    prepare_amplitudes(batch, item, mean_sigma, p TILE_CLOUDS_PASSED);
+    if (touches(batch, item TILE_CLOUDS_PASSED)) atomic_or(&batch->touching, BIT_OF(item));
   }
   const uint k = item % BATCH, part = item / BATCH;
   const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
   const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-  if (k < count && reaches_part(batch->splats + k, x, y, mean_sigma))
+  if (k < count && touches_part(batch, k, x, y, mean_sigma TILE_CLOUDS_PASSED))
     atomic_or(&batch->drawn[part], BIT_OF(k));
 }
 
@@ -242,7 +287,7 @@ INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y) {
 
 // The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
 INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, uint y,
-                  const CompositeParameters p) {
+                  const CompositeParameters p TILE_CLOUDS_PARAMETER) {
 #ifdef LIGHT_ORDERED
 #ifdef KEEP_TRANSMITTANCE
   const int all_thin = 0;
@@ -251,7 +296,14 @@ INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, u
 #endif
   while (!all_thin && bits != 0) {
     const uint k = take_first(&bits);
+#ifdef CLOUDS_IN_LISTS
+    const float sigma = batch->splats[k].sigma;
+    const float shape = is_cloud(sigma)
+                            ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
+                            : shape_at(batch, k, x, y);
+#else
     const float shape = shape_at(batch, k, x, y);
+#endif
     if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
   }
 #endif
@@ -300,7 +352,8 @@ inline uint bits_behind(uint counted, uint n) {
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-    __global const TileSplat* entries, __global float* planes, __global float* partials) {
+    __global const TileSplat* entries, __global float* planes,
+    __global float* partials CLOUDS_PARAMETERS) {
   __local Batch batch;
   const uint item = get_local_id(0), part = item / PART_ITEMS;
   // The launch has as many groups as there are segments.
@@ -312,6 +365,10 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   __global float* own = planes + first_float(grid) +
                         ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + y) * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH + x;
+#ifdef CLOUDS_IN_LISTS
+  const TileClouds of_tile =
+      clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
+#endif
   float front[PLANES], pixel[PLANES];
   for (int c = 0; c < PLANES; ++c) {
     front[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
@@ -329,18 +386,18 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const uint count = min((uint)BATCH, segment.end - first);
     fetch(&batch, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, count, grid.mean_sigma, p);
+    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT);
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = batch.touching, drawn = batch.drawn[part];
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
     // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
     const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    draw(pixel, &batch, drawn & ~of_next, x, y, p);
+    draw(pixel, &batch, drawn & ~of_next, x, y, p TILE_CLOUDS_ARGUMENT);
     in_block += popcount(touching);
     if (ends_block) {
       add_block(pixel, front);
       if (shows_behind(front, p.stop)) atomic_or(&batch.shows, 1u);
-      draw(pixel, &batch, drawn & of_next, x, y, p);
+      draw(pixel, &batch, drawn & of_next, x, y, p TILE_CLOUDS_ARGUMENT);
       in_block -= SPLATS_OF_BLOCK;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -260,6 +260,35 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
   return 1;
 }
 
+#ifdef CLOUDS_IN_LISTS
+#define CLOUD_ROWS(CHANNELS)                                     \
+  for (int y = 0; y < TILE_HEIGHT; ++y) {                        \
+    for (int x = 0; x < TILE_WIDTH; x += 8) {                    \
+      const float8 shape = column_of_cloud(cloud, clouds, x, y); \
+      if (!any(shape > 0.0f)) continue;                          \
+      float* pixel = tile + y * ROW + x;                         \
+      CHANNELS                                                   \
+    }                                                            \
+  }
+
+// A call: hardly any entries are clouds. Whether it touches the tile.
+__attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* cloud,
+                                        const TileClouds* clouds, const CompositeParameters* p) {
+  if (!cloud_touches(cloud, clouds)) return 0;
+  const float8 absorption0 = cloud->absorption[0], emission0 = cloud->emission[0];
+  const float8 absorption1 = cloud->absorption[1], emission1 = cloud->emission[1];
+  const float8 absorption2 = cloud->absorption[2], emission2 = cloud->emission[2];
+  if (cloud->deepest <= p->phi_short) {
+    CLOUD_ROWS(THIN_CHANNELS)
+  } else if (cloud->deepest <= p->phi_series) {
+    CLOUD_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
+  } else {
+    CLOUD_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
+  }
+  return 1;
+}
+#endif
+
 #ifdef LIGHT_ORDERED
 // Nothing behind shows any more: every channel of every pixel of the block behind the front is
 // opaque enough.
@@ -282,7 +311,7 @@ inline int is_opaque(const float* front, const float* block, float stop) {
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials) {
+                        __global float* planes, __global float* partials CLOUDS_PARAMETERS) {
   const uint id = p.first_segment + get_global_id(0);
   if (id >= p.end_segment) return;
   const Segment segment = segments[id];
@@ -297,6 +326,10 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   float front[PLANES * TILE_PIXELS];
   clear_planes(front);
 #endif
+#ifdef CLOUDS_IN_LISTS
+  const TileClouds of_tile =
+      clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
+#endif
   uint drawn = 0, end = segment.end;
   float depth_of_block = 0.0f;
 #ifdef LIGHT_ORDERED
@@ -304,7 +337,15 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   if (is_opaque(front, tile, p.stop)) end = segment.begin;
 #endif
   for (uint k = segment.begin; k < end; ++k) {
-    if (!add_splat(tile, entries + k, grid.mean_sigma, &depth_of_block, &p)) continue;
+#ifdef CLOUDS_IN_LISTS
+    const float sigma = entries[k].sigma;
+    if (is_cloud(sigma)) {
+      if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &p)) continue;
+      depth_of_block = INFINITY;  // it may be as deep as it likes
+    } else
+#endif
+        if (!add_splat(tile, entries + k, grid.mean_sigma, &depth_of_block, &p))
+      continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
     if (drawn % 256u == 0u && is_opaque(front, tile, p.stop)) break;

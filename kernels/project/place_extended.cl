@@ -6,7 +6,7 @@ typedef struct ExtendedPlace {
   Extended scale;  // pixels per length of a width
   int seen;
 #ifdef ELLIPSES
-  Extended cos_latitude;
+  Extended cos_latitude, sine_latitude;
 #endif
 } ExtendedPlace;
 
@@ -54,6 +54,7 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   place.seen = seen.seen;
 #ifdef ELLIPSES
   place.cos_latitude = seen.cos_latitude;
+  place.sine_latitude = seen.sine_latitude;
 #endif
   return place;
 }

@@ -86,24 +86,27 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
 #ifdef ELLIPSES
 #ifdef EXTENDED_NUMBERS
       const float x = pixels_from_middle(splat.x, splat, p), radius_x = splat.along_x.radius;
+      const float y = pixels_from_middle(splat.y, splat, p), radius = splat.radius;
 #else
       const float x = found.pixel_x[k], radius_x = found.radius_x[k];
+      const float y = found.pixel_y[k], radius = found.radius[k];
 #endif
-      const int2 copies = copies_in_picture(x, radius_x, p);
-      for (int copy = copies.x; copy <= copies.y; ++copy) {
+      const Copies copies = copies_in_picture(x, y, radius_x, radius, p);
+      for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
 #endif
 #ifdef OUTPUT_SPLATS
 #ifdef ELLIPSES
         Splat listed = splat;
-        listed.x += steps_to_copy(splat, copy, p);
+        put_copy(&listed, copy, y, p);
 #else
         const Splat listed = splat;
 #endif
         splats[slot] = listed;
 #ifdef EXTENDED_NUMBERS
-        extended_splats[slot] = extended;
 #ifdef ELLIPSES
-        extended_splats[slot].x = pair_of(copy_of(copy, extended, e));
+        extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+#else
+        extended_splats[slot] = extended;
 #endif
 #endif
 #endif

@@ -70,8 +70,11 @@ struct ProjectParameters {
   int perspective;
   float period;                     // pixels after which an equirectangular picture repeats itself
   struct WideInteger period_units;  // the same in units of places
-  float eye_offset;                 // of an eye beside the camera, in wide angles
-  float turn_axis[3];               // of its head: right, down, forward
+  // Twice the places of its upper and its lower pole.
+  float twice_pole[2];
+  struct WideInteger twice_pole_units[2];
+  float eye_offset;    // of an eye beside the camera, in wide angles
+  float turn_axis[3];  // of its head: right, down, forward
 
   // In single precision; where that cannot tell, keys decide.
   float near_limit;   // z below is left out
@@ -173,6 +176,7 @@ struct ExtendedParameters {
   float middle_x, middle_y;             // from where splats' places count
   struct FloatPair center_from_middle_x, center_from_middle_y;
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
+  struct FloatPair twice_pole[2];                     // in the whole picture
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
   struct FloatPair weight_scale;  // as in ProjectParameters
   struct FloatPair color_minimum, color_inverse_range;

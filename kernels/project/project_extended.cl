@@ -160,11 +160,15 @@ inline void put_in_units(float x, float y, float farthest, const ProjectParamete
 }
 
 // Places and widths; `peak` is the largest of E w and A w.
-inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak,
+inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
                            const ProjectParameters p, const ExtendedParameters e, Splat* splat,
                            ExtendedSplat* extended) {
 #ifdef ELLIPSES
-  const Extended sigma_x = extended_sigma_along_x(sigma, place.cos_latitude, e);
+  const ExtendedEllipse ellipse =
+      extended_panorama_ellipse(sigma, place.cos_latitude, place.sine_latitude, e);
+  const Extended sigma_x = ellipse.sigma_x;
+  place.y = high_part(place.sine_latitude) < 0.0f ? extended_difference(place.y, ellipse.nearer)
+                                                  : extended_sum(place.y, ellipse.nearer);
   const float area = high_part(sigma) * high_part(sigma_x);
 #else
   const float area = high_part(sigma) * high_part(sigma);
@@ -187,7 +191,9 @@ inline void extended_shape(const ExtendedPlace place, Extended sigma, float peak
   splat->along_x.sigma = high_part(sigma_x);
   // Copies lie up to four periods farther.
   splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
-  put_in_units(x, y, splat->along_x.radius + max(-p.left, p.right_end), p, splat);
+  const float beside =
+      max(splat->along_x.radius + max(-p.left, p.right_end), splat->radius + max(-p.top, p.bottom));
+  put_in_units(x, y, beside, p, splat);
 #else
   put_in_units(x, y, 0.0f, p, splat);
 #endif
@@ -254,9 +260,14 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
 }
 
 #ifdef ELLIPSES
-// The place along x of the splat's copy so many periods to the right.
-inline Extended copy_of(int copy, const ExtendedSplat splat, const ExtendedParameters e) {
-  const Extended moved = extended_product(extended_of((float)copy), extended_pair(e.period));
-  return extended_sum(extended_pair(splat.x), moved);
+// The splat's copy so many half periods to the right; odd ones are mirrored over this pole.
+inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole, const ExtendedParameters e) {
+  const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));
+  splat.x = pair_of(extended_sum(extended_pair(splat.x), moved));
+  if ((copy & 1) != 0) {
+    splat.y =
+        pair_of(extended_difference(extended_pair(e.twice_pole[pole]), extended_pair(splat.y)));
+  }
+  return splat;
 }
 #endif

@@ -71,14 +71,19 @@ __kernel OF_GROUPS void project(
 #endif
 #endif
 #ifdef ELLIPSES
-  int2 copies = (int2)(0, -1);
+  Copies copies;
+  float y = 0.0f;
   if (count) {
 #ifdef EXTENDED_NUMBERS
-    copies = copies_in_picture(pixels_from_middle(splat.x, splat, p), splat.along_x.radius, p);
+    y = pixels_from_middle(splat.y, splat, p);
+    copies = copies_in_picture(pixels_from_middle(splat.x, splat, p), y, splat.along_x.radius,
+                               splat.radius, p);
 #else
-    copies = copies_in_picture(found.pixel_x[0], found.radius_x[0], p);
+    y = found.pixel_y[0];
+    copies = copies_in_picture(found.pixel_x[0], y, found.radius_x[0], found.radius[0], p);
 #endif
-    count = (uint)max(copies.y - copies.x + 1, 0);
+    count =
+        copies.first > copies.last ? 0u : (uint)((copies.last - copies.first) / copies.step + 1);
   }
 #endif
   uint total;
@@ -90,14 +95,15 @@ __kernel OF_GROUPS void project(
     listed.unused = 0;
 #endif
 #ifdef ELLIPSES
-    const int copy = copies.x + (int)k;
-    listed.x += steps_to_copy(splat, copy, p);
+    const int copy = copies.first + (int)k * copies.step;
+    put_copy(&listed, copy, y, p);
 #endif
     splats[slot] = listed;
 #ifdef EXTENDED_NUMBERS
-    extended_splats[slot] = extended;
 #ifdef ELLIPSES
-    extended_splats[slot].x = pair_of(copy_of(copy, extended, e));
+    extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+#else
+    extended_splats[slot] = extended;
 #endif
 #endif
 #ifdef OUTPUT_KEYS

@@ -24,7 +24,7 @@ typedef struct PlaceArrays {
   int asked[LANES];
   float x[LANES], x_low[LANES], y[LANES], y_low[LANES], scale[LANES];
 #ifdef WIDE_ANGLE
-  float cos_latitude[LANES];
+  float cos_latitude[LANES], sine_latitude[LANES];
 #endif
 } PlaceArrays;
 
@@ -45,6 +45,7 @@ __attribute__((noinline)) void find_sharp_places(uint i, uint end, const Columns
     places->scale[k] = high_part(place.scale);
 #ifdef ELLIPSES
     places->cos_latitude[k] = high_part(place.cos_latitude);
+    places->sine_latitude[k] = high_part(place.sine_latitude);
 #endif
   }
 }
@@ -61,6 +62,7 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, uint i, uint end, co
   STORE(view.scale, places.scale);
 #ifdef WIDE_ANGLE
   STORE(view.cos_latitude, places.cos_latitude);
+  STORE(view.sine_latitude, places.sine_latitude);
 #endif
   find_sharp_places(i, end, columns, p, e, &places);
   view.x = LOAD(places.x);
@@ -70,6 +72,7 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, uint i, uint end, co
   view.scale = LOAD(places.scale);
 #ifdef WIDE_ANGLE
   view.cos_latitude = LOAD(places.cos_latitude);
+  view.sine_latitude = LOAD(places.sine_latitude);
 #endif
   return view;
 }

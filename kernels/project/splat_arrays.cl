@@ -11,7 +11,7 @@ typedef struct SplatArrays {
   int x[LANES], y[LANES], component_and_grid[LANES];
   float sigma[LANES], radius[LANES], weight[LANES], color[LANES];
 #ifdef ELLIPSES
-  float pixel_x[LANES], sigma_x[LANES], radius_x[LANES];
+  float pixel_x[LANES], pixel_y[LANES], sigma_x[LANES], radius_x[LANES];
 #endif
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
@@ -33,6 +33,8 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 #ifndef EXTENDED_NUMBERS
 #ifdef ELLIPSES
   STORE(s.x, a->pixel_x);
+  STORE(s.y, a->pixel_y);
+  STORE(s.radius, a->radius);
   STORE(s.radius_x, a->radius_x);
 #endif
 #ifdef OUTPUT_SPLATS

@@ -28,6 +28,7 @@ typedef struct WidthLanes {
   VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
 #ifdef ELLIPSES
   VALUE sigma_x;
+  VALUE nearer;  // by which it lies nearer to the pole
 #endif
 } WidthLanes;
 
@@ -41,9 +42,23 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
                           : widths.sigma_true;
   widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
 #ifdef ELLIPSES
-  widths.sigma_x = sigma_along_x(widths.sigma, view.cos_latitude, p);
+  const PanoramaEllipse ellipse =
+      panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
+  widths.sigma_x = ellipse.sigma_x;
+  widths.nearer = ellipse.nearer;
 #endif
   return widths;
+}
+
+// Where a splat of these widths lies. What the sum rounds off goes to the low part.
+INLINED ViewLanes place_of_splat(ViewLanes view, const WidthLanes widths) {
+#ifdef ELLIPSES
+  const VALUE shift = copysign(widths.nearer, view.sine_latitude), y = view.y + shift;
+  const VALUE added = y - view.y;
+  view.y_low += (view.y - (y - added)) + (shift - added);
+  view.y = y;
+#endif
+  return view;
 }
 
 // w of a splat of width widths.sigma, before its intensity.
@@ -215,6 +230,7 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   VALUE farthest = max(fabs(s->x), fabs(s->y));
 #ifdef ELLIPSES
   farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
+  farthest = max(farthest, s->radius + max(-p.top, p.bottom) + 2.0f);
 #endif
   s->place = splat_place(s->x, view.x_low * shrink, s->y, view.y_low * shrink, farthest, p);
   s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
@@ -309,7 +325,8 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                                  const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
-  ViewLanes view = view_particles(particles, p);
+  const ViewLanes of_center = view_particles(particles, p);
+  ViewLanes view = of_center;
   INTEGER good = are_good(particles, view.offset);
   s.sort_field = particles.sort_field;
   s.bad = particles.exists & (good == 0);
@@ -319,6 +336,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   good &= s.around == 0;
 #endif
   WidthLanes widths = find_widths(particles.h, view, p);
+  view = place_of_splat(view, widths);
 #ifdef EXTENDED_NUMBERS
   s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);
   s.unclear = s.visible;
@@ -341,11 +359,12 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
     s.too_sharp =
         sharp & are_too_sharp(view, widths.sigma, brightness.own_peak, brightness.crowd_peak, p);
 #ifdef WIDE_ANGLE
-    view = sharp_view(view, sharp, i, end, columns, p, e);
+    view = sharp_view(of_center, sharp, i, end, columns, p, e);
 #else
-    view = sharp_view(view, sharp, particles.position, p, e);
+    view = sharp_view(of_center, sharp, particles.position, p, e);
 #endif
     widths = find_widths(particles.h, view, p);
+    view = place_of_splat(view, widths);
   }
   const SampledLanes sampled = choose_sampling(widths, brightness, weight, p);
   const VALUE extent = p.kernel_cut > 0.0f

@@ -51,10 +51,21 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
 }
 
 #ifdef ELLIPSES
-// Of the copy so many periods to the right, along x in the splat's units.
-inline int steps_to_copy(const Splat splat, int copy, const ProjectParameters p) {
-  const long period = (long)((ulong)p.period_units.low | ((ulong)p.period_units.high << 32));
-  return (int)((copy * period) >> (splat.component_and_grid >> 24));
+inline long in_long(struct WideInteger units) {
+  return (long)((ulong)units.low | ((ulong)units.high << 32));
+}
+
+// Puts a splat, `y` pixels from the picture's middle, where its copy so many half periods to the
+// right is.
+inline void put_copy(Splat* splat, int copy, float y, const ProjectParameters p) {
+  const uint coarser = splat->component_and_grid >> 24;
+  splat->x += (int)((copy * in_long(p.period_units)) >> (coarser + 1));
+  if ((copy & 1) == 0) return;
+  splat->y = (int)(in_long(p.twice_pole_units[pole_of(y, p)]) >> coarser) - splat->y;
+#ifdef FINE_PLACES
+  const int fraction_y = -((int)splat->place_fractions >> 16);
+  splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);
+#endif
 }
 #endif
 

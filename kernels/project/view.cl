@@ -32,7 +32,7 @@ typedef struct ViewLanes {
   VALUE place_error;         // of x and y, in roundings: 2^-24 pixels (docs/accuracy.md)
 #ifdef WIDE_ANGLE
   INTEGER seen;
-  VALUE cos_latitude;  // equirectangular
+  VALUE cos_latitude, sine_latitude;  // equirectangular
 #endif
 } ViewLanes;
 
@@ -50,6 +50,7 @@ INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectPar
   view.scale = point.scale;
   view.seen = point.seen;
   view.cos_latitude = point.cos_latitude;
+  view.sine_latitude = point.sine_latitude;
   view.x_low = view.y_low = (VALUE)(0.0f);
   view.place_error = 10.0f * p.pixels_per_length * point.magnification +
                      p.place_error_per_pixel * max(fabs(view.x), fabs(view.y)) + p.place_error;

@@ -2,10 +2,10 @@
 // VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
 
 typedef struct WideAnglePoint {
-  VALUE x, y;           // pixels from the middle of the picture
-  VALUE scale;          // pixels per length of a cloud's width
-  VALUE cos_latitude;   // equirectangular
-  VALUE magnification;  // of directions in the picture, but for a panorama's along x
+  VALUE x, y;                         // pixels from the middle of the picture
+  VALUE scale;                        // pixels per length of a cloud's width
+  VALUE cos_latitude, sine_latitude;  // equirectangular
+  VALUE magnification;                // of directions in the picture, but for a panorama's along x
   INTEGER seen;
 } WideAnglePoint;
 
@@ -39,6 +39,7 @@ inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distan
   const float focal = p.pixels_per_length;
   point.scale = focal / distance;
   point.cos_latitude = point.magnification = (VALUE)(1.0f);
+  point.sine_latitude = y;
 #if defined(PROJECTION_FISHEYE)
   const VALUE sine_off_axis = sqrt(x * x + y * y);
   const VALUE angle = atan2(sine_off_axis, z);
@@ -68,19 +69,52 @@ inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distan
 }
 
 #ifdef ELLIPSES
-// The width along x with which a cloud of this height keeps its light in an equirectangular
-// picture: focal / g(u), g(u) = exp(-u^2) / (2 sqrt(pi)) + u (1 + erf(u)) / 2.
-inline VALUE sigma_along_x(VALUE sigma, VALUE cos_latitude, const ProjectParameters p) {
-  const VALUE u = min(cos_latitude * p.pixels_per_length / sigma, (VALUE)(1e18f));
-  const VALUE g = exp(-u * u) * 0.282094792f + 0.5f * u * (1.0f + erf(u));
-  return p.pixels_per_length / g;
+// The ellipse as which an equirectangular picture shows a cloud of this height: panorama_ellipse()
+// of src/scene/projection.cpp.
+typedef struct PanoramaEllipse {
+  VALUE nearer;  // pixels by which it is shifted towards the pole
+  VALUE sigma_x;
+} PanoramaEllipse;
+
+inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, VALUE sine_latitude,
+                                        const ProjectParameters p) {
+  const VALUE per_s = p.pixels_per_length / sigma;
+  const VALUE sine = max(fabs(sine_latitude), (VALUE)(1e-18f));
+  const VALUE u = min(cos_latitude * per_s / sine, (VALUE)(1e15f)), u2 = u * u;
+  const VALUE k = 0.5f + 0.773239545f / (1.0f + u2 * (3.09f - 1.8f / (1.0f + 0.5f * u2)));
+  const VALUE root = sqrt(u2 + k), m = u2 / root;
+  const VALUE sine_m = cos_latitude * per_s * (u / root);
+  PanoramaEllipse ellipse;
+  ellipse.nearer = sigma * (u * k / (root * (root + u)));
+  ellipse.sigma_x =
+      1.77245385f * p.pixels_per_length / (sine * exp(-m * m) + 1.77245385f * sine_m * erf(m));
+  return ellipse;
 }
 
-// Copies of a splat a period to the left and right that reach what is drawn: first and last. The
-// fourth is beyond what any cloud has light for.
-inline int2 copies_in_picture(float x, float radius, const ProjectParameters p) {
-  const float first = ceil((p.left - radius - x) / p.period);
-  const float last = floor((p.right_end + radius - x) / p.period);
-  return (int2)((int)clamp(first, -3.0f, 4.0f), (int)clamp(last, -4.0f, 3.0f));
+// Whether the lower pole is the nearer one.
+inline int pole_of(float y, const ProjectParameters p) {
+  return y >= p.center_y;
+}
+
+// Copies of a splat that reach what is drawn, half a period apart. Odd ones are mirrored over the
+// nearer pole. The sixth is beyond what any cloud has light for.
+typedef struct Copies {
+  int first, last, step;
+} Copies;
+
+inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
+                                const ProjectParameters p) {
+  const float half_period = 0.5f * p.period;
+  Copies copies;
+  copies.first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -5.0f, 6.0f);
+  copies.last = (int)clamp(floor((p.right_end + radius_x - x) / half_period), -6.0f, 5.0f);
+  copies.step = 1;
+  const float mirrored = p.twice_pole[pole_of(y, p)] - y;
+  if (mirrored + radius + 1.0f < p.top || mirrored - radius - 1.0f > p.bottom) {
+    copies.step = 2;
+    copies.first += copies.first & 1;
+    copies.last -= copies.last & 1;
+  }
+  return copies;
 }
 #endif

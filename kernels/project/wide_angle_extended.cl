@@ -2,10 +2,10 @@
 // (docs/projections.md); wide_angle.cl has the same in single precision.
 
 typedef struct ExtendedWideAngle {
-  Extended x, y;          // pixels from the middle of the picture
-  Extended distance;      // in the lengths of the direction
-  Extended scale;         // pixels per such a length
-  Extended cos_latitude;  // equirectangular
+  Extended x, y;                         // pixels from the middle of the picture
+  Extended distance;                     // in the lengths of the direction
+  Extended scale;                        // pixels per such a length
+  Extended cos_latitude, sine_latitude;  // equirectangular
   int seen;
 } ExtendedWideAngle;
 
@@ -67,6 +67,7 @@ inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle*
 inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended level = extended_hypotenuse(v[0], v[2]);
   place->cos_latitude = extended_quotient(level, place->distance);
+  place->sine_latitude = extended_quotient(v[1], place->distance);
   place->x = extended_product(focal, extended_atan2(v[0], v[2]));
   place->y = extended_product(focal, extended_atan2(v[1], level));
 }
@@ -95,25 +96,60 @@ inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
   const Extended focal = extended_pair(e.pixels_per_length);
   place.scale = extended_quotient(focal, place.distance);
   place.cos_latitude = extended_of(1.0f);
+  place.sine_latitude = extended_of(0.0f);
   place_extended(v, focal, &place);
   return place;
 }
 
 #ifdef ELLIPSES
-// g(u) of sigma_along_x() in wide_angle.cl, relative error 4e-9, for 0 <= u <= 9.
-inline Extended extended_row_length(Extended u) {
-  const Extended gauss = extended_exp(extended_negative(extended_product(u, u)));
-  const Extended tail = extended_product(gauss, extended_constant(0.282094806f, -1.46588457e-08f));
-  const Extended below = extended_scaled(extended_erfc(u), 0.5f);
-  return extended_sum(tail, extended_product(u, extended_difference(extended_of(1.0f), below)));
+// panorama_ellipse() of wide_angle.cl.
+typedef struct ExtendedEllipse {
+  Extended nearer, sigma_x;
+} ExtendedEllipse;
+
+inline Extended extended_sum_with(float a, Extended b) {
+  return extended_sum(extended_of(a), b);
 }
 
-// The width along x; from u = 9 on g(u) is u.
-inline Extended extended_sigma_along_x(Extended sigma, Extended cos_latitude,
-                                       const ExtendedParameters e) {
+// k of the m at this u^2. Its constants are those of the host, in double precision.
+inline Extended extended_k_of(Extended u2) {
+  const Extended one_and_half = extended_sum_with(1.0f, extended_scaled(u2, 0.5f));
+  const Extended c = extended_difference(
+      extended_constant(3.08999991f, 8.58306883e-08f),
+      extended_quotient(extended_constant(1.79999995f, 4.76837159e-08f), one_and_half));
+  const Extended falls = extended_quotient(extended_constant(0.773239553f, -8.23953816e-09f),
+                                           extended_sum_with(1.0f, extended_product(u2, c)));
+  return extended_sum_with(0.5f, falls);
+}
+
+// sine * exp(-m^2) + sqrt(pi) sine_m erf(m), relative error 4e-9.
+inline Extended extended_row_length(Extended sine, Extended m, Extended sine_m) {
+  const Extended along = extended_product(extended_constant(1.7724539f, -5.32464006e-08f), sine_m);
+  if (high_part(m) > 9.0f) return along;
+  const Extended gauss = extended_exp(extended_negative(extended_product(m, m)));
+  const Extended erf = extended_difference(extended_of(1.0f), extended_erfc(m));
+  return extended_sum(extended_product(sine, gauss), extended_product(along, erf));
+}
+
+inline ExtendedEllipse extended_panorama_ellipse(Extended sigma, Extended cos_latitude,
+                                                 Extended sine_latitude,
+                                                 const ExtendedParameters e) {
   const Extended focal = extended_pair(e.pixels_per_length);
-  const Extended u = extended_quotient(extended_product(cos_latitude, focal), sigma);
-  if (high_part(u) > 9.0f) return extended_quotient(sigma, cos_latitude);
-  return extended_quotient(focal, extended_row_length(u));
+  const Extended level = extended_quotient(extended_product(cos_latitude, focal), sigma);
+  Extended sine = extended_magnitude(sine_latitude);
+  if (high_part(sine) < 1e-18f) sine = extended_of(1e-18f);
+  Extended u = extended_quotient(level, sine);
+  if (!(high_part(u) < 1e15f)) u = extended_of(1e15f);
+  const Extended u2 = extended_product(u, u), k = extended_k_of(u2);
+  const Extended root = extended_root(extended_sum(u2, k));
+  ExtendedEllipse ellipse;
+  ellipse.nearer = extended_product(
+      sigma,
+      extended_quotient(extended_product(u, k), extended_product(root, extended_sum(root, u))));
+  const Extended sine_m = extended_product(level, extended_quotient(u, root));
+  ellipse.sigma_x =
+      extended_quotient(extended_product(extended_constant(1.7724539f, -5.32464006e-08f), focal),
+                        extended_row_length(sine, extended_quotient(u2, root), sine_m));
+  return ellipse;
 }
 #endif

@@ -27,6 +27,7 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
 Image Pipeline::draw() {
   counts_ = {};
   around_ = {};
+  in_lists_ = {};
   counts_.particles = particle_count(context_.frame);
   Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
   if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
@@ -101,6 +102,28 @@ std::vector<CloudAround> Pipeline::list_around(const std::vector<ParticleChunk>&
   return surroundings_.list(chunks, get, counted);
 }
 
+// Whether what was counted can be drawn with the plan. Each cloud that lies between splats ends a
+// slab, which takes a pass over the picture.
+bool Pipeline::can_draw() {
+  constexpr std::uint64_t most_around = 64;
+  counts_.ends_too_many_slabs = context_.plan.slabs > 0 && counts_.around > most_around;
+  return counts_.too_sharp == 0 && !counts_.ends_too_many_slabs;
+}
+
+// Of an ordered frame.
+void Pipeline::take_around() {
+  if (counts_.around == 0) return;
+  std::vector<CloudAround> clouds = find_around();
+  if (CloudsInLists::can_hold(context_, clouds)) {
+    surroundings_.end_nearer(clouds);
+    in_lists_ = CloudsInLists(context_, clouds);
+    counts_.in_lists = clouds.size();
+    compositor_.take_clouds(in_lists_.tables());
+  } else {
+    around_ = CloudLayers(std::move(clouds));
+  }
+}
+
 std::vector<CloudAround> Pipeline::find_around() {
   std::vector<CloudAround> clouds =
       surroundings_.in_order(list_around(particle_chunks(), counts_.around));
@@ -135,7 +158,10 @@ bool Pipeline::has_room_for_all_splats() const {
 
 // Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
 Planes Pipeline::draw_ordered(Planes planes) {
-  if (ranks_ != nullptr) return draw_slices(std::move(planes));
+  return ranks_ != nullptr ? draw_slices(std::move(planes)) : draw_alone(std::move(planes));
+}
+
+Planes Pipeline::draw_alone(Planes planes) {
   if (!has_room_for_all_splats()) return draw_windows(std::move(planes));
   KeyedSplats keyed = project_all();
   counts_.blocks_left_out = keyed.left_out;
@@ -143,11 +169,9 @@ Planes Pipeline::draw_ordered(Planes planes) {
   counts_.bad = keyed.particles.bad;
   counts_.too_sharp = keyed.particles.too_sharp;
   counts_.around = keyed.particles.around;
-  if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) {
-    around_ = CloudLayers(find_around());
-    place_around(keyed, 0, end_of_keys);
-  }
+  if (!can_draw()) return planes;
+  take_around();
+  place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
       splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
@@ -167,9 +191,10 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.too_sharp = windows.particles().too_sharp;
   counts_.around = windows.particles().around;
   counts_.windows = windows.steps();
-  if (counts_.too_sharp > 0) return planes;
-  const std::uint64_t splats = counts_.visible;
-  if (counts_.around > 0) around_ = CloudLayers(find_around());
+  if (!can_draw()) return planes;
+  const std::uint64_t without_clouds = counts_.visible;
+  take_around();
+  const std::uint64_t splats = without_clouds + in_lists_.count();
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
@@ -177,10 +202,10 @@ Planes Pipeline::draw_windows(Planes planes) {
   std::uint64_t first = 0, drawn = 0;
   std::size_t next = 0;
   for (std::size_t step = 0; step < windows.steps(); ++step) {
-    sorted = windows.next(step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
-                          [&](const KeyedSplats& keyed, const KeyWindow& window) {
-                            place_around(keyed, drawn, window.end);
-                          });
+    sorted = windows.next(
+        step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
+        {[&](std::uint64_t end_key) { return in_lists_.open_before(end_key); },
+         [&](std::uint64_t end_key, KeyedSplats& keyed) { place_around(keyed, drawn, end_key); }});
     first = drawn;
     planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
     drawn = next < chunks.size() ? chunks[next].first : splats;
@@ -225,7 +250,8 @@ Planes Pipeline::end_order(std::uint64_t splats, Planes planes) {
   return planes;
 }
 
-void Pipeline::place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
+void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
+  in_lists_.append_before(end_key, keyed);
   if (around_.has_open_before(end_key))
     around_.place_among(sort_keys_of(context_, keyed), first, end_key);
 }

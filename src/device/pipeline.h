@@ -14,6 +14,7 @@
 #include "device/ranks/rank_work.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
+#include "device/stages/clouds_in_lists.h"
 #include "device/stages/compositor.h"
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
@@ -32,9 +33,11 @@ struct DrawCounts {
   std::uint64_t visible = 0, bad = 0;
   std::uint64_t too_sharp = 0;        // for the plan's precision
   std::uint64_t around = 0;           // clouds around the camera
+  std::uint64_t in_lists = 0;         // of those, entries of lists
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
   std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
+  bool ends_too_many_slabs = false;   // clouds around the camera do: nothing was drawn
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
@@ -49,8 +52,8 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Of no use where counts() tells of particles that are too sharp: it ends early then. Of ranks
-  // the first has the picture, the others a black one.
+  // Of no use where counts() tells of particles that are too sharp, or of too many ends of slabs:
+  // it ends early then. Of ranks the first has the picture, the others a black one.
   Image draw();
   // Of all splats that have been drawn; of ranks the first knows.
   CollectedSplats collected() const;
@@ -72,7 +75,9 @@ class Pipeline {
   SplatLight draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf);
   Planes draw_sums();
   Planes draw_ordered(Planes planes);
+  Planes draw_alone(Planes planes);  // an ordered frame, by this rank
   bool has_room_for_all_splats() const;
+  bool can_draw();
   Planes draw_windows(Planes planes);
   // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
   Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,
@@ -88,8 +93,6 @@ class Pipeline {
                                          std::uint64_t own);
   void add_up_counts();
   Planes draw_slices(Planes planes);
-  void place_around_of_round(const SplatExchange& exchange, std::size_t round,
-                             const std::vector<std::uint64_t>& own_keys);
   SplatLight draw_slice(const SortedSplats& sorted, const SlicePart& part,
                         const std::vector<SplatChunk>& chunks, SplatLight light);
   SplatLight draw_slice_in_bands(const SortedSplats& sorted, const SlicePart& part,
@@ -98,7 +101,10 @@ class Pipeline {
                     Planes planes);
   void send_state(const SplatLight& light, int to);
   SplatLight receive_state(int from);
-  void place_around(const KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
+  void take_around();
+  // Puts clouds around the camera with keys below `end_key` among splats, the nearest of which is
+  // number `first`, or finds their places between them.
+  void place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
   void draw_around(const CloudLayer& layer, const Planes& planes);
   Planes draw_lists(const CountedSplats& counted, Planes planes);
   void tell(std::size_t done, std::size_t total) const;
@@ -108,12 +114,13 @@ class Pipeline {
   const Projector projector_;
   const Sorter sorter_;
   const Binner binner_;
-  const Compositor compositor_;
+  Compositor compositor_;
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
   const Surroundings surroundings_;
-  CloudLayers around_;
+  CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
+  CloudLayers around_;      // ... or layers between them
   DrawCounts counts_;
   std::function<void(double)> progress_;
   FrameRanks* ranks_;                      // null: one process

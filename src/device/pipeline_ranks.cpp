@@ -1,6 +1,4 @@
 // The stages of one frame that several ranks draw together: to the bits of one process.
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "device/pipeline.h"
@@ -90,23 +88,6 @@ SplatLight Pipeline::receive_state(int from) {
   return light;
 }
 
-// Clouds around the camera that lie among the round's splats: each rank counts those of its own
-// that are in front of each.
-void Pipeline::place_around_of_round(const SplatExchange& exchange, std::size_t round,
-                                     const std::vector<std::uint64_t>& own_keys) {
-  const std::vector<std::uint64_t> clouds = around_.open_keys(exchange.window(round).end);
-  std::vector<std::uint64_t> before(clouds.size());
-  for (const std::uint64_t key : own_keys) {
-    const auto behind = std::upper_bound(clouds.begin(), clouds.end(), key);
-    if (behind != clouds.end()) ++before[static_cast<std::size_t>(behind - clouds.begin())];
-  }
-  std::partial_sum(before.begin(), before.end(), before.begin());
-  ranks_->all.add_up(before);
-  for (std::uint64_t& splats : before)
-    splats += exchange.slice(round, 0).first;
-  around_.place(before);
-}
-
 // Each rank sorts a slice of the order, nearest first by ranks, and composites its chunks behind
 // what comes from the rank before. In rounds the last rank passes on to the first of the next
 // round; it waits with that until all splats of that round are where they belong, for which all
@@ -120,20 +101,19 @@ Planes Pipeline::draw_slices(Planes planes) {
   counts_.bad = found.bad;
   counts_.too_sharp = found.too_sharp;
   counts_.around = found.around;
-  if (counts_.too_sharp > 0) return planes;
+  if (!can_draw()) return planes;
+  // Clouds around the camera reach all over the picture, in front of splats of every slice.
+  if (counts_.around > 0) return is_first() ? draw_alone(std::move(planes)) : std::move(planes);
   const std::uint64_t splats = found.visible;
   const int rank = ranks_->rank(), last = ranks_->size() - 1;
   counts_.windows =
       exchange.rounds() > 1 ? exchange.rounds() * static_cast<std::uint64_t>(last + 1) : 0;
-  if (counts_.around > 0)
-    around_ = CloudLayers(gather_around(exchange.own_chunks(), exchange.own_around()));
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
 
-  // Slabs and clouds around the camera are laid over the whole picture.
-  const bool in_bands =
-      context_.plan.slabs == 0 && counts_.around == 0 && exchange.has_room_for_copies();
+  // Slabs are laid over the whole picture.
+  const bool in_bands = context_.plan.slabs == 0 && exchange.has_room_for_copies();
 
   SplatLight light;
   light.planes = std::move(planes);
@@ -144,11 +124,6 @@ Planes Pipeline::draw_slices(Planes planes) {
     if (round > 0 && rank == last) {
       passed.send(*ranks_, 0);
       send_state(light, 0);
-    }
-    if (counts_.around > 0) {
-      std::vector<std::uint64_t> keys = sort_keys_of(context_, keyed);
-      keys.erase(keys.begin(), keys.begin() + part.carried);
-      place_around_of_round(exchange, round, keys);
     }
     const SortedSplats sorted = sorter_.sort(std::move(keyed));
     const bool goes_on = rank > 0 || round > 0;
@@ -172,11 +147,7 @@ Planes Pipeline::draw_slices(Planes planes) {
   ranks_->all.add_up(entries);
   counts_.tile_entries = entries.front();
   certifier_.put_cells(std::move(light.cells));
-  if (rank > 0) return std::move(light.planes);
-  // Those among splats have been drawn with them.
-  while (around_.take_before(splats)) {
-  }
-  return end_order(splats, std::move(light.planes));
+  return std::move(light.planes);
 }
 
 // Band by band of the picture, each as soon as the rank before has passed it on.
@@ -206,9 +177,6 @@ SplatLight Pipeline::draw_slice(const SortedSplats& sorted, const SlicePart& par
                                 const std::vector<SplatChunk>& chunks, SplatLight light) {
   certifier_.put_cells(std::move(light.cells));
   ranks_->work.splats += part.composited();
-  // Layers in front of this part have been drawn by the ranks before.
-  while (around_.take_before(part.first)) {
-  }
   std::size_t next = part.first_chunk;
   light.planes = draw_chunks(sorted, part.first, chunks, next, std::move(light.planes));
   light.cells = certifier_.take_cells();

@@ -51,16 +51,20 @@ Layer over(const Layer& near_layer, const Layer& far_layer) {
   return both;
 }
 
+double shape_around(const Splat& splat, int x, int y, const Vec3& direction,
+                    const KernelSettings& kernel) {
+  double column = splat.splat_part > 0 ? splat.splat_part * shape(splat, x, y, kernel) : 0;
+  if (splat.ray_part > 0) column += splat.ray_part * ray_shape(splat.center, direction);
+  return column;
+}
+
 Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const Frame& frame) {
+  const Vec3 direction = frame.projection == Projection::orthographic
+                             ? Vec3{}
+                             : direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
   Layer pixel;
   for (const Splat& splat : splats) {
-    double column = splat.splat_part * shape(splat, x, y, frame.kernel);
-    if (splat.ray_part > 0) {
-      column +=
-          splat.ray_part *
-          ray_shape(splat.center, direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection));
-    }
-    column *= splat.weight;
+    const double column = splat.weight * shape_around(splat, x, y, direction, frame.kernel);
     if (column > 0) pixel = over(pixel, layer_of(splat, column));
   }
   return pixel;

@@ -47,4 +47,9 @@ inline bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kerne
 // The layer of a column X of one splat: tau = A X, S = E X phi(tau).
 Layer layer_of(const Splat& splat, double column);
 
+// X per unit weight of a splat that may be of a cloud around the camera, in a pixel that looks in
+// this direction.
+double shape_around(const Splat& splat, int x, int y, const Vec3& direction,
+                    const KernelSettings& kernel);
+
 }  // namespace splotchcl::reference

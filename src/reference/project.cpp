@@ -137,7 +137,11 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   splat.x = place.x;
   splat.y = place.y;
   splat.sigma = frame.kernel.width * h_drawn;
-  splat.stretch = stretch_along_x(place, splat.sigma, frame.camera, frame.projection);
+  if (frame.projection == Projection::equirectangular) {
+    const PanoramaEllipse ellipse = panorama_ellipse(place, splat.sigma, frame.camera);
+    splat.y = ellipse.y;
+    splat.stretch = ellipse.stretch;
+  }
   const double w = column_through_center(component.weight, static_cast<double>(p.weight), h,
                                          frame.kernel.width * h);
   splat.weight = w / component.reference_column * (h_pixels / h_drawn);
@@ -200,20 +204,25 @@ bool is_within_set_limits(const Depth& depth, const Frame& frame, const DepthKey
          !(frame.far_limit && depth.key > scale.far_key);
 }
 
-// The splat and its copies a period to the left and right, as far as they reach the picture.
-// At eight sigmas a cloud has 1e-28 of its peak left.
+// The splat and its copies a period to the left and right, and between them those that are
+// mirrored over the nearer pole, as far as they reach the picture. At eight sigmas a cloud has
+// 1e-28 of its peak left.
 void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
-  const double period = period_along_x(frame.camera, frame.projection);
-  const double reach = 8 * splat.stretch * splat.sigma + 2;
-  const double x = splat.x;
-  const double first = std::ceil((-reach - x) / period);
-  const double last = std::floor((frame.width + reach - x) / period);
-  if (first > last) splats.push_back(splat);
+  const double half_period = 0.5 * period_along_x(frame.camera, frame.projection);
+  const double reach = 8 * splat.sigma + 2, reach_x = 8 * splat.stretch * splat.sigma + 2;
+  const double x = splat.x, y = splat.y, mirrored = mirrored_over_pole(y, frame.camera);
+  const double first = std::ceil((-reach_x - x) / half_period);
+  const double last = std::floor((frame.width + reach_x - x) / half_period);
+  const std::size_t before = splats.size();
   for (double copy = first; copy <= last; ++copy) {
-    splat.x = x + copy * period;
+    const bool is_mirrored = std::fmod(copy, 2) != 0;
+    if (is_mirrored && (mirrored + reach < 0 || mirrored - reach > frame.height)) continue;
+    splat.x = x + copy * half_period;
+    splat.y = is_mirrored ? mirrored : y;
     splats.push_back(splat);
     splat.ray_part = 0;  // which is that of all copies
   }
+  if (splats.size() == before) splats.push_back(splat);
 }
 
 void project_component(const DrawnComponent& component, const Frame& frame,

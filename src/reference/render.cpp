@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/profile.h"
+#include "scene/projection.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::reference {
@@ -81,12 +82,28 @@ class RowPainter {
  private:
   // A cloud around the camera may be seen anywhere.
   void add_around(const Splat& splat, std::vector<Layer>& layers) {
+    if (directions_.empty()) find_directions();
     const Rectangle& crop = frame_.crop;
+    const Vec3* direction = directions_.data();
+    const double reach = reach_in_sigmas(splat), nothing = std::exp(-reach * reach);
     for (int y = own_row_from(crop.y); y < crop.y + crop.height; y += row_step_) {
       Layer* row = layers.data() +
                    static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
+      for (int x = crop.x; x < crop.x + crop.width; ++x) {
+        const double column = shape_around(splat, x, y, *direction++, frame_.kernel);
+        if (column < nothing) continue;
+        Layer& pixel = row[x - crop.x];
+        pixel = over(pixel, layer_of(splat, splat.weight * column));
+      }
+    }
+  }
+
+  // Of the pixels of its own rows.
+  void find_directions() {
+    const Rectangle& crop = frame_.crop;
+    for (int y = own_row_from(crop.y); y < crop.y + crop.height; y += row_step_) {
       for (int x = crop.x; x < crop.x + crop.width; ++x)
-        row[x - crop.x] = over(row[x - crop.x], composite_pixel({splat}, x, y, frame_));
+        directions_.push_back(direction_at(x + 0.5, y + 0.5, frame_.camera, frame_.projection));
     }
   }
 
@@ -99,6 +116,7 @@ class RowPainter {
   const Frame& frame_;
   int first_row_, row_step_;
   std::vector<double> profile_x_;
+  std::vector<Vec3> directions_;  // where clouds are around the camera
 };
 
 // Every thread walks through all splats and draws its own rows, so the result does not

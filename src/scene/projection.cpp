@@ -51,6 +51,7 @@ Projected project_fisheye(const Vec3& u, double distance, const CameraFrame& cam
 Projected project_equirectangular(const Vec3& u, double distance, const CameraFrame& camera) {
   Projected place;
   place.cos_latitude = std::hypot(u.a[0], u.a[2]);
+  place.sine_latitude = u.a[1];
   place.x = camera.center_x + camera.focal_pixels * std::atan2(u.a[0], u.a[2]);
   place.y = camera.center_y + camera.focal_pixels * std::atan2(u.a[1], place.cos_latitude);
   place.pixels_per_length = camera.focal_pixels / distance;
@@ -123,18 +124,39 @@ Vec3 seen_by_eye(const Vec3& from_camera, const CameraFrame& camera, Projection 
   return turned(from_camera, std::clamp(camera.eye_offset / distance, -1.0, 1.0), camera);
 }
 
-// With c the cosine of the latitude and s the cloud's angular width: the light of the cloud is
-// w pi s^2. A Gaussian that is s high and b wide (angles) has in the picture w sqrt(pi) b times
-// the integral of y exp(-(y - c)^2 / s^2) over y > 0, the rows' lengths on the sphere, which is
-// sqrt(pi) s^2 g(c / s). So b = 1 / g(c / s): s / c far from the poles, 2 sqrt(pi) at one,
-// where the copies that the picture's period adds make a ring of even light.
+// In units of the cloud's angular width s, with the pole at 0: a cloud at the distance u is an
+// ellipse at m and one at -m. As they lie in the picture, rows of length |r| hold
+// sqrt(pi) Q(m) = sqrt(pi) (exp(-m^2) + sqrt(pi) m erf(m)) of them, so that the width sqrt(pi) / Q
+// keeps the cloud's flux. Their mean of r^2 is the cloud's, u^2 + 1, where
+// (m^2 + 1/2) erf(m) + m exp(-m^2) / sqrt(pi) = u^2, which this m solves to 0.3 %.
+PanoramaEllipse panorama_ellipse(const Projected& place, double sigma, const CameraFrame& camera) {
+  constexpr double nowhere = 1e-18, farthest = 1e15;
+  const double s = sigma / camera.focal_pixels;
+  const double sine = std::max(std::abs(place.sine_latitude), nowhere);
+  const double u = std::min(place.cos_latitude / (s * sine), farthest);
+  const double u2 = u * u;
+  const double k = 0.5 + (4 / pi - 0.5) / (1 + u2 * (3.09 - 1.8 / (1 + 0.5 * u2)));
+  const double root = std::sqrt(u2 + k), m = u2 / root;
+  PanoramaEllipse ellipse;
+  const double nearer = sigma * (u * k / (root * (root + u)));
+  ellipse.y = place.y + std::copysign(nearer, place.sine_latitude);
+  // sine * m, which is finite at the horizon.
+  const double sine_m = place.cos_latitude / s * (u / root);
+  ellipse.stretch =
+      std::sqrt(pi) / s / (sine * std::exp(-m * m) + std::sqrt(pi) * sine_m * std::erf(m));
+  return ellipse;
+}
+
+double mirrored_over_pole(double y, const CameraFrame& camera) {
+  const double to_pole = 0.5 * pi * camera.focal_pixels;
+  const double pole = camera.center_y + (y < camera.center_y ? -to_pole : to_pole);
+  return 2 * pole - y;
+}
+
 double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
                        Projection projection) {
-  if (projection != Projection::equirectangular) return 1;
-  const double s = sigma / camera.focal_pixels;
-  const double u = place.cos_latitude / s;
-  const double g = std::exp(-u * u) / (2 * std::sqrt(pi)) + 0.5 * u * (1 + std::erf(u));
-  return 1 / (s * g);
+  return projection == Projection::equirectangular ? panorama_ellipse(place, sigma, camera).stretch
+                                                   : 1;
 }
 
 Vec3 turn_axis_in_view(const CameraFrame& camera) {

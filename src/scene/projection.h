@@ -14,6 +14,7 @@ struct Projected {
   double depth = 0;              // by which limits and order go: z, or the distance
   double pixels_per_length = 0;  // of a cloud's width; along y where that is not the same
   double cos_latitude = 1;       // in equirectangular pictures
+  double sine_latitude = 0;      // likewise, positive below the horizon
 };
 
 // `from_camera`: along the camera's right, down and forward axes. Nothing where the projection
@@ -31,8 +32,17 @@ Vec3 direction_at(double x, double y, const CameraFrame& camera, Projection proj
 // point itself where there is no such eye.
 Vec3 seen_by_eye(const Vec3& from_camera, const CameraFrame& camera, Projection projection);
 
-// How many times as wide as high a splat of height sigma (pixels) is. 1, except in equirectangular
-// pictures, where it grows towards the poles so that the splat keeps its flux.
+// The ellipse as which an equirectangular picture shows a splat of this height. Another one, half
+// a period along, is its mirror image over the nearer pole (docs/projections.md).
+struct PanoramaEllipse {
+  double y = 0;        // of its center, nearer to the pole than the cloud's place
+  double stretch = 1;  // so many times as wide as high: the splat keeps its flux
+};
+PanoramaEllipse panorama_ellipse(const Projected& place, double sigma, const CameraFrame& camera);
+double mirrored_over_pole(double y, const CameraFrame& camera);
+
+// How many times as wide as high a splat of height sigma (pixels) is: 1, except in equirectangular
+// pictures.
 double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
                        Projection projection);
 

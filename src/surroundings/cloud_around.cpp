@@ -101,18 +101,21 @@ void set_amplitudes(const DrawnComponent& component, std::size_t i, double weigh
 // At eight sigma a cloud has 1e-28 of its peak left.
 void set_splats(const Projected& place, double sigma, const Frame& frame, CloudAround& cloud) {
   SplatAround splat = {place.x, place.y, sigma, sigma};
-  splat.sigma_x *= stretch_along_x(place, sigma, frame.camera, frame.projection);
   if (frame.projection != Projection::equirectangular) {
     cloud.splats = {splat};
     return;
   }
-  const double period = period_along_x(frame.camera, frame.projection);
-  const double reach = 8 * splat.sigma_x + 2;
-  const double first = std::ceil((-reach - place.x) / period);
-  const double last = std::floor((frame.width + reach - place.x) / period);
+  const PanoramaEllipse ellipse = panorama_ellipse(place, sigma, frame.camera);
+  splat.sigma_x *= ellipse.stretch;
+  const double mirrored = mirrored_over_pole(ellipse.y, frame.camera);
+  const double half_period = 0.5 * period_along_x(frame.camera, frame.projection);
+  const double reach = 8 * sigma + 2, reach_x = 8 * splat.sigma_x + 2;
+  const double first = std::ceil((-reach_x - place.x) / half_period);
+  const double last = std::floor((frame.width + reach_x - place.x) / half_period);
   for (double copy = first; copy <= last; ++copy) {
-    splat.x = place.x + copy * period;
-    cloud.splats.push_back(splat);
+    splat.x = place.x + copy * half_period;
+    splat.y = std::fmod(copy, 2) != 0 ? mirrored : ellipse.y;
+    if (splat.y + reach >= 0 && splat.y - reach <= frame.height) cloud.splats.push_back(splat);
   }
 }
 

@@ -65,6 +65,27 @@ TEST_P(CropBits, AreThoseOfTheWholePicture) {
   }
 }
 
+// Clouds around the camera are entries of the lists of all tiles that they may touch.
+TEST_P(CropBits, AreThoseOfThePictureThroughClouds) {
+  DeviceContext device(choose_device(""));
+  Camera camera;
+  camera.look_at = {{0, 0, 1}};
+  camera.sky = {{0, -1, 0}};
+  Frame frame = frame_for(LightPlan::ordered, 200);
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.through_clouds = true;
+  frame.components.push_back(component_of(
+      {{0, 0, 0.5, 1, 0.2}, {0.3, -0.1, 5, 0.8, 0.3}, {0, 0.1, -1, 1, 0.4}}, two_colors()));
+  frame.components.back().absorption = {Absorption::Kind::gray, 0.1};
+  const Image whole = draw_once(device, frame, GetParam());
+  ASSERT_GT(sum_of_light(whole), 100);
+  for (const Rectangle& crop : {Rectangle{64, 32, 32, 32}, Rectangle{37, 23, 101, 67}}) {
+    frame.crop = crop;
+    EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, crop), 0) << crop.x;
+  }
+}
+
 // What one splat asks for is asked for in the whole picture.
 TEST_P(CropBits, AreThoseOfThePictureAlsoWhereAStarBesideTheCropIsTooSharp) {
   Frame frame = frame_for(LightPlan::emission, 20);

@@ -147,6 +147,30 @@ TEST_P(EveryKernel, LooksInAllDirections) {
   }
 }
 
+// Wide ones in lists, narrow ones as layers of their own; the thick and bright ones keep all
+// digits.
+TEST_P(EveryKernel, LooksThroughCloudsAroundTheCamera) {
+  for (const Projection projection : {Projection::perspective, Projection::equirectangular}) {
+    for (const double field_of_view : {25.0, 150.0}) {
+      Frame frame = wide_frame(projection);
+      Camera camera;
+      camera.look_at = {{0, 0, 1}};
+      camera.projection = projection;
+      camera.field_of_view_degrees = field_of_view;
+      frame.camera = make_camera_frame(camera, frame.width, frame.height);
+      frame.through_clouds = true;
+      DrawnComponent around = component_of(
+          {{0, 0, 0.5, 1, 0.2}, {0.3, -0.1, 5, 0.8, 3}, {0, 0.1, -1, 1, 9}}, two_colors());
+      around.absorption = {Absorption::Kind::gray, 0.3};
+      frame.components.push_back(around);
+      for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        frame.tolerance = tolerance;
+        expect_within_tolerance(frame, "around, " + std::to_string(field_of_view));
+      }
+    }
+  }
+}
+
 TEST_P(EveryKernel, LooksInAllDirectionsAtToleranceZero) {
   Renderer pairs({"", GetParam(), false});
   for (const Projection projection :

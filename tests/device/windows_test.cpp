@@ -233,6 +233,35 @@ TEST_P(Windows, HoldCloudsAroundTheCamera) {
   }
 }
 
+TEST_P(Windows, HoldCloudsAroundTheCameraInLists) {
+  Camera camera;
+  camera.position = {{0, 0, 20}};
+  camera.look_at = {{0, 0, 60}};
+  camera.sky = {{0, -1, 0}};
+  Frame frame = many_clouds(300);
+  frame.width = 240;
+  frame.height = 100;
+  frame.crop = {0, 0, frame.width, frame.height};
+  frame.projection = camera.projection;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.through_clouds = true;
+  for (const SortOrder::By by : {SortOrder::By::depth, SortOrder::By::field}) {
+    frame.sort.by = by;
+    for (DrawnComponent& component : frame.components) {
+      std::vector<float> fields(component.particles.count, 1.0f);
+      for (std::size_t i = 0; i < fields.size(); i += 2)
+        fields[i] = static_cast<float>(i % 3);
+      component.particles.sort_field = Column::owning(fields);
+    }
+    const Image whole = draw(frame, 0);
+    EXPECT_GT(counts().in_lists, 5u);
+    EXPECT_LE(largest_error(whole, reference::render(frame)), frame.tolerance);
+    EXPECT_EQ(draw_in_windows(frame, 6, 0).pixels, whole.pixels);
+    EXPECT_GE(counts().windows, 3u);
+    EXPECT_EQ(draw(streamed(frame), 0).pixels, whole.pixels);
+  }
+}
+
 TEST_P(Windows, HoldAnEmptyFrame) {
   Frame frame = many_clouds(100);
   frame.camera.position = {{0, 0, 1e6}};

@@ -65,6 +65,19 @@ double worst_error(const Frame& frame, const Image& image, const ReferenceImage&
 
 class WideAngleScenes : public PictureTest {};
 
+TEST_F(WideAngleScenes, ShowAnEvenSkyEvenlyUpToThePolesOfAPanorama) {
+  const Frame frame = wide_frame({Projection::equirectangular, 120, 60}, {even_sky(16000, 0.04)});
+  for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
+    const Image image = draw(frame, shape);
+    for (int y = 0; y < image.height; ++y) {
+      double row = 0;
+      for (int x = 0; x < image.width; ++x)
+        row += static_cast<double>(*image.at(x, y)) / image.width;
+      EXPECT_NEAR(row, 1, 0.02) << y;
+    }
+  }
+}
+
 // Single precision: poles magnify.
 constexpr double single_place = 1e-3;
 

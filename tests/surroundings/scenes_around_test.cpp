@@ -41,6 +41,24 @@ TEST_F(ScenesAround, KeepTheirTolerance) {
   EXPECT_GT(3 * lit, 2 * drawn) << "most scenes should have something to see";
 }
 
+// In ordered pictures in which none of them is narrow.
+TEST_F(ScenesAround, KeepTheirToleranceInLists) {
+  constexpr double wide_enough = 48;  // twelve sigma away four pixels
+  int in_lists = 0;
+  for (const std::uint64_t seed : seeds(5001, 5140)) {
+    const Frame frame = AroundSceneMaker(seed, 200).make();
+    if (choose_light(frame) != LightPlan::ordered || frame.camera.focal_pixels < wide_enough)
+      continue;
+    ++in_lists;
+    const ReferenceImage exact = reference::render(frame);
+    for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
+      EXPECT_LE(largest_error(draw(frame, shape), exact), frame.tolerance)
+          << "seed " << seed << ": " << describe(frame);
+    }
+  }
+  EXPECT_GT(in_lists, 3);
+}
+
 TEST_F(ScenesAround, KeepThePromiseOfToleranceZero) {
   Renderer pairs({"", CompositeShape::automatic, false});
   for (const std::uint64_t seed : seeds(1001, 1060)) {

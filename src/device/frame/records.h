@@ -86,6 +86,15 @@ struct SplatLight {
   Buffer<float> cells;  // none where nothing has been collected
 };
 
+// What lists need of the clouds around the camera that are among them (clouds.cl).
+struct CloudTables {
+  Buffer<shared::CloudEntry> entries;
+  Buffer<shared::CloudSplat> splats;
+  // Of each pixel of the picture's grid in memory, as its planes lie; and of its tiles.
+  Buffer<float> directions;
+  Buffer<shared::DirectionCone> cones;
+};
+
 // What slabs of an ordered frame add to its planes.
 struct SlabLight {
   Buffer<float> before;  // the picture's own planes as they were before this slab

@@ -243,9 +243,15 @@ ProgramSource Specialization::composite() const {
   return {defines, composite_files()};
 }
 
+ProgramSource Specialization::composite_with_clouds() const {
+  ProgramSource source = composite();
+  source.defines += define("CLOUDS_IN_LISTS");
+  return source;
+}
+
 std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
-                                    "lanes.cl", "shape.cl", "opacity.cl"};
+                                    "lanes.cl", "shape.cl", "opacity.cl",  "clouds.cl"};
   if (rows_)
     files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
   else

@@ -37,6 +37,7 @@ class Specialization {
   // have no rows.
   bool has_rows() const { return rows_ && (!extended_ || double_numbers_); }
   bool has_vector_colors() const { return vector_colors_; }
+  bool has_ellipses() const { return ellipses_; }
   bool has_background_image() const { return background_image_; }
 
   // Pixels of a tile.
@@ -54,6 +55,8 @@ class Specialization {
   ProgramSource project(ProjectOutput output) const;
   ProgramSource bin() const;
   ProgramSource composite() const;
+  // The same of lists in which there are clouds around the camera.
+  ProgramSource composite_with_clouds() const;
   ProgramSource join() const;
   // The same of wide splats in slabs of an ordered plan, which are added up.
   ProgramSource composite_slab() const;

@@ -24,8 +24,6 @@ class SplatExchange {
   void count_keys();
   const ParticleCounts& particles() const { return counts_; }  // of all ranks
   std::uint64_t left_out() const { return left_out_; }         // blocks out of view, of all ranks
-  const std::vector<ParticleChunk>& own_chunks() const { return counter_.chunks(); }
-  std::uint64_t own_around() const { return counter_.particles().around; }
 
   std::size_t rounds() const { return slices_.size() / static_cast<std::size_t>(ranks_.size()); }
   // Whether each rank has room for all splats that it composites a second time.

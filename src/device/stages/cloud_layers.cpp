@@ -18,26 +18,15 @@ void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint6
   // Of each of these clouds the splats between it and the one before.
   std::vector<std::uint64_t> between(static_cast<std::size_t>(open_end - begin) + 1);
   for (const std::uint64_t key : keys) {
-    const auto behind = std::upper_bound(
+    const auto behind = std::lower_bound(
         begin, open_end, key,
-        [](std::uint64_t splat, const CloudAround& cloud) { return splat < cloud.key; });
+        [](const CloudAround& cloud, std::uint64_t splat) { return cloud.key < splat; });
     ++between[static_cast<std::size_t>(behind - begin)];
   }
   for (auto cloud = begin; cloud != open_end; ++cloud) {
     first += between[static_cast<std::size_t>(cloud - begin)];
     splats_before_.push_back(first);
   }
-}
-
-std::vector<std::uint64_t> CloudLayers::open_keys(std::uint64_t end) const {
-  std::vector<std::uint64_t> keys;
-  for (std::size_t i = splats_before_.size(); i < clouds_.size() && clouds_[i].key < end; ++i)
-    keys.push_back(clouds_[i].key);
-  return keys;
-}
-
-void CloudLayers::place(const std::vector<std::uint64_t>& splats_before) {
-  splats_before_.insert(splats_before_.end(), splats_before.begin(), splats_before.end());
 }
 
 std::optional<CloudLayer> CloudLayers::take_before(std::uint64_t end) {

@@ -16,7 +16,7 @@ struct CloudLayer {
 };
 
 // Clouds around the camera among the sorted splats of an ordered frame, of which keys are told
-// window by window (KeyWindow), nearest first. Of equal keys clouds lie in front of splats.
+// window by window (KeyWindow), nearest first. Of equal keys clouds lie behind splats.
 class CloudLayers {
  public:
   CloudLayers() = default;
@@ -29,10 +29,6 @@ class CloudLayers {
   // The keys of splats, the nearest of which is number `first` of the order: all splats with keys
   // below `end` are among them or before them.
   void place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first, std::uint64_t end);
-  // The keys of those below `end` whose place is open, in their order; and their places, known from
-  // elsewhere: how many splats lie before each.
-  std::vector<std::uint64_t> open_keys(std::uint64_t end) const;
-  void place(const std::vector<std::uint64_t>& splats_before);
   // The next layer that lies in front of splat number `end` - 1, once.
   std::optional<CloudLayer> take_before(std::uint64_t end);
 

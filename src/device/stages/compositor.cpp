@@ -25,6 +25,11 @@ Compositor::Compositor(const StageContext& context) : context_(context) {
   parameters_.stop = context.plan.layers.stop;
 }
 
+void Compositor::take_clouds(const CloudTables& clouds) {
+  layers_.composite = context_.device.programs.get(context_.specialization.composite_with_clouds());
+  layers_.clouds = &clouds;
+}
+
 Planes Compositor::start() const {
   Planes planes;
   planes.light = context_.device.pool.get<float>(context_.layout.plane_floats + padding, "planes");
@@ -80,6 +85,12 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
       .arg(planes.light)
       .arg(partials);
   if (specialization.is_extended()) launch.arg(splats.extended);
+  if (kernels.clouds) {
+    launch.arg(kernels.clouds->entries)
+        .arg(kernels.clouds->splats)
+        .arg(kernels.clouds->directions)
+        .arg(kernels.clouds->cones);
+  }
   if (specialization.has_rows()) {
     launch.run_items(count);
   } else {

@@ -11,6 +11,9 @@ class Compositor {
  public:
   explicit Compositor(const StageContext& context);
 
+  // Lists have clouds around the camera from now on. The tables outlive it.
+  void take_clouds(const CloudTables& clouds);
+
   // No light at all, on the picture's own grid.
   Planes start() const;
   // `splats` are those that the lists were made of.
@@ -20,6 +23,7 @@ class Compositor {
   // The kernels for some of the segments: of an ordered plan's coarse grids they add up.
   struct Kernels {
     compute::program composite;
+    const CloudTables* clouds = nullptr;
   };
   // The segments from `first` on.
   struct Part {

@@ -47,7 +47,10 @@ void set_camera(const Frame& frame, const DrawnComponent& component,
                                                            : camera.focal_pixels);
   e.center_x = pair_of(camera.center_x);
   e.center_y = pair_of(camera.center_y);
-  e.period = pair_of(period_along_x(camera, frame.projection));
+  const double period = period_along_x(camera, frame.projection);
+  e.period = pair_of(period);
+  e.twice_pole[0] = pair_of(2 * camera.center_y - 0.5 * period);
+  e.twice_pole[1] = pair_of(2 * camera.center_y + 0.5 * period);
   e.eye_offset = pair_of(camera.eye_offset);
   copy(turn_axis_in_view(camera), e.turn_axis);
 }

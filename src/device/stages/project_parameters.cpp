@@ -200,8 +200,16 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
 
   const double period = period_along_x(frame.camera, frame.projection);
   p.period = static_cast<float>(period);
-  p.period_units =
-      wide(static_cast<std::int64_t>(std::llround(std::ldexp(period, grid.place_bits))));
+  const auto in_units = [&](double pixels) {
+    return wide(static_cast<std::int64_t>(std::llround(std::ldexp(pixels, grid.place_bits))));
+  };
+  p.period_units = in_units(period);
+  for (int pole = 0; pole < 2; ++pole) {
+    const double twice =
+        2 * (frame.camera.center_y - grid.middle_y) + (pole == 0 ? -0.5 : 0.5) * period;
+    p.twice_pole[pole] = static_cast<float>(twice);
+    p.twice_pole_units[pole] = in_units(twice);
+  }
 }
 
 int weight_model_number(WeightModel model) {

@@ -242,7 +242,9 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   scan_counts(blocks, counts, offsets);
   const ParticleCounts found = download_counts(counts, blocks);
   const std::uint32_t left_out_of_all = keyed.left_out;
-  keyed = keyed_memory(static_cast<std::uint32_t>(found.visible));
+  // With room for clouds around the camera.
+  keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
+  keyed.count = static_cast<std::uint32_t>(found.visible);
   keyed.particles = found;
   keyed.left_out = left_out_of_all;
   pass(ProjectOutput::splats_and_keys,

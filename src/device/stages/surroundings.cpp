@@ -183,13 +183,25 @@ double Surroundings::brightest() const {
       {1.0, *std::max_element(source.begin(), source.end()), brightest_background(context_.frame)});
 }
 
-void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds) const {
-  const double lost = share_of_ends * share_of_promise * context_.plan.shares.promise /
+void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds, double share) const {
+  const double lost = share * share_of_promise * context_.plan.shares.promise /
                       (brightest() * static_cast<double>(clouds.size()));
+  const double widest = widest_angle(context_.frame);
+  clouds.erase(std::remove_if(clouds.begin(), clouds.end(),
+                              [&](const CloudAround& cloud) {
+                                return brightest_of(cloud) *
+                                           largest_column_around(cloud, context_.frame, widest) <
+                                       lost;
+                              }),
+               clouds.end());
   for (CloudAround& cloud : clouds) {
     const double ends = std::log(brightest_of(cloud) / lost);
     cloud.farthest2 = std::clamp(ends, 0.0, cloud.farthest2);
   }
+}
+
+void Surroundings::end_nearer(std::vector<CloudAround>& clouds) const {
+  end_where_nothing_shows(clouds, 0.5);
 }
 
 std::vector<CloudAround> Surroundings::list(
@@ -208,7 +220,7 @@ std::vector<CloudAround> Surroundings::list(
 }
 
 std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds) const {
-  end_where_nothing_shows(clouds);
+  end_where_nothing_shows(clouds, share_of_ends);
   std::stable_sort(clouds.begin(), clouds.end(),
                    [](const CloudAround& a, const CloudAround& b) { return a.key < b.key; });
   return clouds;

@@ -28,6 +28,9 @@ class Surroundings {
   // All of a frame: nearest first, in file order where keys are equal, and no larger than shows.
   std::vector<CloudAround> in_order(std::vector<CloudAround> clouds) const;
 
+  // Ends them nearer: of what they may err by, half is lost there. Not for what is interpolated.
+  void end_nearer(std::vector<CloudAround>& clouds) const;
+
   // All of these clouds, added to what is in the planes of a sum.
   void draw(const std::vector<CloudAround>& clouds, const Planes& planes) const;
   // The layer's clouds, behind what is in the planes of an ordered frame.
@@ -39,7 +42,8 @@ class Surroundings {
 
  private:
   double brightest() const;
-  void end_where_nothing_shows(std::vector<CloudAround>& clouds) const;
+  // All of them together lose no more than this part of what they may err by.
+  void end_where_nothing_shows(std::vector<CloudAround>& clouds, double share) const;
   // Particles and their depths' keys.
   struct Found {
     std::uint64_t particle, depth;

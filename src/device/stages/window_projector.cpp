@@ -34,6 +34,8 @@ void WindowProjector::count_keys() {
   };
   for (const KeyWindow& window : choose_windows(counted, capacity_, count_again))
     add_steps(window);
+  // Clouds around the camera may be all that there is.
+  if (steps_.empty()) steps_.push_back({});
 }
 
 // Splats of one key are in the order of their particles, and may be drawn chunk by chunk.
@@ -53,9 +55,14 @@ void WindowProjector::add_steps(const KeyWindow& window) {
   }
 }
 
+std::uint64_t WindowProjector::end_of_step(std::size_t step) const {
+  return step + 1 < steps_.size() ? steps_[step + 1].window.first : end_of_keys;
+}
+
 SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::uint32_t first,
-                                   const KeyReader& read_keys) const {
+                                   const MoreSplats& more) const {
   const Step& wanted = steps_[step];
+  const std::uint64_t end = end_of_step(step);
   const std::uint32_t carried = sorted.count - first;
   // What is left is put aside first: two windows have no room at one time.
   KeyedSplats left;
@@ -64,8 +71,8 @@ SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::u
     carry_splats(context_, sorted, first, left);
   }
   sorted = {std::move(left.splats), std::move(left.order), carried};
-  KeyedSplats keyed =
-      projector_.keyed_memory(carried + static_cast<std::uint32_t>(wanted.window.splats));
+  KeyedSplats keyed = projector_.keyed_memory(
+      carried + static_cast<std::uint32_t>(wanted.window.splats) + more.count(end));
   if (carried > 0) carry_splats(context_, sorted, 0, keyed);
   std::uint32_t slot = carried;
   for (std::size_t c = wanted.first_chunk; c < wanted.end_chunk; ++c) {
@@ -74,7 +81,7 @@ SortedSplats WindowProjector::next(std::size_t step, SortedSplats sorted, std::u
                                       counter_.blocks_without(c, wanted.window), keyed, slot);
   }
   keyed.count = slot;
-  if (read_keys) read_keys(keyed, wanted.window);
+  more.append(end, keyed);
   return sorter_.sort(std::move(keyed));
 }
 

@@ -33,11 +33,15 @@ class WindowProjector {
   std::uint32_t left_out() const { return counter_.left_out(); }  // blocks out of view
   std::size_t steps() const { return steps_.size(); }
 
+  // What goes among the splats of a step: `count` more with keys below `end`, which `append` puts
+  // behind them. It may look at their keys, those of what was left before being 0.
+  struct MoreSplats {
+    std::function<std::uint32_t(std::uint64_t end)> count;
+    std::function<void(std::uint64_t end, KeyedSplats& keyed)> append;
+  };
   // What of `sorted` is left from place `first` on, and behind it the splats of step `step`.
-  // `read_keys` may look at them before they are sorted; what was left has keys of 0.
-  using KeyReader = std::function<void(const KeyedSplats& keyed, const KeyWindow& window)>;
   SortedSplats next(std::size_t step, SortedSplats sorted, std::uint32_t first,
-                    const KeyReader& read_keys = {}) const;
+                    const MoreSplats& more) const;
 
  private:
   // A window, or where all of its keys are one the part of it that some chunks have.
@@ -45,6 +49,8 @@ class WindowProjector {
     KeyWindow window;  // whose splats are the most that there may be
     std::size_t first_chunk = 0, end_chunk = 0;
   };
+  // All splats with keys below it are of this step or of those before.
+  std::uint64_t end_of_step(std::size_t step) const;
   void add_steps(const KeyWindow& window);
 
   const StageContext& context_;

@@ -14,8 +14,8 @@
 namespace splotchcl {
 namespace {
 
-// Copies of a splat on either side of an equirectangular picture (kernels/project).
-constexpr int splats_with_copies = 7;
+// Copies of a splat in an equirectangular picture, half a period apart (kernels/project).
+constexpr int splats_with_copies = 11;
 
 // Of the polynomial (kernels/composite/shape.cl), which is cheap beside everything else that a
 // narrow splat costs.
