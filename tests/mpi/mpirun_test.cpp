@@ -55,7 +55,7 @@ std::vector<SmallScene> small_scenes() {
       {"by_a_field", head + "[sort]\nby = \"mass\"\n" + both},
       {"panorama", head +
                        "[camera]\nprojection = \"equirectangular\"\n"
-                       "position = [25000, 25000, 25000]\nlook_at = [40000, 25000, 25000]\n" +
+                       "position = [-90000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
                        both},
       {"most_exact", "tolerance = 0\n" + head + both},
       {"two_eyes", head + "[stereo]\nlayout = \"side_by_side\"\n" + both},
