@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <chrono>
+#include <cstdlib>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace splotchcl {
@@ -18,6 +20,25 @@ template <class Pass>
 void in_pieces(std::size_t bytes, const Pass& pass) {
   for (std::size_t first = 0; first < bytes; first += most_at_once)
     pass(first, static_cast<int>(std::min(most_at_once, bytes - first)));
+}
+
+// Waiting takes no core from those that the others are waiting for: MPI itself would ask again and
+// again. What comes soon is not waited for long.
+void finish(std::vector<MPI_Request>& requests) {
+  using namespace std::chrono_literals;
+  constexpr auto longest = 500us;
+  auto pause = 1us;
+  for (int done = 0;;) {
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+    if (done != 0) return;
+    std::this_thread::sleep_for(pause);
+    pause = std::min<std::chrono::microseconds>(2 * pause, longest);
+  }
+}
+
+void finish(MPI_Request request) {
+  std::vector<MPI_Request> requests = {request};
+  finish(requests);
 }
 
 // Errors of MPI end all processes, with a line of its own.
@@ -50,14 +71,18 @@ class MpiRanks final : public Communicator {
 
   void broadcast(void* data, std::size_t bytes, int root) override {
     in_pieces(bytes, [&](std::size_t first, int count) {
-      MPI_Bcast(static_cast<char*>(data) + first, count, MPI_BYTE, root, all_);
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Ibcast(static_cast<char*>(data) + first, count, MPI_BYTE, root, all_, &request);
+      finish(request);
     });
   }
 
   std::vector<Bytes> gather(const Bytes& own) override {
     std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_));
     const std::uint64_t bytes = own.size();
-    MPI_Allgather(&bytes, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, all_);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgather(&bytes, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, all_, &request);
+    finish(request);
     std::vector<int> counts, places;
     std::uint64_t total = 0;
     for (const std::uint64_t size : sizes) {
@@ -66,8 +91,9 @@ class MpiRanks final : public Communicator {
       total += size;
     }
     Bytes together(static_cast<std::size_t>(total));
-    MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, together.data(),
-                   counts.data(), places.data(), MPI_BYTE, all_);
+    MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, together.data(),
+                    counts.data(), places.data(), MPI_BYTE, all_, &request);
+    finish(request);
     std::vector<Bytes> all;
     auto next = together.begin();
     for (const int count : counts) {
@@ -78,8 +104,10 @@ class MpiRanks final : public Communicator {
   }
 
   void add_up(std::vector<std::uint64_t>& values) override {
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T,
-                  MPI_SUM, all_);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T,
+                   MPI_SUM, all_, &request);
+    finish(request);
   }
 
   std::vector<Bytes> exchange(std::vector<Bytes> parts) override {
@@ -87,7 +115,9 @@ class MpiRanks final : public Communicator {
     std::vector<std::uint64_t> sent(count), received(count);
     std::transform(parts.begin(), parts.end(), sent.begin(),
                    [](const Bytes& part) { return part.size(); });
-    MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, all_);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ialltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, all_, &request);
+    finish(request);
     std::vector<Bytes> all(count);
     std::vector<MPI_Request> requests;
     for (int step = 1; step < size_; ++step) {
@@ -106,19 +136,22 @@ class MpiRanks final : public Communicator {
       });
     }
     all[static_cast<std::size_t>(rank_)] = std::move(parts[static_cast<std::size_t>(rank_)]);
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    finish(requests);
     return all;
   }
 
   void send(const void* data, std::size_t bytes, int to) override {
     in_pieces(bytes, [&](std::size_t first, int count) {
-      MPI_Send(static_cast<const char*>(data) + first, count, MPI_BYTE, to, tag, all_);
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Isend(static_cast<const char*>(data) + first, count, MPI_BYTE, to, tag, all_, &request);
+      finish(request);
     });
   }
   void receive(void* data, std::size_t bytes, int from) override {
     in_pieces(bytes, [&](std::size_t first, int count) {
-      MPI_Recv(static_cast<char*>(data) + first, count, MPI_BYTE, from, tag, all_,
-               MPI_STATUS_IGNORE);
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Irecv(static_cast<char*>(data) + first, count, MPI_BYTE, from, tag, all_, &request);
+      finish(request);
     });
   }
 

@@ -55,7 +55,7 @@ std::vector<SmallScene> small_scenes() {
       {"by_a_field", head + "[sort]\nby = \"mass\"\n" + both},
       {"panorama", head +
                        "[camera]\nprojection = \"equirectangular\"\n"
-                       "position = [25000, 25000, 25000]\nlook_at = [40000, 25000, 25000]\n" +
+                       "position = [-90000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
                        both},
       {"most_exact", "tolerance = 0\n" + head + both},
       {"two_eyes", head + "[stereo]\nlayout = \"side_by_side\"\n" + both},
@@ -173,8 +173,7 @@ TEST_P(MpiRun, EndsWhereAProcessIsKilled) {
   write("scene.toml", small_scenes()[2].text);
   write("one_is_killed",
         "#!/bin/sh\nexport SPLOTCHCL_CACHE=\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\n"
-        "if [ $rank = 1 ]; then\n"
-        "  \"$splotchcl\" render scene.toml -o b.png & sleep 0.5; kill -KILL $!; exit 137\nfi\n"
+        "if [ $rank = 1 ]; then (sleep 1; kill -KILL $$) & fi\n"
         "exec \"$splotchcl\" render scene.toml -o a.png\n");
   const ProgramResult result = run("chmod +x one_is_killed; " + mpirun(3) + "./one_is_killed");
   EXPECT_NE(result.exit_code, 0);
