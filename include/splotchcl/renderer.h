@@ -64,8 +64,6 @@ struct RendererOptions {
   // same kind: those of one host take different ones, where it has several. Null: this process
   // alone.
   std::shared_ptr<Communicator> ranks = nullptr;
-  // Of a sum (chunks.h), for tests: 0: as the device has them.
-  std::uint32_t leaf_chunks = 0;
   // Told from part to part of a frame how much of it is drawn, from 0 to 1, once for each time that
   // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
   // is drawn as if nothing had been. Must not use the renderer.

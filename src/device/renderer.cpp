@@ -110,7 +110,6 @@ struct Renderer::State {
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
     progress = options.progress;
-    if (options.leaf_chunks > 0) device.traits.leaf_chunks = options.leaf_chunks;
   }
 
   void join_ranks(const RendererOptions& options);
