@@ -273,14 +273,17 @@ inline int add_splat(float* tile, __global const TileSplat* splat, float mean_si
 
 // A call: hardly any entries are clouds. Whether it touches the tile.
 __attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* cloud,
-                                        const TileClouds* clouds, const CompositeParameters* p) {
+                                        const TileClouds* clouds, float* depth_of_block,
+                                        const CompositeParameters* p) {
   if (!cloud_touches(cloud, clouds)) return 0;
   const float8 absorption0 = cloud->absorption[0], emission0 = cloud->emission[0];
   const float8 absorption1 = cloud->absorption[1], emission1 = cloud->emission[1];
   const float8 absorption2 = cloud->absorption[2], emission2 = cloud->emission[2];
-  if (cloud->deepest <= p->phi_short) {
-    CLOUD_ROWS(THIN_CHANNELS)
-  } else if (cloud->deepest <= p->phi_series) {
+  *depth_of_block += cloud->deepest;
+  const int form = form_of_layer(cloud->deepest, *depth_of_block, p);
+  if (form <= BY_THREE_TERMS) {
+    CLOUD_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS, float8, load_eight, store_eight))
+  } else if (form == BY_SERIES) {
     CLOUD_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
   } else {
     CLOUD_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
@@ -340,8 +343,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #ifdef CLOUDS_IN_LISTS
     const float sigma = entries[k].sigma;
     if (is_cloud(sigma)) {
-      if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &p)) continue;
-      depth_of_block = INFINITY;  // it may be as deep as it likes
+      if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &depth_of_block, &p)) continue;
     } else
 #endif
         if (!add_splat(tile, entries + k, grid.mean_sigma, &depth_of_block, &p))
