@@ -213,10 +213,16 @@ std::shared_ptr<const ParticleBoxes> ComponentFields::boxes() const {
   if (!stale.empty()) note(stale);
   std::vector<int> types;
   for (std::size_t t = 0; t < types_.size(); ++t) {
-    if (selected_[t] || interpolated(types_[t].positions())) return nullptr;
+    if (selected_[t]) return nullptr;
     types.push_back(types_[t].info().type);
   }
-  return component_boxes(component_, snapshot_, types);
+  auto boxes = component_boxes(component_, snapshot_, types);
+  const auto is_between = [](const TypeFields& type) {
+    return interpolated(type.positions()) != nullptr;
+  };
+  // Asked last: it may read positions.
+  if (boxes && std::any_of(types_.begin(), types_.end(), is_between)) return nullptr;
+  return boxes;
 }
 
 void ComponentFields::note(const std::string& text) const {
