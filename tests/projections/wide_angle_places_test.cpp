@@ -97,7 +97,7 @@ class WideAnglePlaces : public StageTest,
       places.push_back({identity_of(splat), place.x, place.y, unwidened(splat.sigma), 0});
       places.back().has_coarse_unit = splat.component_and_grid >> 24 > 0;
       const std::size_t after = sizeof(splat) / sizeof(float);
-      if (words > after) places.back().sigma_x = unwidened(values[i * words + after]);
+      if (stages.plan().has_ellipses) places.back().sigma_x = unwidened(values[i * words + after]);
     }
     return places;
   }

@@ -186,7 +186,7 @@ def test_keyframes_are_added_played_and_saved(page, tmp_path):
     frame = page.find("Frame of keyframe 2")
     assert frame.get_attribute("value") == "50"
     page.find("Play the keyframes").click()
-    WebDriverWait(page.browser, 20).until(
+    WebDriverWait(page.browser, 60).until(
         lambda _: page.script("app.keyframes.timer === null && app.keyframes.frame === 50"))
     page.wait_for_exact()
     assert page.picture() == here
@@ -239,7 +239,7 @@ def test_a_reload_keeps_what_was_set(page):
 def test_a_lost_connection_comes_back(page):
     page.browser.execute_script("app.link.socket.close()")
     page.find("Orbit left").click()
-    WebDriverWait(page.browser, 20).until(lambda _: page.script("app.link.isOpen"))
+    WebDriverWait(page.browser, 60).until(lambda _: page.script("app.link.isOpen"))
     page.wait_for_exact()
 
 
