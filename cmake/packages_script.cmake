@@ -42,7 +42,8 @@ endforeach()
 
 # They are opened by their names, by what was built with them, and nobody links them.
 foreach(module IN ITEMS openimageio openmpi mpich)
-  if(module IN_LIST CPACK_COMPONENTS_ALL)
+  list(FIND CPACK_COMPONENTS_ALL ${module} place)
+  if(NOT place EQUAL -1)
     file(WRITE ${CPACK_TEMPORARY_DIRECTORY}/${module}/usr/share/lintian/overrides/splotchcl-${module}
       "splotchcl-${module}: sharedobject-in-library-directory-missing-soname\n")
   endif()
