@@ -102,14 +102,6 @@ std::vector<CloudAround> Pipeline::list_around(const std::vector<ParticleChunk>&
   return surroundings_.list(chunks, get, counted);
 }
 
-// Whether what was counted can be drawn with the plan. Each cloud that lies between splats ends a
-// slab, which takes a pass over the picture.
-bool Pipeline::can_draw() {
-  constexpr std::uint64_t most_around = 64;
-  counts_.ends_too_many_slabs = context_.plan.slabs > 0 && counts_.around > most_around;
-  return counts_.too_sharp == 0 && !counts_.ends_too_many_slabs;
-}
-
 // Of an ordered frame.
 void Pipeline::take_around() {
   if (counts_.around == 0) return;
@@ -169,7 +161,7 @@ Planes Pipeline::draw_alone(Planes planes) {
   counts_.bad = keyed.particles.bad;
   counts_.too_sharp = keyed.particles.too_sharp;
   counts_.around = keyed.particles.around;
-  if (!can_draw()) return planes;
+  if (counts_.too_sharp > 0) return planes;
   take_around();
   place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
@@ -191,7 +183,7 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.too_sharp = windows.particles().too_sharp;
   counts_.around = windows.particles().around;
   counts_.windows = windows.steps();
-  if (!can_draw()) return planes;
+  if (counts_.too_sharp > 0) return planes;
   const std::uint64_t without_clouds = counts_.visible;
   take_around();
   const std::uint64_t splats = without_clouds + in_lists_.count();

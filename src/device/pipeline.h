@@ -37,7 +37,6 @@ struct DrawCounts {
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
   std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
-  bool ends_too_many_slabs = false;   // clouds around the camera do: nothing was drawn
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
@@ -77,7 +76,6 @@ class Pipeline {
   Planes draw_ordered(Planes planes);
   Planes draw_alone(Planes planes);  // an ordered frame, by this rank
   bool has_room_for_all_splats() const;
-  bool can_draw();
   Planes draw_windows(Planes planes);
   // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
   Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,

@@ -101,7 +101,7 @@ Planes Pipeline::draw_slices(Planes planes) {
   counts_.bad = found.bad;
   counts_.too_sharp = found.too_sharp;
   counts_.around = found.around;
-  if (!can_draw()) return planes;
+  if (counts_.too_sharp > 0) return planes;
   // Clouds around the camera reach all over the picture, in front of splats of every slice.
   if (counts_.around > 0) return is_first() ? draw_alone(std::move(planes)) : std::move(planes);
   const std::uint64_t splats = found.visible;

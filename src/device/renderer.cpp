@@ -196,10 +196,6 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
       drawn = extend_plan(frame, drawn);
       continue;
     }
-    if (splats.counts.ends_too_many_slabs) {
-      drawn = in_order_plan(frame, drawn);
-      continue;
-    }
     const double before = thread_seconds();
     if (is_first()) {
       picture.certificate = drawn.is_extended()
@@ -256,8 +252,7 @@ Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSpla
   if (of_frame) work = of_frame->work;
   device.queue.finish();
   const double before = thread_seconds();
-  if (splats.counts.too_sharp == 0 && !splats.counts.ends_too_many_slabs && is_first())
-    splats.collected = pipeline.collected();
+  if (splats.counts.too_sharp == 0 && is_first()) splats.collected = pipeline.collected();
   check_seconds += thread_seconds() - before;
   return image;
 }

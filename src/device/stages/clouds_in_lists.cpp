@@ -154,8 +154,7 @@ void write(const StageContext& context, const std::vector<T>& values, std::size_
 
 bool CloudsInLists::can_hold(const StageContext& context, const std::vector<CloudAround>& clouds) {
   const KernelSettings& kernel = context.frame.kernel;
-  return !context.plan.is_extended() && context.plan.slabs == 0 && !kernel.cut &&
-         clouds.size() < most_clouds &&
+  return !context.plan.is_extended() && !kernel.cut && clouds.size() < most_clouds &&
          (kernel.sampling == Sampling::center ||
           std::all_of(clouds.begin(), clouds.end(), is_wide));
 }
