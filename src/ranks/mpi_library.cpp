@@ -3,9 +3,8 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <system_error>
 
+#include "modules/module_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -18,17 +17,6 @@ std::string variable(const char* name) {
 
 bool is_above_one(const std::string& number) {
   return std::strtol(number.c_str(), nullptr, 10) > 1;
-}
-
-// Beside the program or library that this is part of, where it is there.
-std::string module_file(const std::string& module_name) {
-  static const char here = 0;
-  Dl_info part;
-  if (dladdr(&here, &part) == 0 || part.dli_fname == nullptr) return module_name;
-  const std::filesystem::path beside =
-      std::filesystem::absolute(part.dli_fname).parent_path() / module_name;
-  std::error_code ignored;
-  return std::filesystem::exists(beside, ignored) ? beside.string() : module_name;
 }
 
 // Never unloaded.
