@@ -9,7 +9,12 @@ namespace splotchcl {
 
 // Where the splats of an ordered frame do not fit into memory together, they are drawn window by
 // window of their sort keys, nearest first (docs/large.md). Keys have 48 bits.
-constexpr std::uint64_t end_of_keys = std::uint64_t{1} << 48;
+constexpr int bits_of_key = 48;
+constexpr std::uint64_t end_of_keys = std::uint64_t{1} << bits_of_key;
+// The bits of a key that number its bin.
+constexpr int bits_of_key_bin = 16;
+// Of the bins that hold all keys.
+constexpr int shift_of_all_keys = bits_of_key - bits_of_key_bin;
 
 // Splats whose keys lie in [first, end).
 struct KeyWindow {
@@ -20,12 +25,10 @@ struct KeyWindow {
 // How many splats each of 2^16 bins of keys has: key >> shift, of the keys in a window.
 struct CountedKeys {
   KeyWindow window;
-  int shift = 32;
+  int shift = shift_of_all_keys;
   std::vector<std::uint64_t> bins;
 };
 
-// The bits of a key that number its bin.
-constexpr int bits_of_key_bin = 16;
 // Bin `bin` as a window of its own.
 KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin);
 

@@ -13,12 +13,6 @@
 #include "splotchcl/error.h"
 
 namespace splotchcl {
-namespace {
-
-constexpr int first_shift = 32;
-
-}  // namespace
-
 SplatExchange::SplatExchange(const StageContext& context, const Projector& projector,
                              ParticleStore& particles, FrameRanks& ranks)
     : context_(context),
@@ -34,7 +28,7 @@ SplatExchange::SplatExchange(const StageContext& context, const Projector& proje
 }
 
 void SplatExchange::count_keys() {
-  const CountedKeys counted = count_everywhere({}, first_shift);
+  const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
   const ParticleCounts& own = counter_.particles();
   std::vector<std::uint64_t> sums = {own.visible, own.bad, own.too_sharp, own.around,
                                      counter_.left_out()};

@@ -11,11 +11,9 @@
 namespace splotchcl {
 namespace {
 
-constexpr int first_shift = 32;
-
 bool are_in(const shared::KeyBins& bins, const KeyWindow& window) {
-  return bins.least <= bins.most && bins.most >= window.first >> first_shift &&
-         bins.least <= (window.end - 1) >> first_shift;
+  return bins.least <= bins.most && bins.most >= window.first >> shift_of_all_keys &&
+         bins.least <= (window.end - 1) >> shift_of_all_keys;
 }
 
 bool is_everything(const KeyWindow& window) {
@@ -104,7 +102,8 @@ CountedKeys KeyCounter::count(const KeyWindow& window, int shift) {
 std::uint64_t KeyCounter::count_in_chunk(std::size_t chunk, const KeyWindow& window) {
   if (!has_keys_in(chunk, window)) return 0;
   Bins bins(context_.device);
-  projector_.count_keys(chunks_[chunk], particles_of(chunk), window, first_shift, bins.buffer());
+  projector_.count_keys(chunks_[chunk], particles_of(chunk), window, shift_of_all_keys,
+                        bins.buffer());
   const std::vector<std::uint32_t> found = bins.values();
   return std::accumulate(found.begin(), found.end(), std::uint64_t{0});
 }

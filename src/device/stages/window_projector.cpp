@@ -6,12 +6,6 @@
 #include "device/stages/carry_splats.h"
 
 namespace splotchcl {
-namespace {
-
-constexpr int first_shift = 32;
-
-}  // namespace
-
 std::uint64_t splat_capacity(const StageContext& context) {
   return splat_capacity(context.plan, context.specialization, context.layout, context.device.traits,
                         context.device.memory.total);
@@ -27,7 +21,7 @@ WindowProjector::WindowProjector(const StageContext& context, const Projector& p
       capacity_(splat_capacity(context)) {}
 
 void WindowProjector::count_keys() {
-  const CountedKeys counted = counter_.count({}, first_shift);
+  const CountedKeys counted = counter_.count({}, shift_of_all_keys);
   if (particles().too_sharp > 0) return;
   const auto count_again = [this](const KeyWindow& window, int shift) {
     return counter_.count(window, shift);
