@@ -173,10 +173,7 @@ int run_movie(const MovieOptions& options, Console& console) {
   const std::shared_ptr<Communicator> ranks = join_processes(console);
   const bool writes = writes_files(ranks);
   agree(ranks.get(), [&] {
-    if (ranks && options.reference) {
-      throw UsageError("--reference: found " + std::to_string(ranks->size()) +
-                       " processes, expected one: it draws alone");
-    }
+    if (options.reference) expect_one_process(ranks.get(), "--reference");
     if (writes && options.stats) check_output_path(*options.stats);
     if (writes && options.explain) explain_film(options, console);
   });

@@ -4,6 +4,7 @@
 #include "ranks/agreement.h"
 #include "ranks/mpi_library.h"
 #include "ranks/shared_host.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -34,6 +35,12 @@ std::shared_ptr<Communicator> join_processes(Console& console) {
 
 bool writes_files(const std::shared_ptr<Communicator>& ranks) {
   return !ranks || ranks->rank() == 0;
+}
+
+void expect_one_process(const Communicator* ranks, const std::string& option) {
+  if (ranks == nullptr) return;
+  throw UsageError(option + ": found " + std::to_string(ranks->size()) +
+                   " processes, expected one: it draws alone");
 }
 
 void leave_processes(int code, bool is_agreed) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "cli/console.h"
 #include "splotchcl/communicator.h"
@@ -15,6 +16,9 @@ std::shared_ptr<Communicator> join_processes(Console& console);
 
 // The first of the processes, or the only one: it has the files that are written.
 bool writes_files(const std::shared_ptr<Communicator>& ranks);
+
+// Throws UsageError where there are others: of what one process does alone.
+void expect_one_process(const Communicator* ranks, const std::string& option);
 
 // This process ends with this code, and with it all others: where they have not agreed upon that,
 // they may wait for this one.

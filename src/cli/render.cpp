@@ -205,10 +205,7 @@ int run_render(const RenderOptions& options, Console& console) {
   std::optional<FrameDrawer> drawer;
   RenderReport report;
   agree(ranks.get(), [&] {
-    if (ranks && options.reference) {
-      throw UsageError("--reference: found " + std::to_string(ranks->size()) +
-                       " processes, expected one: it draws alone");
-    }
+    if (options.reference) expect_one_process(ranks.get(), "--reference");
     opened.emplace(open_checked(options, output, writes, console));
   });
   const SceneWithSnapshot& source = *opened;
