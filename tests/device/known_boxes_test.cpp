@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/counted_column.h"
 #include "device/scene_maker.h"
 #include "device/stages.h"
 
@@ -18,23 +19,6 @@ namespace {
 
 constexpr std::size_t block_particles = 32;
 constexpr std::size_t particles_in_view = 1000;
-
-// A column as one that is read when it is wanted, and remembers how many values were.
-class CountedColumn final : public ColumnSource {
- public:
-  explicit CountedColumn(Column values) : values_(std::move(values)) {}
-  std::size_t size() const override { return values_.size(); }
-  bool is_streamed() const override { return true; }
-  void make(std::size_t begin, std::size_t end, float* values) const override {
-    std::copy(values_.data() + begin, values_.data() + end, values);
-    made_ += end - begin;
-  }
-  std::size_t made() const { return made_; }
-
- private:
-  Column values_;
-  mutable std::size_t made_ = 0;
-};
 
 std::shared_ptr<const ParticleBoxes> boxes_of(const Particles& particles) {
   ParticleBoxes boxes;

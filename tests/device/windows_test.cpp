@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "device/cloud_frames.h"
+#include "device/counted_column.h"
 #include "device/pictures.h"
 #include "device/scene_maker.h"
 #include "device/stages.h"
@@ -14,22 +16,8 @@
 namespace splotchcl::test {
 namespace {
 
-// A column as one that is read when it is wanted.
-class CopiedColumn final : public ColumnSource {
- public:
-  explicit CopiedColumn(Column values) : values_(std::move(values)) {}
-  std::size_t size() const override { return values_.size(); }
-  bool is_streamed() const override { return true; }
-  void make(std::size_t begin, std::size_t end, float* values) const override {
-    std::copy(values_.data() + begin, values_.data() + end, values);
-  }
-
- private:
-  Column values_;
-};
-
 Column streamed(const Column& column) {
-  return column.is_array() ? Column::made_by(std::make_shared<CopiedColumn>(column)) : column;
+  return column.is_array() ? Column::made_by(std::make_shared<CountedColumn>(column)) : column;
 }
 
 Frame streamed(Frame frame) {
@@ -126,25 +114,6 @@ TEST_P(Windows, DrawTheBitsOfOnePieceForAllScenes) {
   EXPECT_GT(most_windows, 4u);
 }
 
-Frame many_clouds(int count) {
-  CloudSetup setup;
-  setup.count = count;
-  setup.sigma_high = 6;
-  setup.column_high = 0.1;
-  DrawnComponent first = random_clouds(setup);
-  first.absorption = {Absorption::Kind::gray, 0.2};
-  setup.seed = 2;
-  DrawnComponent second = random_clouds(setup);
-  second.absorption = {Absorption::Kind::gray, 0.4};
-  return frame_of(setup.width, setup.height, {first, second});
-}
-
-Frame without_absorption(Frame frame) {
-  for (DrawnComponent& component : frame.components)
-    component.absorption = {Absorption::Kind::none, 0};
-  return frame;
-}
-
 TEST_P(Windows, AreAsManyAsMemoryAsksFor) {
   const Frame frame = many_clouds(2000);
   const Image whole = draw(frame);
@@ -171,12 +140,7 @@ TEST_P(Windows, KeepTheOrderOfSplatsOfOneKey) {
   frame.sort.by = SortOrder::By::field;
   for (const bool descending : {false, true}) {
     frame.sort.descending = descending;
-    for (DrawnComponent& component : frame.components) {
-      std::vector<float> fields(component.particles.count, 1.0f);
-      for (std::size_t i = 0; i < fields.size(); i += 10)
-        fields[i] = static_cast<float>(i % 3);
-      component.particles.sort_field = Column::owning(fields);
-    }
+    give_few_fields(frame, 10);
     const Image whole = draw(frame);
     EXPECT_EQ(draw_in_windows(frame, 12).pixels, whole.pixels);
     EXPECT_GE(counts().windows, 6u);
@@ -192,17 +156,7 @@ TEST_P(Windows, HoldExtendedPrecision) {
 }
 
 TEST_P(Windows, HoldTheCopiesOfPanoramas) {
-  Camera camera;
-  camera.position = {{0, 0, 50}};
-  camera.look_at = {{0, 0, 60}};
-  camera.sky = {{0, -1, 0}};
-  camera.projection = Projection::equirectangular;
-  Frame frame = many_clouds(500);
-  frame.width = 120;
-  frame.height = 60;
-  frame.crop = {0, 0, 120, 60};
-  frame.projection = camera.projection;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  const Frame frame = panorama_of_clouds(500);
   const Image whole = draw(frame);
   EXPECT_GT(counts().visible, 100u);
   EXPECT_EQ(draw_in_windows(frame, 6).pixels, whole.pixels);
@@ -211,14 +165,7 @@ TEST_P(Windows, HoldTheCopiesOfPanoramas) {
 
 // Those lie between splats, wherever windows end.
 TEST_P(Windows, HoldCloudsAroundTheCamera) {
-  Camera camera;
-  camera.position = {{0, 0, 20}};
-  camera.look_at = {{0, 0, 60}};
-  camera.sky = {{0, -1, 0}};
-  Frame frame = many_clouds(300);
-  frame.projection = camera.projection;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  frame.through_clouds = true;
+  Frame frame = within_clouds();
   frame.tolerance = 1e-2;
   for (const int slabs : {0, 3}) {
     for (const bool descending : {false, true}) {
@@ -234,25 +181,10 @@ TEST_P(Windows, HoldCloudsAroundTheCamera) {
 }
 
 TEST_P(Windows, HoldCloudsAroundTheCameraInLists) {
-  Camera camera;
-  camera.position = {{0, 0, 20}};
-  camera.look_at = {{0, 0, 60}};
-  camera.sky = {{0, -1, 0}};
-  Frame frame = many_clouds(300);
-  frame.width = 240;
-  frame.height = 100;
-  frame.crop = {0, 0, frame.width, frame.height};
-  frame.projection = camera.projection;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  frame.through_clouds = true;
+  Frame frame = within_clouds(240, 100);
   for (const SortOrder::By by : {SortOrder::By::depth, SortOrder::By::field}) {
     frame.sort.by = by;
-    for (DrawnComponent& component : frame.components) {
-      std::vector<float> fields(component.particles.count, 1.0f);
-      for (std::size_t i = 0; i < fields.size(); i += 2)
-        fields[i] = static_cast<float>(i % 3);
-      component.particles.sort_field = Column::owning(fields);
-    }
+    give_few_fields(frame, 2);
     const Image whole = draw(frame, 0);
     EXPECT_GT(counts().in_lists, 5u);
     EXPECT_LE(largest_error(whole, reference::render(frame)), frame.tolerance);

@@ -90,14 +90,15 @@ class MpiRun : public ::testing::TestWithParam<Mpi> {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(*folder_ / name) << text;
   }
-  // What the program itself has told: MPIs tell of processes that have failed as well.
-  static std::vector<std::string> own_lines(const std::string& text) {
+  // What the program itself has told, in one line: MPIs tell of processes that have failed as well.
+  static std::string own_line(const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream all(text);
     for (std::string line; std::getline(all, line);) {
       if (line.rfind("splotchcl: ", 0) == 0) lines.push_back(line);
     }
-    return lines;
+    EXPECT_EQ(lines.size(), 1u) << text;
+    return lines.empty() ? "" : lines.front();
   }
 
   std::unique_ptr<TemporaryFolder> folder_;
@@ -139,9 +140,7 @@ TEST_P(MpiRun, MakesTheFramesOfOneProcess) {
 TEST_P(MpiRun, TellsOnceThatASceneIsMissing) {
   const ProgramResult result = run(mpirun(3) + "\"$splotchcl\" render no.toml -o a.png");
   EXPECT_NE(result.exit_code, 0);
-  const std::vector<std::string> lines = own_lines(result.err);
-  ASSERT_EQ(lines.size(), 1u) << result.err;
-  EXPECT_THAT(lines.front(), HasSubstr("no.toml"));
+  EXPECT_THAT(own_line(result.err), HasSubstr("no.toml"));
 }
 
 TEST_P(MpiRun, NamesTheProcessForWhichAFileIsMissing) {
@@ -152,9 +151,7 @@ TEST_P(MpiRun, NamesTheProcessForWhichAFileIsMissing) {
         "exec \"$splotchcl\" render scene.toml -o ../a.png\n");
   const ProgramResult result = run("chmod +x in_its_folder; " + mpirun(3) + "./in_its_folder");
   EXPECT_NE(result.exit_code, 0);
-  const std::vector<std::string> lines = own_lines(result.err);
-  ASSERT_EQ(lines.size(), 1u) << result.err;
-  EXPECT_THAT(lines.front(), HasSubstr("process 1 on "));
+  EXPECT_THAT(own_line(result.err), HasSubstr("process 1 on "));
   EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));
 }
 
@@ -163,9 +160,7 @@ TEST_P(MpiRun, EndsWhereThePictureCannotBeWritten) {
   const ProgramResult result = run("ln -s /dev/full full.png; " + mpirun(2) +
                                    "\"$splotchcl\" render scene.toml -o full.png");
   EXPECT_NE(result.exit_code, 0);
-  const std::vector<std::string> lines = own_lines(result.err);
-  ASSERT_EQ(lines.size(), 1u) << result.err;
-  EXPECT_THAT(lines.front(), HasSubstr("full.png: cannot be written"));
+  EXPECT_THAT(own_line(result.err), HasSubstr("full.png: cannot be written"));
 }
 
 // It dies while kernels are compiled, which takes longer.
@@ -198,9 +193,7 @@ TEST_P(MpiRun, RefusesTheReference) {
   write("scene.toml", small_scenes()[0].text);
   const ProgramResult result =
       run(mpirun(2) + "\"$splotchcl\" render scene.toml --reference -o a.png");
-  const std::vector<std::string> lines = own_lines(result.err);
-  ASSERT_EQ(lines.size(), 1u) << result.err;
-  EXPECT_THAT(lines.front(), HasSubstr("--reference: found 2 processes, expected one"));
+  EXPECT_THAT(own_line(result.err), HasSubstr("--reference: found 2 processes, expected one"));
 }
 
 }  // namespace

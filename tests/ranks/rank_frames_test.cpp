@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "device/cloud_frames.h"
 #include "device/opencl/device_context.h"
 #include "device/pipeline.h"
 #include "device/scene_maker.h"
@@ -118,25 +119,6 @@ class RankFrames : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Shapes, RankFrames, testing::Bool(),
                          [](const auto& info) { return info.param ? "rows" : "groups"; });
 
-Frame many_clouds(int count) {
-  CloudSetup setup;
-  setup.count = count;
-  setup.sigma_high = 6;
-  setup.column_high = 0.1;
-  DrawnComponent first = random_clouds(setup);
-  first.absorption = {Absorption::Kind::gray, 0.2};
-  setup.seed = 2;
-  DrawnComponent second = random_clouds(setup);
-  second.absorption = {Absorption::Kind::gray, 0.4};
-  return frame_of(setup.width, setup.height, {first, second});
-}
-
-Frame with_absorption(Frame frame, Absorption absorption) {
-  for (DrawnComponent& component : frame.components)
-    component.absorption = absorption;
-  return frame;
-}
-
 TEST_P(RankFrames, HaveTheBitsOfOneProcessInAllScenes) {
   // Each rank compiles kernels of its own.
   for (const std::uint64_t seed : seeds(1, 28))
@@ -173,7 +155,7 @@ TEST_P(RankFrames, ShareOutParticlesAndSplats) {
 }
 
 TEST_P(RankFrames, ShareOutSums) {
-  const Drawn drawn = draw(with_absorption(many_clouds(4000), {Absorption::Kind::none, 0}), 4);
+  const Drawn drawn = draw(without_absorption(many_clouds(4000)), 4);
   for (const RankWork& work : drawn.work)
     EXPECT_NEAR(static_cast<double>(work.particles), 2000, 300);
 }
@@ -203,12 +185,7 @@ TEST_P(RankFrames, KeepTheOrderOfSplatsOfOneKey) {
   frame.sort.by = SortOrder::By::field;
   for (const bool descending : {false, true}) {
     frame.sort.descending = descending;
-    for (DrawnComponent& component : frame.components) {
-      std::vector<float> fields(component.particles.count, 1.0f);
-      for (std::size_t i = 0; i < fields.size(); i += 10)
-        fields[i] = static_cast<float>(i % 3);
-      component.particles.sort_field = Column::owning(fields);
-    }
+    give_few_fields(frame, 10);
     for (const int ranks : {2, 3})
       expect_same_bits(frame, ranks);
   }
@@ -218,34 +195,16 @@ TEST_P(RankFrames, HoldExtendedPrecision) {
   Frame frame = many_clouds(300);
   frame.tolerance = 0;
   expect_same_bits(frame, 2);
-  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 2);
+  expect_same_bits(without_absorption(frame), 2);
 }
 
 TEST_P(RankFrames, HoldTheCopiesOfPanoramas) {
-  Camera camera;
-  camera.position = {{0, 0, 50}};
-  camera.look_at = {{0, 0, 60}};
-  camera.sky = {{0, -1, 0}};
-  camera.projection = Projection::equirectangular;
-  Frame frame = many_clouds(500);
-  frame.width = 120;
-  frame.height = 60;
-  frame.crop = {0, 0, 120, 60};
-  frame.projection = camera.projection;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  expect_same_bits(frame, 2);
+  expect_same_bits(panorama_of_clouds(500), 2);
 }
 
-// Those lie between splats, whichever ranks have them.
+// The first rank draws such ordered frames alone, and all of them sums.
 TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
-  Camera camera;
-  camera.position = {{0, 0, 20}};
-  camera.look_at = {{0, 0, 60}};
-  camera.sky = {{0, -1, 0}};
-  Frame frame = many_clouds(300);
-  frame.projection = camera.projection;
-  frame.camera = make_camera_frame(camera, frame.width, frame.height);
-  frame.through_clouds = true;
+  Frame frame = within_clouds();
   frame.tolerance = 1e-2;
   for (const int slabs : {0, 3}) {
     for (const bool descending : {false, true}) {
@@ -253,14 +212,14 @@ TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
       expect_same_bits(frame, 3, slabs);
     }
   }
-  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 3);
+  expect_same_bits(without_absorption(frame), 3);
 }
 
 TEST_P(RankFrames, HoldFramesWithFewerSplatsThanRanks) {
   for (const int count : {1, 2, 3}) {
     Frame frame = many_clouds(count);
     expect_same_bits(frame, 4);
-    expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 4);
+    expect_same_bits(without_absorption(frame), 4);
   }
 }
 
@@ -268,7 +227,7 @@ TEST_P(RankFrames, HoldAnEmptyFrame) {
   Frame frame = many_clouds(100);
   frame.camera.position = {{0, 0, 1e6}};
   expect_same_bits(frame, 3);
-  expect_same_bits(with_absorption(frame, {Absorption::Kind::none, 0}), 3);
+  expect_same_bits(without_absorption(frame), 3);
   frame.components.clear();
   expect_same_bits(frame, 3);
 }
