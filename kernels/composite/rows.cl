@@ -79,10 +79,19 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
   THIN_CHANNEL(1, COVERED, FLOATS, LOAD_ROW, STORE_ROW)  \
   THIN_CHANNEL(2, COVERED, FLOATS, LOAD_ROW, STORE_ROW)
 
-#define LAYER_ROWS(CHANNELS)                                                             \
-  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                 \
-    const float8 shape = cut_shape(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    CHANNELS                                                                             \
+// Differences of the error function may be negative by their error. A thin layer's opacity must
+// not be: it would be read as a transmittance.
+#ifdef KEEP_TRANSMITTANCE
+#define NOT_NEGATIVE(shape) max(shape, 0.0f)
+#else
+#define NOT_NEGATIVE(shape) (shape)
+#endif
+
+#define LAYER_ROWS(CHANNELS)                                                   \
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                       \
+    const float8 product = NOT_NEGATIVE(across * along[k]);                    \
+    const float8 shape = cut_shape(product, dx, dy + (float)k, cut2, squeeze); \
+    CHANNELS                                                                   \
   }
 
 #define LAYER_CHANNELS(PHI, PASSED) \

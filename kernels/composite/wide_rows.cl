@@ -17,10 +17,11 @@ DEFINE_CUT_SHAPE(cut_shape_of_16, float16, int16)
 #define cut_shape_of_16(shape, dx, dy, cut2, squeeze) (shape)
 #endif
 
-#define LAYER_ROWS_OF_16(COVERED)                                                               \
-  for (int k = 0; k < rows; ++k, pixel += ROW) {                                                \
-    const float16 shape = cut_shape_of_16(across * along[k], dx, dy + (float)k, cut2, squeeze); \
-    THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                                   \
+#define LAYER_ROWS_OF_16(COVERED)                                                     \
+  for (int k = 0; k < rows; ++k, pixel += ROW) {                                      \
+    const float16 product = NOT_NEGATIVE(across * along[k]);                          \
+    const float16 shape = cut_shape_of_16(product, dx, dy + (float)k, cut2, squeeze); \
+    THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                         \
   }
 
 // A call, and its argument tells the compiler that it may use registers of sixteen floats, from
