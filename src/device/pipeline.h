@@ -51,8 +51,8 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  // Of no use where counts() tells of particles that are too sharp, or of too many ends of slabs:
-  // it ends early then. Of ranks the first has the picture, the others a black one.
+  // Of no use where counts() tells of particles that are too sharp: it ends early then. Of ranks
+  // the first has the picture, the others a black one.
   Image draw();
   // Of all splats that have been drawn; of ranks the first knows.
   CollectedSplats collected() const;
