@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "device/counted_column.h"
+#include "device/pictures.h"
 #include "device/scene_maker.h"
 #include "device/stages.h"
 
@@ -66,14 +67,9 @@ class KnownBoxes : public StageTest, public testing::WithParamInterface<std::tup
   bool is_ordered() const { return std::get<1>(GetParam()); }
 
   Image draw(const Frame& frame) {
-    const FramePlan plan = make_plan(frame);
-    ParticleStore particles(device());
-    particles.begin_frame();
-    Pipeline pipeline(device(), particles, frame, plan);
-    Image image = pipeline.draw();
-    device().queue.finish();
-    counts_ = pipeline.counts();
-    return image;
+    DrawnOnce drawn = draw_with_plan(device(), frame, make_plan(frame));
+    counts_ = drawn.counts;
+    return std::move(drawn.image);
   }
   const DrawCounts& counts() const { return counts_; }
 

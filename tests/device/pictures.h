@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "device/pipeline.h"
 #include "device/scenes.h"
@@ -35,17 +36,26 @@ class PictureTest : public testing::Test {
   static inline std::unique_ptr<Renderer> rows_, groups_;
 };
 
-// Drawn with the frame's first plan, whatever a check of the picture would say.
-inline Image draw_once(DeviceContext& device, const Frame& frame, CompositeShape shape) {
-  choose_shape(device.traits, shape == CompositeShape::rows);
+struct DrawnOnce {
+  Image image;
+  DrawCounts counts;
+};
+
+// Whatever a check of the picture would say.
+inline DrawnOnce draw_with_plan(DeviceContext& device, const Frame& frame, const FramePlan& plan) {
   ParticleStore particles(device);
   particles.begin_frame();
-  const FramePlan plan = make_plan(frame);
   Pipeline pipeline(device, particles, frame, plan);
   Image image = pipeline.draw();
   device.queue.finish();
   particles.end_frame();
-  return image;
+  return {std::move(image), pipeline.counts()};
+}
+
+// Drawn with the frame's first plan.
+inline Image draw_once(DeviceContext& device, const Frame& frame, CompositeShape shape) {
+  choose_shape(device.traits, shape == CompositeShape::rows);
+  return draw_with_plan(device, frame, make_plan(frame)).image;
 }
 
 // The largest |a - b| / max(1, |b|) over pixels and colours. Two pictures that each keep the

@@ -52,14 +52,9 @@ class Windows : public StageTest, public testing::WithParamInterface<bool> {
   Image draw(const Frame& frame, int slabs = -1) {
     PlanOptions options;
     options.slabs = slabs;
-    const FramePlan plan = make_plan(frame, options);
-    ParticleStore particles(device());
-    particles.begin_frame();
-    Pipeline pipeline(device(), particles, frame, plan);
-    Image image = pipeline.draw();
-    device().queue.finish();
-    counts_ = pipeline.counts();
-    return image;
+    DrawnOnce drawn = draw_with_plan(device(), frame, make_plan(frame, options));
+    counts_ = drawn.counts;
+    return std::move(drawn.image);
   }
   Image draw_in_windows(const Frame& frame, std::uint64_t windows, int slabs = -1) {
     make_room_for(std::max<std::uint64_t>(1, (counts_.visible + windows - 1) / windows), frame);
