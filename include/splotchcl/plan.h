@@ -129,9 +129,10 @@ struct FramePlan {
   bool adds_small_blocks = false;
   // Some particles have colors of their own.
   bool has_vector_colors = false;
-  // Equirectangular pictures: splats are wider than high, and have copies beside the picture.
-  bool has_ellipses = false;
-  int splats_per_particle = 1;  // at most
+  bool has_ellipses = false;     // splats are wider along x than along y, or the other way round:
+  bool has_copies = false;       // in equirectangular pictures, with copies beside the picture,
+  bool is_face_of_cube = false;  // and here, where their axes are turned as well
+  int splats_per_particle = 1;   // at most
 
   bool certify = false;            // PlanOptions
   double drawn_for_tolerance = 0;  // what is shared out; at most the promise

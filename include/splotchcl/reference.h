@@ -17,8 +17,15 @@ namespace splotchcl::reference {
 // Positions and widths are in pixels of the whole picture.
 struct Splat {
   double x = 0, y = 0;
-  double sigma = 0;           // after kernel.min_radius, before any pixel averaging
-  double stretch = 1;         // along x the width is stretch * sigma
+  double sigma = 0;    // after kernel.min_radius, before any pixel averaging
+  double stretch = 1;  // along x the width is stretch * sigma
+  // On a face of a cube, where focal_pixels is above 0, another shape takes the place of that
+  // (docs/projections.md, "Faces of a cube"), with the squares of widths in pixels; sigma and
+  // stretch are those of its light along the axes, nearly.
+  struct OnFace {
+    double focal_pixels = 0, middle_x = 0, middle_y = 0;
+    double squared_width = 0, footprint = 0, secant2 = 1;
+  } on_face;
   double weight = 0;          // w, divided by the reference column, times intensity
   double emission[3] = {};    // E of the light model: brightness * palette etc., without w
   double absorption[3] = {};  // A likewise; E X and A X with X = weight * shape
@@ -48,7 +55,8 @@ std::uint64_t count_bad(const Frame& frame);
 void sort(std::vector<Splat>& splats, const SortOrder& order);
 
 // X of the splat in pixel (x, y) per unit weight: the mean over the pixel (two
-// differences of erf) or the center value, cut if the kernel says so.
+// differences of erf) or the center value, cut if the kernel says so. On a face of a cube the
+// center value always, of a shape that is as wide as a pixel makes it (docs/projections.md).
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel);
 
 // The column that a ray from the camera finds in front of it, of a cloud of central column 1.

@@ -40,13 +40,16 @@ inline void sum_amplitude(const Splat splat, const ComponentColors colors,
 // A cloud's own amplitude over that of its splat, which is widened where center values are taken,
 // and narrower on a coarse grid that is blurred afterwards.
 INLINED float own_part(const Splat splat, const BinParameters p) {
+#ifdef FACE_OF_CUBE
+  return 1.0f / splat.part;
+#elif defined(ELLIPSES)
   const float drawn2 = splat.sigma * splat.sigma;
-#ifdef ELLIPSES
   const float across2 = splat.along_x.sigma * splat.along_x.sigma;
   float restored = splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
   restored *= splat.along_x.sigma < p.mean_sigma ? 1.0f : across2 / (across2 - p.widening);
   return sqrt(restored);
 #else
+  const float drawn2 = splat.sigma * splat.sigma;
   const uint grid = grid_of(splat);
   if (grid == 0) return splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
   const uint level = p.blur[0] > 0.0f ? (grid + 1) >> 1 : grid;

@@ -19,6 +19,9 @@ struct TileSplat {
 #ifdef ELLIPSES
   struct WidthAlongX along_x;
 #endif
+#ifdef FACE_OF_CUBE
+  struct Tilt tilt;
+#endif
 #ifdef FINE_PLACES
   float x_low, y_low;   // what x and y do not hold of the place
 #endif

@@ -9,6 +9,9 @@ INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors c
 #ifdef ELLIPSES
   entry.along_x = splat.along_x;
 #endif
+#ifdef FACE_OF_CUBE
+  entry.tilt = splat.tilt;
+#endif
 #ifdef LIGHT_ORDERED
   amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
 #else

@@ -37,6 +37,13 @@ struct WidthAlongX {
   float sigma, radius;  // pixels
 };
 
+// Of a splat on a face of a cube (src/scene/projection.h, FaceEllipse).
+struct Tilt {
+  float squared_width, footprint;
+  float inverse_secant2;  // times log2(e)
+  float scale;            // squared_width over `part` of the splat
+};
+
 struct OwnColor {
   float rgb[3];
 };
@@ -54,6 +61,10 @@ struct Splat {
   unsigned int component_and_grid;  // component | grid << 16 | power of the coarser unit << 24
 #ifdef ELLIPSES
   struct WidthAlongX along_x;
+#endif
+#ifdef FACE_OF_CUBE
+  struct Tilt tilt;
+  float part;  // no pixel has more of the cloud's own weight, and this part of it is the splat's
 #endif
 #ifdef VECTOR_COLORS
   struct OwnColor own_color;
@@ -76,6 +87,11 @@ struct ExtendedAlongX {
   float radius;  // pixels
 };
 
+// The same, without log2(e), and of a splat that has all of its weight.
+struct ExtendedTilt {
+  struct FloatPair squared_width, footprint, inverse_secant2;
+};
+
 // A splat of extended precision, with its amplitudes at the center. In pixels of the whole
 // picture, so that a crop has the same bits.
 struct ExtendedSplat {
@@ -86,6 +102,9 @@ struct ExtendedSplat {
   float radius;                  // drawn up to here
 #ifdef ELLIPSES
   struct ExtendedAlongX along_x;
+#endif
+#ifdef FACE_OF_CUBE
+  struct ExtendedTilt tilt;
 #endif
 };
 
@@ -109,9 +128,11 @@ struct ComponentColors {
 typedef struct FloatPair FloatPair;
 typedef struct Grid Grid;
 typedef struct WidthAlongX WidthAlongX;
+typedef struct Tilt Tilt;
 typedef struct OwnColor OwnColor;
 typedef struct Splat Splat;
 typedef struct ExtendedAlongX ExtendedAlongX;
+typedef struct ExtendedTilt ExtendedTilt;
 typedef struct ExtendedSplat ExtendedSplat;
 typedef struct ComponentColors ComponentColors;
 #endif

@@ -2,6 +2,13 @@
 #ifndef SPLOTCHCL_COMPOSITE_H
 #define SPLOTCHCL_COMPOSITE_H
 
+// The face of a cube that the picture is: its middle, in pixels of the whole picture, and 1 / the
+// pixels of a tangent of 1.
+struct CubeFace {
+  struct FloatPair middle_x, middle_y, inverse_focal;
+  float cut2;  // of the exponent of 2 of a shape; its values beyond are cut away
+};
+
 struct CompositeParameters {
   unsigned int grid_count;
   unsigned int first_segment, end_segment;
@@ -9,6 +16,7 @@ struct CompositeParameters {
   float phi_third;   // three,
   float phi_series;  // and four
   float stop;        // where every pixel's transmittance is at most this; below 0: never
+  struct CubeFace face;
 };
 
 // Clouds around the camera (docs/projections.md) in the lists of an ordered frame. Their entries
@@ -53,6 +61,7 @@ struct AddLightParameters {
 
 #ifdef __OPENCL_VERSION__
 typedef struct AddLightParameters AddLightParameters;
+typedef struct CubeFace CubeFace;
 typedef struct CompositeParameters CompositeParameters;
 typedef struct CloudEntry CloudEntry;
 typedef struct CloudSplat CloudSplat;

@@ -6,6 +6,10 @@
 // what lies before.
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
 #define BATCH 8
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
+#define CUT_BY_AXES
+#endif
+
 // The mean of exp(-t^2 / sigma^2) over a pixel whose centre is at distance d, by the
 // differences of erfc that do not cancel.
 inline Extended narrow_mean(Extended d, Extended sigma) {
@@ -82,7 +86,7 @@ inline void add_column(Pixels* pixels, ExtendedLanes column, const __local Exten
 typedef struct Batch {
   ExtendedSplat splats[BATCH];
   float high[BATCH * AXES], low[BATCH * AXES];
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_AXES
   float square_high[BATCH * AXES], square_low[BATCH * AXES];  // of the distance
   int holds[BATCH * AXES];                                    // the splat's centre
 #endif
@@ -102,7 +106,7 @@ inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
   }
   batch->high[k * AXES + place] = high_part(value);
   batch->low[k * AXES + place] = low_part(value);
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_AXES
   Extended offset = d;
 #ifdef ELLIPSES
   // As far from the center as in the disc that the ellipse is made of.
@@ -120,7 +124,7 @@ inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
 #endif
 }
 
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_AXES
 // The columns of eight pixels, without those outside the cut disc.
 inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch, uint k, uint x,
                                 uint y) {
@@ -146,6 +150,54 @@ inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch
 }
 #endif
 
+#ifdef FACE_OF_CUBE
+inline Extended extended_square(Extended a) {
+  return extended_product(a, a);
+}
+
+// face_shape() of face_shape.cl, in the pixel from whose corner (x, y)
+// is.
+inline Extended extended_face_shape(const __local ExtendedSplat* splat, float x, float y,
+                                    const CubeFace face) {
+  const Extended column = extended_of(x + 0.5f), row = extended_of(y + 0.5f);
+  const Extended dx = extended_difference(column, extended_pair(splat->x));
+  const Extended dy = extended_difference(row, extended_pair(splat->y));
+  if (fabs(high_part(dx)) > RADIUS_X(*splat) || fabs(high_part(dy)) > splat->radius)
+    return extended_of(0.0f);
+  const Extended tangent = extended_pair(face.inverse_focal);
+  const Extended tangent_x =
+      extended_product(extended_difference(column, extended_pair(face.middle_x)), tangent);
+  const Extended tangent_y =
+      extended_product(extended_difference(row, extended_pair(face.middle_y)), tangent);
+  const Extended k = extended_sum(
+      extended_of(1.0f), extended_sum(extended_square(tangent_x), extended_square(tangent_y)));
+  const Extended gk = extended_product(extended_pair(splat->tilt.squared_width), k);
+  const Extended m = extended_sum(gk, extended_pair(splat->tilt.footprint));
+  const Extended turned =
+      extended_difference(extended_product(tangent_x, dy), extended_product(tangent_y, dx));
+  const Extended squared =
+      extended_sum(extended_sum(extended_square(dx), extended_square(dy)), extended_square(turned));
+  const Extended exponent =
+      extended_quotient(extended_product(squared, extended_pair(splat->tilt.inverse_secant2)), m);
+#ifdef KERNEL_CUT
+  if (extended_less(extended_square(extended_pair(splat->cut)), exponent)) return extended_of(0.0f);
+#endif
+  return extended_product(extended_exp(extended_negative(exponent)), extended_quotient(gk, m));
+}
+
+// Of eight pixels of a row.
+inline ExtendedLanes column_on_face(const __local ExtendedSplat* splat, float x, float y,
+                                    const CubeFace face) {
+  float high[8], low[8];
+  for (int lane = 0; lane < 8; ++lane) {
+    const Extended value = extended_face_shape(splat, x + (float)lane, y, face);
+    high[lane] = high_part(value);
+    low[lane] = low_part(value);
+  }
+  return lanes_pair(vload8(0, high), vload8(0, low));
+}
+#endif
+
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes, __global float* partials,
@@ -164,6 +216,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const uint count = min((uint)BATCH, segment.end - first);
     if (item < count) batch.splats[item] = splats[entries[first + item].slot];
     barrier(CLK_LOCAL_MEM_FENCE);
+#ifndef FACE_OF_CUBE
     for (uint place = item; place < count * AXES; place += GROUP) {
       const uint axis = place % AXES;
       const float center = axis < TILE_WIDTH ? corner_x + (float)axis + 0.5f
@@ -171,8 +224,13 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       fill_axis(&batch, place / AXES, axis, center);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
+#endif
     const uint x = item * 8 % TILE_WIDTH, y = TILE_WIDTH + item * 8 / TILE_WIDTH;
     for (uint k = 0; k < count; ++k) {
+#ifdef FACE_OF_CUBE
+      const ExtendedLanes column = column_on_face(batch.splats + k, corner_x + (float)x,
+                                                  corner_y + (float)(y - TILE_WIDTH), p.face);
+#else
       FloatPair along;
       along.high = batch.high[k * AXES + y];
       along.low = batch.low[k * AXES + y];
@@ -180,8 +238,9 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
       if (along.high == 0.0f || !any(across != 0.0f)) continue;
       ExtendedLanes column = lanes_product(lanes_pair(across, vload8(0, batch.low + k * AXES + x)),
                                            extended_pair(along));
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_AXES
       column = cut_column(column, &batch, k, x, y);
+#endif
 #endif
       add_column(&pixels, column, batch.splats + k);
     }

@@ -50,6 +50,10 @@ inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
          (error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor));
 }
 
+// On a face of a cube distances take the place of shapes, and this that of those that are beyond a
+// splat's radius.
+#define NOT_DRAWN 1e30f
+
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
 // `center` is that of the item's column or row.
 inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, float center,
@@ -57,11 +61,25 @@ inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, fl
   const __local TileSplat* splat = batch->splats + k;
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
+#ifdef FACE_OF_CUBE
+  return fabs(d) > radius ? NOT_DRAWN : d;
+#else
   if (fabs(d) > radius) return 0.0f;
   return max(axis_shape(d, is_column ? SIGMA_X(*splat) : splat->sigma,
                         batch->factors[is_column ? k : BATCH + k], mean_sigma),
              0.0f);
+#endif
 }
+
+#ifdef FACE_OF_CUBE
+#define TILE_PARAMETER , const TileOnFace* on_face
+#define TILE_ARGUMENT , &on_face
+#define TILE_PASSED , on_face
+#else
+#define TILE_PARAMETER
+#define TILE_ARGUMENT
+#define TILE_PASSED
+#endif
 
 // Whether a splat reaches the center of a pixel of the tile.
 inline int reaches_tile(const __local TileSplat* splat) {
@@ -76,7 +94,7 @@ inline int reaches_part(const __local TileSplat* splat, float x, float y, float 
   const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
   const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
   if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
-#ifdef KERNEL_CUT
+#if defined(KERNEL_CUT) || defined(FACE_OF_CUBE)
   return 1;
 #else
   if (splat->sigma < mean_sigma || SIGMA_X(*splat) < mean_sigma) return 1;
@@ -199,7 +217,7 @@ INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
     atomic_or(&batch->drawn[part], BIT_OF(k));
 }
 
-#ifdef KERNEL_CUT
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
 inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
   const float dx = (float)x + FIRST_X - splat->x - LOW_X(*splat);
   const float dy = (float)y + FIRST_Y - splat->y - LOW_Y(*splat);
@@ -278,16 +296,25 @@ INLINED uint take_first(uint* bits) {
   return k;
 }
 
+#ifdef FACE_OF_CUBE
+INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y TILE_PARAMETER) {
+  const float dx = batch->axes[k * AXES + x], dy = batch->axes[k * AXES + TILE_WIDTH + y];
+  if (dx == NOT_DRAWN || dy == NOT_DRAWN) return 0.0f;
+  return face_shape(batch->splats[k].tilt, dx, dy, (on_face->x + (float)x) * on_face->per_focal,
+                    (on_face->y + (float)y) * on_face->per_focal, on_face->cut2);
+}
+#else
 INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y) {
 #ifdef KERNEL_CUT
   if (!is_inside_cut(batch->splats + k, x, y)) return 0.0f;
 #endif
   return batch->axes[k * AXES + x] * batch->axes[k * AXES + TILE_WIDTH + y];
 }
+#endif
 
 // The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
 INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, uint y,
-                  const CompositeParameters p TILE_CLOUDS_PARAMETER) {
+                  const CompositeParameters p TILE_PARAMETER TILE_CLOUDS_PARAMETER) {
 #ifdef LIGHT_ORDERED
 #ifdef KEEP_TRANSMITTANCE
   const int all_thin = 0;
@@ -300,16 +327,16 @@ INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, u
     const float sigma = batch->splats[k].sigma;
     const float shape = is_cloud(sigma)
                             ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
-                            : shape_at(batch, k, x, y);
+                            : shape_at(batch, k, x, y TILE_PASSED);
 #else
-    const float shape = shape_at(batch, k, x, y);
+    const float shape = shape_at(batch, k, x, y TILE_PASSED);
 #endif
     if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
   }
 #endif
   while (bits != 0) {
     const uint k = take_first(&bits);
-    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape_at(batch, k, x, y));
+    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape_at(batch, k, x, y TILE_PASSED));
   }
 }
 
@@ -369,6 +396,9 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const TileClouds of_tile =
       clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
 #endif
+#ifdef FACE_OF_CUBE
+  const TileOnFace on_face = tile_on_face(p.face, grid, segment.tile);
+#endif
   float front[PLANES], pixel[PLANES];
   for (int c = 0; c < PLANES; ++c) {
     front[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
@@ -392,12 +422,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
     // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
     const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    draw(pixel, &batch, drawn & ~of_next, x, y, p TILE_CLOUDS_ARGUMENT);
+    draw(pixel, &batch, drawn & ~of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
     in_block += popcount(touching);
     if (ends_block) {
       add_block(pixel, front);
       if (shows_behind(front, p.stop)) atomic_or(&batch.shows, 1u);
-      draw(pixel, &batch, drawn & of_next, x, y, p TILE_CLOUDS_ARGUMENT);
+      draw(pixel, &batch, drawn & of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
       in_block -= SPLATS_OF_BLOCK;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

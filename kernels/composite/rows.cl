@@ -18,7 +18,17 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #define store_eight(v, p) vstore8(v, 0, p)
 #endif
 
-#ifdef KERNEL_CUT
+// Shapes of a splat on a face of a cube come row by row, and cut (face_rows.cl).
+#ifdef FACE_OF_CUBE
+#define SHAPE_OF_ROW(k) load_eight(along + 8 * (k))
+#else
+#define SHAPE_OF_ROW(k) (across * along[k])
+#endif
+
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
+#define CUT_BY_ROWS
+#endif
+#ifdef CUT_BY_ROWS
 // `shape` of the pixels of a row, zero outside the cut; with means the pixel that holds the center
 // keeps its light.
 #ifdef ELLIPSES
@@ -89,7 +99,7 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 
 #define LAYER_ROWS(CHANNELS)                                                   \
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {                       \
-    const float8 product = NOT_NEGATIVE(across * along[k]);                    \
+    const float8 product = NOT_NEGATIVE(SHAPE_OF_ROW(k));                      \
     const float8 shape = cut_shape(product, dx, dy + (float)k, cut2, squeeze); \
     CHANNELS                                                                   \
   }
@@ -150,10 +160,10 @@ typedef struct Window {
   int x, y, rows;
 } Window;
 
-// Updates the window with across[8] * along[rows].
+// Updates the window with across[8] * along[rows]; on a face of a cube with along[rows][8].
 inline void update_window(float* tile, const Window* window, float8 across, const float* along,
                           __global const TileSplat* splat, int form) {
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_ROWS
   const float8 dx =
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
   const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
@@ -177,7 +187,11 @@ inline void update_window(float* tile, const Window* window, float8 across, cons
 #else
   SUMMED_CHANNELS(float8)
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
+#ifdef FACE_OF_CUBE
+    const float8 shape = SHAPE_OF_ROW(k);
+#else
     const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
+#endif
     ADD_CHANNELS(load_eight, store_eight)
   }
 #endif

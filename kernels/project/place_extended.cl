@@ -5,7 +5,7 @@ typedef struct ExtendedPlace {
   Extended x, y;   // pixels of the whole picture
   Extended scale;  // pixels per length of a width
   int seen;
-#ifdef ELLIPSES
+#ifdef COPIES
   Extended cos_latitude, sine_latitude;
 #endif
 } ExtendedPlace;
@@ -52,7 +52,7 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   place.y = extended_sum(extended_pair(e.center_y), seen.y);
   place.scale = extended_scaled(seen.scale, per_unit);
   place.seen = seen.seen;
-#ifdef ELLIPSES
+#ifdef COPIES
   place.cos_latitude = seen.cos_latitude;
   place.sine_latitude = seen.sine_latitude;
 #endif

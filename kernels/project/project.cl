@@ -83,7 +83,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
         continue;
       }
 #endif
-#ifdef ELLIPSES
+#ifdef COPIES
 #ifdef EXTENDED_NUMBERS
       const float x = pixels_from_middle(splat.x, splat, p), radius_x = splat.along_x.radius;
       const float y = pixels_from_middle(splat.y, splat, p), radius = splat.radius;
@@ -95,7 +95,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
       for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
 #endif
 #ifdef OUTPUT_SPLATS
-#ifdef ELLIPSES
+#ifdef COPIES
         Splat listed = splat;
         put_copy(&listed, copy, y, p);
 #else
@@ -103,7 +103,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
 #endif
         splats[slot] = listed;
 #ifdef EXTENDED_NUMBERS
-#ifdef ELLIPSES
+#ifdef COPIES
         extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
 #else
         extended_splats[slot] = extended;
@@ -132,7 +132,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
         count_in_tiles(touched, listed, grid, count);
 #endif
         ++slot;
-#ifdef ELLIPSES
+#ifdef COPIES
       }
 #endif
     }

@@ -86,10 +86,13 @@ struct ProjectParameters {
   struct DepthKeyParameters depth_key;
 
   float size_factor;
-  float kernel_width;       // sigma = kernel_width * h
-  float sigma_per_h;        // and of h as it is stored, without size_factor, in one rounding
-  float kernel_cut;         // in sigma; 0: uncut
-  float min_radius;         // pixels
+  float kernel_width;  // sigma = kernel_width * h
+  float sigma_per_h;   // and of h as it is stored, without size_factor, in one rounding
+  float kernel_cut;    // in sigma; 0: uncut
+  float min_radius;    // pixels
+  // On a face of a cube, what a pixel adds to sigma^2, and what it makes of it at least; 0 and 0
+  // where it takes the value at its center (src/scene/projection.h, FaceEllipse).
+  float footprint, narrowest_squared;
   float widening;           // sigma'^2 = sigma^2 + widening, in pixels
   float mean_sigma;         // below: the pixel mean by erf, not the widened center value
   float bright_peak;        // brighter splats are taken as means up to larger widths (shape.cl),

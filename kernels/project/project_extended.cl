@@ -159,38 +159,63 @@ inline void put_in_units(float x, float y, float farthest, const ProjectParamete
   splat->component_and_grid = p.component | ((uint)coarser << 24);
 }
 
+#ifdef FACE_OF_CUBE
+inline ExtendedFaceEllipse ellipse_on_face(const ExtendedPlace place, Extended sigma,
+                                           const ProjectParameters p, const ExtendedParameters e) {
+  return extended_face_ellipse(sigma, extended_difference(place.x, extended_pair(e.center_x)),
+                               extended_difference(place.y, extended_pair(e.center_y)), p, e);
+}
+#endif
+
 // Places and widths; `peak` is the largest of E w and A w.
 inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
                            const ProjectParameters p, const ExtendedParameters e, Splat* splat,
                            ExtendedSplat* extended) {
-#ifdef ELLIPSES
+#if defined(FACE_OF_CUBE)
+  const ExtendedFaceEllipse ellipse = ellipse_on_face(place, sigma, p, e);
+  const Extended sigma_x = extended_of(ellipse.sigma_x), sigma_y = extended_of(ellipse.sigma_y);
+  const float area = 1.0f;
+#elif defined(ELLIPSES)
   const ExtendedEllipse ellipse =
       extended_panorama_ellipse(sigma, place.cos_latitude, place.sine_latitude, e);
   const Extended sigma_x = ellipse.sigma_x;
   place.y = high_part(place.sine_latitude) < 0.0f ? extended_difference(place.y, ellipse.nearer)
                                                   : extended_sum(place.y, ellipse.nearer);
+  const Extended sigma_y = sigma;
   const float area = high_part(sigma) * high_part(sigma_x);
 #else
+  const Extended sigma_y = sigma;
   const float area = high_part(sigma) * high_part(sigma);
 #endif
   // The flux, not the peak, limits what a grain below a pixel can do to a pixel.
   const float extent = extended_extent(peak * min(1.0f, 3.2f * area), e);
   extended->x = pair_of(place.x);
   extended->y = pair_of(place.y);
-  extended->sigma = pair_of(sigma);
+#ifdef FACE_OF_CUBE
+  const float farther = extended_face_reach(ellipse, extent, p);
+  extended->cut = e.kernel_cut;
+  extended->tilt.squared_width = pair_of(ellipse.squared_width);
+  extended->tilt.footprint = pair_of(ellipse.footprint);
+  extended->tilt.inverse_secant2 = pair_of(extended_quotient(extended_of(1.0f), ellipse.secant2));
+#else
+  const float farther = 1.0f;
   extended->cut = pair_of(extended_product(extended_pair(e.kernel_cut), sigma));
-  extended->radius = radius_of(sigma, extent, e);
+#endif
+  extended->sigma = pair_of(sigma_y);
+  extended->radius = radius_of(sigma_y, extent, e) * farther;
   const float x = high_part(extended_difference(place.x, extended_of(e.middle_x)));
   const float y = high_part(extended_difference(place.y, extended_of(e.middle_y)));
-  splat->sigma = high_part(sigma);
+  splat->sigma = high_part(sigma_y);
   const float far = fabs(x) + fabs(y);
   splat->radius = rounded_radius(extended->radius, far);
 #ifdef ELLIPSES
   extended->along_x.sigma = pair_of(sigma_x);
-  extended->along_x.radius = radius_of(sigma_x, extent, e);
+  extended->along_x.radius = radius_of(sigma_x, extent, e) * farther;
   splat->along_x.sigma = high_part(sigma_x);
   // Copies lie up to four periods farther.
   splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
+#endif
+#ifdef COPIES
   const float beside =
       max(splat->along_x.radius + max(-p.left, p.right_end), splat->radius + max(-p.top, p.bottom));
   put_in_units(x, y, beside, p, splat);
@@ -225,7 +250,11 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
   const float brightest_own = max(high_part(own[0]), max(high_part(own[1]), high_part(own[2])));
   brightest = max(brightest * brightest_own, p.peak_own);
 #endif
+#ifdef FACE_OF_CUBE
+  const float share = extended_face_part(ellipse_on_face(place, sigma, p, e));
+#else
   const float share = min(1.0f, 3.2f * high_part(sigma) * high_part(sigma));
+#endif
   weight = extended_product(
       extended_limited_weight(weight, brightest * share),
       extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
@@ -247,19 +276,22 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
 #endif
     extended->emission[c] = pair_of(emission[c]);
   }
+#ifdef FACE_OF_CUBE
+  peak *= share;
+#endif
   splat->weight = high_part(weight);
   splat->color = high_part(position);
   extended_shape(place, sigma, peak, p, e, splat, extended);
   const float x = pixels_from_middle(splat->x, *splat, p);
   const float y = pixels_from_middle(splat->y, *splat, p);
   int in_picture = y + splat->radius >= p.top && y - splat->radius <= p.bottom;
-#ifndef ELLIPSES  // of these, copies beside the picture may reach it
-  in_picture &= x + splat->radius >= p.left && x - splat->radius <= p.right_end;
+#ifndef COPIES  // beside the picture they may reach it
+  in_picture &= x + RADIUS_X(*splat) >= p.left && x - RADIUS_X(*splat) <= p.right_end;
 #endif
   return in_picture;
 }
 
-#ifdef ELLIPSES
+#ifdef COPIES
 // The splat's copy so many half periods to the right; odd ones are mirrored over this pole.
 inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole, const ExtendedParameters e) {
   const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));

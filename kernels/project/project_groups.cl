@@ -62,7 +62,7 @@ __kernel OF_GROUPS void project(
   Splat splat;
   ExtendedSplat extended;
   count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
-#elif defined(OUTPUT_SPLATS) || defined(ELLIPSES)
+#elif defined(OUTPUT_SPLATS) || defined(COPIES)
   SplatArrays found;
   if (count) spread(lanes, &found);
 #ifdef OUTPUT_SPLATS
@@ -70,7 +70,7 @@ __kernel OF_GROUPS void project(
   if (count) splat = splat_of(&found, 0);
 #endif
 #endif
-#ifdef ELLIPSES
+#ifdef COPIES
   Copies copies;
   float y = 0.0f;
   if (count) {
@@ -94,13 +94,13 @@ __kernel OF_GROUPS void project(
 #ifdef WHOLE_SECTORS
     listed.unused = 0;
 #endif
-#ifdef ELLIPSES
+#ifdef COPIES
     const int copy = copies.first + (int)k * copies.step;
     put_copy(&listed, copy, y, p);
 #endif
     splats[slot] = listed;
 #ifdef EXTENDED_NUMBERS
-#ifdef ELLIPSES
+#ifdef COPIES
     extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
 #else
     extended_splats[slot] = extended;

@@ -43,7 +43,7 @@ __attribute__((noinline)) void find_sharp_places(uint i, uint end, const Columns
     places->y[k] = high_part(y);
     places->y_low[k] = low_part(y);
     places->scale[k] = high_part(place.scale);
-#ifdef ELLIPSES
+#ifdef COPIES
     places->cos_latitude[k] = high_part(place.cos_latitude);
     places->sine_latitude[k] = high_part(place.sine_latitude);
 #endif
@@ -123,7 +123,7 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
                               const ProjectParameters p) {
   const VALUE reach = 7.0f * sigma + 2.0f;
   INTEGER in_picture = view.y + reach >= p.seen_top & view.y - reach <= p.seen_bottom;
-#ifndef ELLIPSES
+#ifndef COPIES
   in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
 #endif
   // Copies of one may lie upon one another, up to a light of 1 or to what turned out to lie in one

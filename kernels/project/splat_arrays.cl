@@ -13,6 +13,9 @@ typedef struct SplatArrays {
 #ifdef ELLIPSES
   float pixel_x[LANES], pixel_y[LANES], sigma_x[LANES], radius_x[LANES];
 #endif
+#ifdef FACE_OF_CUBE
+  float squared_width[LANES], footprint[LANES], secant2[LANES], part[LANES];
+#endif
 #ifdef VECTOR_COLORS
   float red[LANES], green[LANES], blue[LANES];
 #endif
@@ -48,6 +51,12 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 #ifdef ELLIPSES
   STORE(s.sigma_x, a->sigma_x);
 #endif
+#ifdef FACE_OF_CUBE
+  STORE(s.face.squared_width, a->squared_width);
+  STORE(s.face.footprint, a->footprint);
+  STORE(s.face.secant2, a->secant2);
+  STORE(s.part, a->part);
+#endif
 #ifdef VECTOR_COLORS
   STORE(s.own_color.x, a->red);
   STORE(s.own_color.y, a->green);
@@ -73,6 +82,13 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 #ifdef ELLIPSES
   splat.along_x.sigma = a->sigma_x[k];
   splat.along_x.radius = a->radius_x[k];
+#endif
+#ifdef FACE_OF_CUBE
+  splat.tilt.squared_width = a->squared_width[k];
+  splat.tilt.footprint = a->footprint[k];
+  splat.tilt.inverse_secant2 = 1.44269504f / a->secant2[k];
+  splat.tilt.scale = a->squared_width[k] / a->part[k];
+  splat.part = a->part[k];
 #endif
 #ifdef VECTOR_COLORS
   splat.own_color.rgb[0] = a->red[k];

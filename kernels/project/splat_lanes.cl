@@ -16,6 +16,10 @@ typedef struct SplatLanes {
 #ifdef ELLIPSES
   VALUE sigma_x, radius_x;
 #endif
+#ifdef FACE_OF_CUBE
+  FaceEllipse face;
+  VALUE farther, part;  // face_reach(), face_part()
+#endif
 #ifdef VECTOR_COLORS
   Vectors own_color;
 #endif
@@ -26,11 +30,26 @@ typedef struct SplatLanes {
 typedef struct WidthLanes {
   VALUE h;                  // in lengths
   VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
-#ifdef ELLIPSES
+#ifdef COPIES
   VALUE sigma_x;
   VALUE nearer;  // by which it lies nearer to the pole
 #endif
+#ifdef FACE_OF_CUBE
+  FaceEllipse face;
+  VALUE part;  // face_part()
+#endif
 } WidthLanes;
+
+// As they are drawn, along y and x, and of the narrower side.
+#ifdef FACE_OF_CUBE
+#define DRAWN_SIGMA(widths) ((widths).face.sigma_y)
+#define DRAWN_SIGMA_X(widths) ((widths).face.sigma_x)
+#define NARROW_SIGMA(widths) ((widths).face.narrow)
+#else
+#define DRAWN_SIGMA(widths) ((widths).sigma)
+#define DRAWN_SIGMA_X(widths) ((widths).sigma_x)
+#define NARROW_SIGMA(widths) ((widths).sigma)
+#endif
 
 INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
   WidthLanes widths;
@@ -41,7 +60,13 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
                           ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
                           : widths.sigma_true;
   widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
-#ifdef ELLIPSES
+#ifdef FACE_OF_CUBE
+  const float per_focal = 1.0f / p.pixels_per_length;
+  widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
+                             (view.y - p.center_y) * per_focal, p);
+  widths.part = face_part(widths.face, (VALUE)(p.reach), p);
+#endif
+#ifdef COPIES
   const PanoramaEllipse ellipse =
       panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
   widths.sigma_x = ellipse.sigma_x;
@@ -52,7 +77,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
 
 // Where a splat of these widths lies. What the sum rounds off goes to the low part.
 INLINED ViewLanes place_of_splat(ViewLanes view, const WidthLanes widths) {
-#ifdef ELLIPSES
+#ifdef COPIES
   const VALUE shift = copysign(widths.nearer, view.sine_latitude), y = view.y + shift;
   const VALUE added = y - view.y;
   view.y_low += (view.y - (y - added)) + (shift - added);
@@ -79,13 +104,23 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
 // picture's splats.
 INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths,
                             const ProjectParameters p) {
-  const VALUE reach = p.reach * widths.sigma + 2.0f;
+#ifdef FACE_OF_CUBE
+  const VALUE farther = face_reach(widths.face, (VALUE)(p.reach), p);
+#else
+  const float farther = 1.0f;
+#endif
+  const VALUE reach = p.reach * DRAWN_SIGMA(widths) * farther + 2.0f;
   INTEGER seen = (view.y + reach >= p.seen_top) & (view.y - reach <= p.seen_bottom);
 #ifdef WIDE_ANGLE
   seen &= view.seen;
 #endif
-#ifndef ELLIPSES  // of these, copies beside the picture may reach it
-  seen &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
+#ifdef FACE_OF_CUBE
+  const VALUE reach_x = p.reach * DRAWN_SIGMA_X(widths) * farther + 2.0f;
+#else
+  const VALUE reach_x = reach;
+#endif
+#ifndef COPIES  // beside the picture they may reach it
+  seen &= view.x + reach_x >= p.seen_left & view.x - reach_x <= p.seen_right_end;
 #endif
   return seen;
 }
@@ -126,7 +161,7 @@ INLINED VALUE counted_part(VALUE amplitude, const ProjectParameters p) {
 // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
 INLINED VALUE share_of_peak(const WidthLanes widths) {
 #ifdef ELLIPSES
-  const VALUE area = widths.sigma * widths.sigma_x;
+  const VALUE area = DRAWN_SIGMA(widths) * DRAWN_SIGMA_X(widths);
 #else
   const VALUE area = widths.sigma * widths.sigma;
 #endif
@@ -137,7 +172,7 @@ INLINED VALUE share_of_peak(const WidthLanes widths) {
 INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
                                         __global const WidthNeeds* needs,
                                         const ProjectParameters p) {
-  const VALUE sigma = widths.sigma;
+  const VALUE sigma = DRAWN_SIGMA(widths);
   BrightnessLanes b;
   b.own_peak = own_peak;
   b.crowd_peak = b.own_peak;
@@ -145,7 +180,7 @@ INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
   b.bright = b.own_peak > p.bright_peak;
   if (p.octaves_in_need == 0) return b;
 #ifdef ELLIPSES
-  const VALUE width2 = sigma * max(sigma, widths.sigma_x) + p.widening;
+  const VALUE width2 = sigma * max(sigma, DRAWN_SIGMA_X(widths)) + p.widening;
 #else
   const VALUE width2 = sigma * sigma + p.widening;
 #endif
@@ -175,14 +210,14 @@ typedef struct SampledLanes {
 INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
                                      VALUE weight, const ProjectParameters p) {
   SampledLanes s;
-  const VALUE sigma = widths.sigma;
+  const VALUE sigma = DRAWN_SIGMA(widths);
   const VALUE mean_limit =
       choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
   s.by_mean = sigma < mean_limit;
   s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
   const VALUE narrowing = sigma / s.sigma;
 #ifdef ELLIPSES
-  const VALUE sigma_x = widths.sigma_x;
+  const VALUE sigma_x = DRAWN_SIGMA_X(widths);
   s.by_mean_x = sigma_x < mean_limit;
   s.sigma_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, s.by_mean_x);
   s.weight = weight * (narrowing * (sigma_x / s.sigma_x));
@@ -216,19 +251,26 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   // the model's sigma, not of the widened one, and means always keep the pixel at its center.
   const VALUE edge = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean);
   const float cut_edge = p.widening > 0.0f ? 0.5f : 0.0f;
-  s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * widths.sigma * shrink + cut_edge
+  s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * DRAWN_SIGMA(widths) * shrink + cut_edge
                                   : extent * s->sigma + edge;
 #ifdef ELLIPSES
   // Such pictures have no coarse grids.
   const VALUE edge_x = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean_x);
   s->sigma_x = sampled.sigma_x;
-  s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * widths.sigma_x + cut_edge
+  s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * DRAWN_SIGMA_X(widths) + cut_edge
                                     : extent * sampled.sigma_x + edge_x;
+#endif
+#ifdef FACE_OF_CUBE
+  s->face = widths.face;
+  s->part = widths.part;
+  s->farther = face_reach(widths.face, extent, p);
+  s->radius *= s->farther;
+  s->radius_x *= s->farther;
 #endif
   s->x = view.x * shrink;
   s->y = view.y * shrink;
   VALUE farthest = max(fabs(s->x), fabs(s->y));
-#ifdef ELLIPSES
+#ifdef COPIES
   farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
   farthest = max(farthest, s->radius + max(-p.top, p.bottom) + 2.0f);
 #endif
@@ -237,13 +279,17 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
 }
 
 // How far the center lies beyond the part of its grid that is drawn, along the axis where it is
-// farthest; below 0: within.
+// farthest; below 0: within. Along x a wide splat counts as if it were as wide as it is high.
 INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
   const INTEGER level = level_of(s.grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   VALUE beyond = max(p.top * shrink - s.y, s.y - p.bottom * shrink);
-#ifndef ELLIPSES
-  beyond = max(beyond, max(p.left * shrink - s.x, s.x - p.right_end * shrink));
+#ifndef COPIES
+  VALUE beyond_x = max(p.left * shrink - s.x, s.x - p.right_end * shrink);
+#ifdef ELLIPSES
+  beyond_x = min(beyond_x, beyond_x * (s.radius / s.radius_x) + 1.0f);
+#endif
+  beyond = max(beyond, beyond_x);
 #endif
   return beyond;
 }
@@ -257,13 +303,18 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
   // The first pixel's center lies half a pixel within.
   const INTEGER reaches = beyond + 0.5f <= s->radius + room;
-#ifdef ELLIPSES
+#ifdef COPIES
   s->visible &= reaches;
 #else
   const INTEGER ends_short =
       (reaches == 0) & (beyond <= 2.0f * s->radius) & (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
   s->visible &= reaches | ends_short;
-  s->radius = choose(s->radius, -(beyond + 1.0f), ends_short);
+#ifdef FACE_OF_CUBE
+  const VALUE in_widths = beyond / max(s->farther, (VALUE)(1.0f));
+#else
+  const VALUE in_widths = beyond;
+#endif
+  s->radius = choose(s->radius, -(in_widths + 1.0f), ends_short);
 #endif
 }
 
@@ -288,10 +339,16 @@ INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER b
 INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
                                      const ProjectParameters p) {
   const float focal = p.pixels_per_length;
+#ifdef FACE_OF_CUBE
+  const VALUE sigma =
+      max(widths.face.sigma_x, widths.face.sigma_y) * face_reach(widths.face, (VALUE)(10.0f), p);
+#else
+  const VALUE sigma = widths.sigma;
+#endif
   const VALUE reach =
-      10.0f * fabs(widths.sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
+      10.0f * fabs(sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
   INTEGER off = view.y + reach<p.top | view.y - reach> p.bottom;
-#ifdef ELLIPSES
+#ifdef COPIES
   const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
                         1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
   off |= ceil((p.left - reach_x - view.x) / p.period) >
@@ -348,16 +405,19 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   if (!ANY(s.visible)) return s;
 
   const VALUE brightest = brightest_color(particles, p), share = share_of_peak(widths);
-  const VALUE weight =
-      limited_weight(find_weight(particles.weight, view, widths, p), brightest * share) *
-      normalized(particles.intensity, p.intensity);
+  VALUE center_weight = find_weight(particles.weight, view, widths, p);
+#ifdef FACE_OF_CUBE
+  center_weight *= widths.part;
+#endif
+  const VALUE weight = limited_weight(center_weight, brightest * share) *
+                       normalized(particles.intensity, p.intensity);
   const VALUE amplitude = weight * brightest;
   const BrightnessLanes brightness =
       find_brightness(amplitude * share * counted_part(amplitude, p), widths, needs, p);
-  const INTEGER sharp = s.visible & are_sharp(view, widths.sigma, brightness.crowd_peak, p);
+  const INTEGER sharp = s.visible & are_sharp(view, NARROW_SIGMA(widths), brightness.crowd_peak, p);
   if (ANY(sharp)) {
-    s.too_sharp =
-        sharp & are_too_sharp(view, widths.sigma, brightness.own_peak, brightness.crowd_peak, p);
+    s.too_sharp = sharp & are_too_sharp(view, NARROW_SIGMA(widths), brightness.own_peak,
+                                        brightness.crowd_peak, p);
 #ifdef WIDE_ANGLE
     view = sharp_view(of_center, sharp, i, end, columns, p, e);
 #else
@@ -372,7 +432,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   keep_those_that_reach(&s, p);
-  s.weight = restored_weight(s.weight, widths.sigma, extent, sampled.by_mean, p);
+  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean, p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);
 #ifdef ELLIPSES

@@ -50,7 +50,7 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
   return place;
 }
 
-#ifdef ELLIPSES
+#ifdef COPIES
 inline long in_long(struct WideInteger units) {
   return (long)((ulong)units.low | ((ulong)units.high << 32));
 }

@@ -1,6 +1,8 @@
 // Where the projections that look in all directions put a particle (docs/projections.md), on
 // VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
 
+#define SMALLEST_COSINE_OF_FACE 0.0625f
+
 typedef struct WideAnglePoint {
   VALUE x, y;                         // pixels from the middle of the picture
   VALUE scale;                        // pixels per length of a cloud's width
@@ -57,18 +59,17 @@ inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distan
   point.x = focal * atan2(x, z);
   point.y = focal * atan2(y, point.cos_latitude);
 #else
-  // A cloud keeps its solid angle; beyond the face it grows no wider.
-  const VALUE cosine = max(z, (VALUE)(0.5f));
+  // What is nearly beside the camera has no light in the face (src/scene/projection.cpp).
   point.x = focal * x / z;
   point.y = focal * y / z;
-  point.scale /= cosine * sqrt(cosine);
+  point.scale /= max(z, (VALUE)(SMALLEST_COSINE_OF_FACE));
   point.magnification = 1.0f / max(z * z, (VALUE)(FLT_MIN));
-  point.seen &= z > 0.0f;
+  point.seen &= z > SMALLEST_COSINE_OF_FACE;
 #endif
   return point;
 }
 
-#ifdef ELLIPSES
+#ifdef COPIES
 // The ellipse as which an equirectangular picture shows a cloud of this height: panorama_ellipse()
 // of src/scene/projection.cpp.
 typedef struct PanoramaEllipse {

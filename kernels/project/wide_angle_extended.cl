@@ -73,13 +73,11 @@ inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle*
 }
 #else
 inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
-  place->seen &= high_part(v[2]) > 0.0f;
+  const Extended cosine = extended_quotient(v[2], place->distance);
+  place->seen &= high_part(cosine) > SMALLEST_COSINE_OF_FACE;
   place->x = extended_quotient(extended_product(focal, v[0]), v[2]);
   place->y = extended_quotient(extended_product(focal, v[1]), v[2]);
-  // A cloud keeps its solid angle; beyond the face it grows no wider.
-  Extended cosine = extended_quotient(v[2], place->distance);
-  if (high_part(cosine) < 0.5f) cosine = extended_of(0.5f);
-  place->scale = extended_quotient(place->scale, extended_product(cosine, extended_root(cosine)));
+  place->scale = extended_quotient(place->scale, cosine);
 }
 #endif
 
@@ -101,7 +99,7 @@ inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
   return place;
 }
 
-#ifdef ELLIPSES
+#ifdef COPIES
 // panorama_ellipse() of wide_angle.cl.
 typedef struct ExtendedEllipse {
   Extended nearer, sigma_x;

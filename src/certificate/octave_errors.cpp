@@ -58,7 +58,7 @@ double error_of_peak(int octave, int level, const Frame& frame, const FramePlan&
   const double widest = without_widening(widest_sigma(octave), plan);
   double error = 0;
   if (narrowest < mean_sigma) error = 2 * 1.8 * std::min(widest, mean_sigma) * plan.erf_error;
-  if (widest > mean_sigma && frame.kernel.sampling == Sampling::mean) {
+  if (widest > mean_sigma && takes_pixel_means(frame)) {
     const double sigma = std::max(narrowest, mean_sigma);
     error = std::max(error, center_value_error(sigma));
   }

@@ -28,6 +28,10 @@ double ray_shape(const Vec3& center, const Vec3& direction) {
 
 double shape(const Splat& splat, int x, int y, const KernelSettings& kernel) {
   if (is_cut(splat, x, y, kernel)) return 0;
+  if (splat.on_face.focal_pixels > 0) {
+    const FaceShape on_face = shape_on_face(splat, x, y);
+    return on_face.peak * std::exp(-on_face.squared);
+  }
   return axis_profile(splat.x, splat.stretch * splat.sigma, x, kernel.sampling) *
          axis_profile(splat.y, splat.sigma, y, kernel.sampling);
 }

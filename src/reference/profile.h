@@ -31,11 +31,31 @@ inline double axis_profile(double center, double sigma, int i, Sampling sampling
                                     : value_at_pixel_center(center, sigma, i);
 }
 
+// The shape of a splat on a face of a cube in pixel (x, y): peak * exp(-squared).
+struct FaceShape {
+  double peak = 0, squared = 0;
+};
+
+inline FaceShape shape_on_face(const Splat& splat, int x, int y) {
+  const Splat::OnFace& face = splat.on_face;
+  const double dx = x + 0.5 - splat.x, dy = y + 0.5 - splat.y;
+  const double across = (x + 0.5 - face.middle_x) / face.focal_pixels;
+  const double along = (y + 0.5 - face.middle_y) / face.focal_pixels;
+  const double k = 1 + across * across + along * along, g = face.squared_width;
+  const double m = g * k + face.footprint, turned = across * dy - along * dx;
+  FaceShape shape;
+  shape.peak = g * k / m;
+  shape.squared = (dx * dx + dy * dy + turned * turned) / (m * face.secant2);
+  return shape;
+}
+
 // Whether kernel.cut takes the splat's light from the pixel: its centre is farther than
 // cut * sigma. With pixel means the pixel that holds the splat's centre keeps its light
 // however small the splat is, or all clouds far below a pixel would vanish.
 inline bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kernel) {
   if (!kernel.cut) return false;
+  if (splat.on_face.focal_pixels > 0)
+    return shape_on_face(splat, x, y).squared > *kernel.cut * *kernel.cut;
   const double dx = (x + 0.5 - splat.x) / splat.stretch;
   const double dy = y + 0.5 - splat.y;
   const double radius = *kernel.cut * splat.sigma;

@@ -128,6 +128,16 @@ std::uint64_t field_key(float value) {
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
+void put_on_face(Splat& splat, const Projected& place, const Frame& frame) {
+  const CameraFrame& camera = frame.camera;
+  const FaceEllipse ellipse =
+      face_ellipse(place, splat.sigma, camera, frame.kernel.sampling == Sampling::mean);
+  splat.sigma = ellipse.sigma_y;
+  splat.stretch = ellipse.sigma_x / ellipse.sigma_y;
+  splat.on_face = {camera.focal_pixels,   camera.center_x,   camera.center_y,
+                   ellipse.squared_width, ellipse.footprint, ellipse.secant2};
+}
+
 Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnComponent& component,
                const Frame& frame) {
   const double h_pixels = h * place.pixels_per_length;
@@ -142,6 +152,7 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
     splat.y = ellipse.y;
     splat.stretch = ellipse.stretch;
   }
+  if (frame.projection == Projection::cube) put_on_face(splat, place, frame);
   const double w = column_through_center(component.weight, static_cast<double>(p.weight), h,
                                          frame.kernel.width * h);
   splat.weight = w / component.reference_column * (h_pixels / h_drawn);
@@ -182,7 +193,8 @@ Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnCom
     distance2 += splat.center.a[axis] * splat.center.a[axis];
   }
   splat.is_around = true;
-  splat.ray_part = ray_part(std::sqrt(distance2));
+  // On a face of a cube splats are what rays find, too.
+  splat.ray_part = frame.projection == Projection::cube ? 1 : ray_part(std::sqrt(distance2));
   const double h_pixels = place ? h * place->pixels_per_length : 0;
   // A width below min_radius takes light away, as from splats.
   splat.splat_part = place ? (1 - splat.ray_part) *

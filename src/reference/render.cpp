@@ -50,6 +50,10 @@ class RowPainter {
       add_around(splat, layers);
       return;
     }
+    if (splat.on_face.focal_pixels > 0) {
+      add_on_face(splat, layers);
+      return;
+    }
     const double radius = splat.sigma * reach_in_sigmas(splat) + 1;
     const double radius_x = splat.stretch * (radius - 1) + 1;
     const Range columns = pixels_within(splat.x, radius_x, crop.x, crop.x + crop.width);
@@ -94,6 +98,28 @@ class RowPainter {
         if (column < nothing) continue;
         Layer& pixel = row[x - crop.x];
         pixel = over(pixel, layer_of(splat, splat.weight * column));
+      }
+    }
+  }
+
+  // Of a cube. No pixel's secant is more than that of the corners, and no splat's less than 1:
+  // where nothing of it is left at `reach` widths, nothing is left at that times the corners'
+  // secant.
+  void add_on_face(const Splat& splat, std::vector<Layer>& layers) {
+    constexpr double secant_of_corners = 1.7320508075688772;
+    const Rectangle& crop = frame_.crop;
+    const double reach = reach_in_sigmas(splat), radius = splat.sigma * reach * secant_of_corners;
+    const Range columns =
+        pixels_within(splat.x, splat.stretch * radius + 1, crop.x, crop.x + crop.width);
+    const Range rows = pixels_within(splat.y, radius + 1, crop.y, crop.y + crop.height);
+    for (int y = own_row_from(rows.first); y < rows.end; y += row_step_) {
+      Layer* row = layers.data() +
+                   static_cast<std::size_t>(y - crop.y) * static_cast<std::size_t>(crop.width);
+      for (int x = columns.first; x < columns.end; ++x) {
+        const double column = splat.weight * shape(splat, x, y, frame_.kernel);
+        if (!(column > 0)) continue;
+        Layer& pixel = row[x - crop.x];
+        pixel = over(pixel, layer_of(splat, column));
       }
     }
   }

@@ -58,18 +58,17 @@ Projected project_equirectangular(const Vec3& u, double distance, const CameraFr
   return place;
 }
 
-// The corners of a face are 55 degrees from its axis. Clouds beyond 60 degrees grow no wider,
-// or those at 90 degrees would fill the face.
-constexpr double smallest_cosine_of_face = 0.5;
+// The corners of a face are 55 degrees from its axis. A cloud beyond 86 degrees that is not around
+// the camera has exp(-36) of its peak there.
+constexpr double smallest_cosine_of_face = 0x1p-4;
 
 std::optional<Projected> project_cube_face(const Vec3& u, double distance,
                                            const CameraFrame& camera) {
-  if (u.a[2] <= 0) return std::nullopt;
-  const double cosine = std::max(u.a[2], smallest_cosine_of_face);
+  if (!(u.a[2] > smallest_cosine_of_face)) return std::nullopt;
   Projected place;
   place.x = camera.center_x + camera.focal_pixels * u.a[0] / u.a[2];
   place.y = camera.center_y + camera.focal_pixels * u.a[1] / u.a[2];
-  place.pixels_per_length = camera.focal_pixels / (distance * cosine * std::sqrt(cosine));
+  place.pixels_per_length = camera.focal_pixels / (distance * u.a[2]);
   return place;
 }
 
@@ -153,10 +152,41 @@ double mirrored_over_pole(double y, const CameraFrame& camera) {
   return 2 * pole - y;
 }
 
-double stretch_along_x(const Projected& place, double sigma, const CameraFrame& camera,
+// Wider clouds are what rays find, as those around the camera are.
+constexpr double angle_of_rays = 1.0 / 12;
+
+FaceEllipse face_ellipse(const Projected& place, double sigma, const CameraFrame& camera,
+                         bool has_footprint) {
+  const double x = (place.x - camera.center_x) / camera.focal_pixels;
+  const double y = (place.y - camera.center_y) / camera.focal_pixels;
+  FaceEllipse ellipse;
+  ellipse.secant2 = 1 + x * x + y * y;
+  ellipse.squared_width = sigma * sigma / ellipse.secant2;
+  const double angle = std::sqrt(ellipse.squared_width) / camera.focal_pixels;
+  const double u = std::clamp(2 * angle / angle_of_rays - 1, 0.0, 1.0);
+  const double kept = 1 - u * u * (3 - 2 * u);
+  if (has_footprint) {
+    ellipse.footprint =
+        std::max(face_footprint, narrowest_on_face_squared - ellipse.squared_width) * kept;
+  }
+  // Of the ellipse that it is where the pixels have its own secant.
+  const double across = sigma * sigma + ellipse.footprint;
+  ellipse.sigma_x = std::sqrt(across * (1 + x * x));
+  ellipse.sigma_y = std::sqrt(across * (1 + y * y));
+  return ellipse;
+}
+
+double secant2_at(double x, double y, const CameraFrame& camera) {
+  const double across = (x - camera.center_x) / camera.focal_pixels;
+  const double along = (y - camera.center_y) / camera.focal_pixels;
+  return 1 + across * across + along * along;
+}
+
+double stretch_of_area(const Projected& place, double sigma, const CameraFrame& camera,
                        Projection projection) {
-  return projection == Projection::equirectangular ? panorama_ellipse(place, sigma, camera).stretch
-                                                   : 1;
+  if (projection == Projection::equirectangular)
+    return panorama_ellipse(place, sigma, camera).stretch;
+  return projection == Projection::cube ? std::sqrt(secant2_at(place.x, place.y, camera)) : 1;
 }
 
 Vec3 turn_axis_in_view(const CameraFrame& camera) {

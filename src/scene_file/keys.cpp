@@ -199,7 +199,9 @@ Keys kernel_keys() {
           choice<Sampling>({{"mean", Sampling::mean}, {"center", Sampling::center}}),
           &KernelSettings::sampling,
           {"`mean`: the column of a pixel is its mean over the pixel's area, so that clouds far "
-           "smaller than a pixel keep their light. `center`: the value at the pixel's centre."}),
+           "smaller than a pixel keep their light. `center`: the value at the pixel's centre. "
+           "Pixels of a cube look through "
+           "a Gaussian footprint instead of their area; see projections.md."}),
       key("kernel.min_radius", number(between(0, 1e6)), &KernelSettings::min_radius_pixels,
           {"h becomes h' = sqrt(h^2 + min_radius^2) in pixels and the column is multiplied by "
            "h/h', as in the original program, where small clouds so gain light. 0: off.",

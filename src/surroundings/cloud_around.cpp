@@ -161,7 +161,8 @@ CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, st
   const Vec3 place = from_camera(component, frame, i);
   using namespace boost::qvm;
   cloud.center = seen_by_eye(place, frame.camera, frame.projection) / sigma;
-  cloud.ray = ray_part(mag(cloud.center));
+  // On a face of a cube splats are what rays find, too.
+  cloud.ray = frame.projection == Projection::cube ? 1 : ray_part(mag(cloud.center));
   set_amplitudes(component, i, weight, cloud);
   if (cloud.ray == 1) return cloud;
   if (const auto projected = project_point(place, frame.camera, frame.projection)) {

@@ -22,6 +22,7 @@ struct Placed {
   std::uint64_t particle = 0;
   double x = 0, y = 0, sigma = 0, sigma_x = 0;
   bool has_coarse_unit = false;  // of its integers
+  bool is_face_width = false;    // sigma is that of FaceEllipse::squared_width
 };
 
 // Errors in pixels, those of widths relative.
@@ -116,7 +117,14 @@ class WideAnglePlaces : public StageTest,
       const float* own = &values[i * words];
       places.push_back({identity_of(splat), number(own), number(own + 2), number(own + 4), 0});
       const std::size_t after = sizeof(shared::ExtendedSplat) / sizeof(float);
-      if (words > after) places.back().sigma_x = number(own + after);
+      if (stages.plan().is_face_of_cube) {
+        // Single precision serves for the widths along the axes, not for this one.
+        const std::size_t tilt = after + sizeof(shared::ExtendedAlongX) / sizeof(float);
+        places.back().sigma = std::sqrt(number(own + tilt));
+        places.back().is_face_width = true;
+      } else if (words > after) {
+        places.back().sigma_x = number(own + after);
+      }
     }
     return places;
   }
@@ -149,7 +157,8 @@ class WideAnglePlaces : public StageTest,
     Errors parts;
     parts.x = std::abs(place.x - exact.x) / may.x;
     parts.y = std::abs(place.y - exact.y) / may.y;
-    parts.sigma = std::abs(place.sigma / exact.sigma - 1) / may.sigma;
+    const double sigma = place.is_face_width ? std::sqrt(exact.on_face.squared_width) : exact.sigma;
+    parts.sigma = std::abs(place.sigma / sigma - 1) / may.sigma;
     const double sigma_x = exact.sigma * exact.stretch;
     if (place.sigma_x > 0) parts.sigma_x = std::abs(place.sigma_x / sigma_x - 1) / may.sigma_x;
     return parts;

@@ -1,6 +1,7 @@
 #include "device/frame/specialization.h"
 
 #include "device/frame/shared.h"
+#include "scene/plan/splat_limits.h"
 #include "surroundings/cloud_around.h"
 
 namespace splotchcl {
@@ -38,9 +39,11 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       fine_places_(plan.has_fine_places && !extended_),
       small_blocks_(plan.adds_small_blocks),
       kernel_cut_(frame.kernel.cut.has_value()),
-      pixel_means_(frame.kernel.sampling == Sampling::mean),
+      pixel_means_(takes_pixel_means(frame)),
       vector_colors_(plan.has_vector_colors),
       ellipses_(plan.has_ellipses),
+      copies_(plan.has_copies),
+      face_of_cube_(plan.is_face_of_cube),
       keeps_transmittance_(plan.layers.keeps_transmittance),
       eye_offset_(frame.camera.eye_offset != 0),
       clouds_around_(has_clouds_around(frame)),
@@ -57,6 +60,7 @@ std::uint32_t Specialization::planes() const {
 
 std::size_t Specialization::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
+         (face_of_cube_ ? sizeof(shared::Tilt) + sizeof(cl_float) : 0) +
          (vector_colors_ ? sizeof(shared::OwnColor) : 0) + (fine_places_ ? sizeof(cl_uint) : 0) +
          (has_whole_sectors() ? sizeof(cl_uint) : 0) + (has_own_tiles() ? sizeof(cl_uint) : 0);
 }
@@ -80,13 +84,15 @@ std::string Specialization::splat_defines() const {
 
 std::size_t Specialization::extended_splat_bytes() const {
   if (!extended_) return 0;
-  return sizeof(shared::ExtendedSplat) + (ellipses_ ? sizeof(shared::ExtendedAlongX) : 0);
+  return sizeof(shared::ExtendedSplat) + (ellipses_ ? sizeof(shared::ExtendedAlongX) : 0) +
+         (face_of_cube_ ? sizeof(shared::ExtendedTilt) : 0);
 }
 
 // TileSplat, bin.h.
 std::size_t Specialization::tile_splat_bytes() const {
   if (extended_) return sizeof(cl_uint);
   const std::size_t shape = 4 * sizeof(float) + (ellipses_ ? sizeof(shared::WidthAlongX) : 0) +
+                            (face_of_cube_ ? sizeof(shared::Tilt) : 0) +
                             (fine_places_ ? 2 * sizeof(float) : 0);
   return shape + (is_ordered() ? 6 : 3) * sizeof(float);
 }
@@ -99,7 +105,8 @@ std::string Specialization::tile_size_defines() const {
 std::string Specialization::tile_defines() const {
   return tile_size_defines() + define("PLANES " + std::to_string(planes())) +
          define_if(is_ordered(), "LIGHT_ORDERED") + define_if(extended_, "EXTENDED_NUMBERS") +
-         define_if(ellipses_, "ELLIPSES") + define_if(fine_places_, "FINE_PLACES");
+         define_if(ellipses_, "ELLIPSES") + define_if(face_of_cube_, "FACE_OF_CUBE") +
+         define_if(fine_places_, "FINE_PLACES");
 }
 
 std::string Specialization::slab_defines() const {
@@ -140,6 +147,7 @@ std::vector<std::string> Specialization::view_files() const {
   if (is_wide_angle(projection_))
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
   files.push_back("view.cl");
+  if (face_of_cube_) files.insert(files.end(), {"face_ellipse.cl", "face_ellipse_extended.cl"});
   if (clouds_around_) files.push_back("around.cl");
   files.insert(files.end(), {"place_extended.cl", "limits.cl", "depth_key.cl"});
   return files;
@@ -164,7 +172,8 @@ std::string Specialization::wide_angle_defines() const {
   return define("WIDE_ANGLE") + define_if(eye_offset_, "EYE_OFFSET") +
          define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
          define_if(projection_ == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
-         define_if(ellipses_, "ELLIPSES");
+         define_if(ellipses_, "ELLIPSES") + define_if(copies_, "COPIES") +
+         define_if(face_of_cube_, "FACE_OF_CUBE");
 }
 
 std::string Specialization::extended_defines() const {
@@ -233,13 +242,14 @@ ProgramSource Specialization::composite() const {
         "splat.h",    "bin.h",       "composite.h",       "common.cl",         "lanes.cl",
         "precise.cl", "extended.cl", "extended_lanes.cl", "extended_pixels.cl"};
     if (has_rows())
-      files.insert(files.end(), {"double_lanes.cl", "composite_extended_rows.cl"});
+      files.insert(files.end(),
+                   {"double_lanes.cl", "extended_shape.cl", "composite_extended_rows.cl"});
     else
       files.push_back("composite_extended_groups.cl");
     return {defines, files};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(rows_ && rows_of_16_, "ROWS_OF_16") + block_defines();
+             define_if(rows_ && rows_of_16_ && !face_of_cube_, "ROWS_OF_16") + block_defines();
   return {defines, composite_files()};
 }
 
@@ -252,10 +262,14 @@ ProgramSource Specialization::composite_with_clouds() const {
 std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
                                     "lanes.cl", "shape.cl", "opacity.cl",  "clouds.cl"};
-  if (rows_)
-    files.insert(files.end(), {"rows.cl", "wide_rows.cl", "composite_rows.cl"});
-  else
+  if (face_of_cube_) files.push_back("face_shape.cl");
+  if (rows_) {
+    files.insert(files.end(), {"rows.cl", "wide_rows.cl"});
+    files.push_back(face_of_cube_ ? "face_rows.cl" : "splat_rows.cl");
+    files.push_back("composite_rows.cl");
+  } else {
     files.push_back("composite_groups.cl");
+  }
   return files;
 }
 

@@ -38,6 +38,7 @@ class Specialization {
   bool has_rows() const { return rows_ && (!extended_ || double_numbers_); }
   bool has_vector_colors() const { return vector_colors_; }
   bool has_ellipses() const { return ellipses_; }
+  bool is_face_of_cube() const { return face_of_cube_; }
   bool has_background_image() const { return background_image_; }
 
   // Pixels of a tile.
@@ -105,7 +106,7 @@ class Specialization {
   bool double_numbers_;  // as doubles, else pairs of floats
   bool full_precision_, fine_places_, small_blocks_;
   bool kernel_cut_, pixel_means_;
-  bool vector_colors_, ellipses_;
+  bool vector_colors_, ellipses_, copies_, face_of_cube_;
   bool keeps_transmittance_;
   bool eye_offset_;
   bool clouds_around_;  // may be: they are no splats

@@ -130,7 +130,8 @@ std::vector<std::uint32_t> splat_words(const Specialization& specialization, std
   shared::Splat splat{};
   splat.sigma = -CLOUD_SIGMA * static_cast<float>(cloud + 1);
   splat.radius = everywhere;
-  // Beyond what all splats have: widths along x, colors of their own, which weigh nothing here.
+  // Beyond what all splats have: widths along x, how ellipses are turned, colors of their own,
+  // which weigh nothing here.
   std::vector<std::uint32_t> words(specialization.splat_bytes() / sizeof(std::uint32_t), all_bits);
   std::memcpy(words.data(), &splat, sizeof(splat));
   std::size_t next = sizeof(splat) / sizeof(std::uint32_t);
@@ -138,7 +139,14 @@ std::vector<std::uint32_t> splat_words(const Specialization& specialization, std
     words[next++] = bits_of(splat.sigma);
     words[next++] = bits_of(everywhere);
   }
-  if (specialization.has_vector_colors()) std::fill_n(words.begin() + next, 3, 0u);
+  if (specialization.is_face_of_cube()) {
+    constexpr std::size_t tilt_words = sizeof(shared::Tilt) / sizeof(std::uint32_t);
+    std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(next), tilt_words, 0u);
+    next += tilt_words;
+    words[next++] = bits_of(1);
+  }
+  if (specialization.has_vector_colors())
+    std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(next), 3, 0u);
   return words;
 }
 

@@ -1,7 +1,9 @@
 #include "device/stages/compositor.h"
 
+#include <cmath>
 #include <utility>
 
+#include "device/frame/float_pair.h"
 #include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 
@@ -23,6 +25,11 @@ Compositor::Compositor(const StageContext& context) : context_(context) {
   parameters_.phi_third = context.plan.layers.phi_third;
   parameters_.phi_series = context.plan.layers.phi_series;
   parameters_.stop = context.plan.layers.stop;
+  const CameraFrame& camera = context.frame.camera;
+  parameters_.face = {pair_of(camera.center_x), pair_of(camera.center_y),
+                      pair_of(1 / camera.focal_pixels), 0};
+  const double cut = context.frame.kernel.cut.value_or(0);
+  parameters_.face.cut2 = static_cast<float>(cut * cut / std::log(2));
 }
 
 void Compositor::take_clouds(const CloudTables& clouds) {

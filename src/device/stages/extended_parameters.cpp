@@ -4,23 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "device/frame/float_pair.h"
 #include "scene/particle_rules.h"
 #include "scene/projection.h"
 
 namespace splotchcl {
 namespace {
-
-// Volatile, since GCC 12 at -O3 takes the way to float and back for nothing.
-float nearest_float(double value) {
-  const volatile float nearest = static_cast<float>(value);
-  return nearest;
-}
-
-shared::FloatPair pair_of(double value) {
-  const float high = nearest_float(value);
-  if (!std::isfinite(high)) return {high, 0};
-  return {high, nearest_float(value - static_cast<double>(high))};
-}
 
 void split_in_three(double value, float (&parts)[3]) {
   for (float& part : parts) {

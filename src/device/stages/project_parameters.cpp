@@ -198,6 +198,11 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   // splat of a coarse grid is narrower than coarse_sigma of its pixels, but for its widening.
   p.reach = 7 + 1.1f * p.beside / plan.pyramid.coarse_sigma;
 
+  if (plan.is_face_of_cube && frame.kernel.sampling == Sampling::mean) {
+    p.footprint = static_cast<float>(face_footprint);
+    p.narrowest_squared = static_cast<float>(narrowest_on_face_squared);
+  }
+
   const double period = period_along_x(frame.camera, frame.projection);
   p.period = static_cast<float>(period);
   const auto in_units = [&](double pixels) {

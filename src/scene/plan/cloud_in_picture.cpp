@@ -29,9 +29,9 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
   PictureCloud cloud;
   cloud.x = place->x;
   cloud.y = place->y;
-  // A cloud that is wider than high has the light of a circle of the same area.
+  // A cloud that is no circle has the light of a circle of the same area.
   const double height = sigma * place->pixels_per_length;
-  cloud.sigma = height * std::sqrt(stretch_along_x(*place, height, frame.camera, frame.projection));
+  cloud.sigma = height * std::sqrt(stretch_of_area(*place, height, frame.camera, frame.projection));
   const double weight = particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
   cloud.column = central_column(component.weight, weight, h, sigma);
   if (!particles.intensity.is_absent()) {

@@ -94,8 +94,8 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   const double unchecked = response_to_unchecked(plan.light, source, background);
   // Even light errs by no more than itself for each depth of 1.
   const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;
-  plan.splats = choose_splat_limits(frame.kernel, plan.shares, plan.light,
-                                    {of_even_light, response, unchecked});
+  plan.splats =
+      choose_splat_limits(frame, plan.shares, plan.light, {of_even_light, response, unchecked});
   plan.erf_error = erf_error;
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
@@ -151,8 +151,10 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   plan.source = structure.source;
   plan.has_vector_colors =
       std::any_of(frame.components.begin(), frame.components.end(), has_own_colors);
-  plan.has_ellipses = frame.projection == Projection::equirectangular;
-  if (plan.has_ellipses) plan.splats_per_particle = splats_with_copies;
+  plan.has_copies = frame.projection == Projection::equirectangular;
+  plan.is_face_of_cube = frame.projection == Projection::cube;
+  plan.has_ellipses = plan.has_copies || plan.is_face_of_cube;
+  if (plan.has_copies) plan.splats_per_particle = splats_with_copies;
 
   plan.certify = options.certify;
   plan.drawn_for_tolerance = frame.tolerance * (options.certify ? first_part_certified : 1);

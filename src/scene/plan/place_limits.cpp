@@ -51,8 +51,11 @@ double fine_place_error(const Frame& frame) {
 // So many roundings count with the logarithm of a peak. A distance over sigma has six: of the
 // constant in sigma, of its product with h, of the scale, of its product with that, of the pixel's
 // edge and of the quotient. The exponent is its square, which exp takes without another one. Along
-// the rows of a panorama two more are those of the latitude's cosine and of sigma over it.
+// the rows of a panorama two more are those of the latitude's cosine and of sigma over it. On a
+// face of a cube six more are those of both tangents, and five of the pixel's secant and the
+// quotient.
 double roundings_of_fading(const FramePlan& plan) {
+  if (plan.is_face_of_cube) return 24;
   return plan.has_ellipses ? 16 : 12;
 }
 

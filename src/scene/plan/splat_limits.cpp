@@ -31,8 +31,12 @@ double center_value_error(double sigma_pixels) {
   return 8.2e-3 / (sigma2 * sigma2);
 }
 
-SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
-                                LightPlan light, const Responses& response) {
+bool takes_pixel_means(const Frame& frame) {
+  return frame.kernel.sampling == Sampling::mean && frame.projection != Projection::cube;
+}
+
+SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& shares, LightPlan light,
+                                const Responses& response) {
   SplatLimits limits;
   // Coarse grids have few pixels, so that drawing splats farther in sums costs little, and saves
   // drawing frames again.
@@ -41,10 +45,11 @@ SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceSha
   const double extent2 = -std::log(std::min(left_out, 1.0));
   limits.least_extent = static_cast<float>(std::sqrt(extent2));
   // A cut is part of the model: nothing is left out. Otherwise half of 1 - erf(k)^2.
-  limits.restored_light = kernel.cut ? 0.0f : static_cast<float>(std::erfc(std::sqrt(extent2)));
+  limits.restored_light =
+      frame.kernel.cut ? 0.0f : static_cast<float>(std::erfc(std::sqrt(extent2)));
   limits.inverse_edge = static_cast<float>(ends_in_a_pixel / shares.truncation);
   limits.bright_peak = 8;
-  if (kernel.sampling == Sampling::mean) {
+  if (takes_pixel_means(frame)) {
     limits.mean_sigma = widest_of_means(response.of_means, shares);
     limits.bright_mean_sigma = widest_of_means(response.of_bright_means, shares);
     limits.widening = 1.0f / 6.0f;

@@ -18,8 +18,12 @@ struct Responses {
   double of_bright_means = 1;
 };
 
-SplatLimits choose_splat_limits(const KernelSettings& kernel, const ToleranceShares& shares,
-                                LightPlan light, const Responses& response);
+// Whether pixels take means of splats. On the faces of a cube they take the values at their centers
+// of splats that are as wide as pixels make them (docs/projections.md).
+bool takes_pixel_means(const Frame& frame);
+
+SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& shares, LightPlan light,
+                                const Responses& response);
 
 // `brightest_behind`: the most that can shine through a layer. `response`: of every layer alike.
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,

@@ -1,0 +1,46 @@
+// A splat in a tile of a face of a cube, eight pixels of a row at a time. Its ellipse lies askew,
+// so that each row has a shape of its own.
+
+// What all splats of a tile share.
+typedef TileOnFace SplatTile;
+
+inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
+  return tile_on_face(p->face, grid, tile);
+}
+
+// The window's rows of eight.
+inline void fill_rows(float* values, const Window* window, __global const TileSplat* splat,
+                      const SplatTile* of_tile) {
+  const float8 columns = (float)window->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float8 x = (of_tile->x + columns) * of_tile->per_focal;
+  const float8 dx = columns + FIRST_X - splat->x - LOW_X(*splat);
+  const Tilt tilt = splat->tilt;
+  for (int k = 0; k < window->rows; ++k) {
+    const float row = (float)(window->y + k), y = (of_tile->y + row) * of_tile->per_focal;
+    const float dy = row + FIRST_Y - splat->y - LOW_Y(*splat);
+    vstore8(face_shape(tilt, dx, dy, x, y, of_tile->cut2), 0, values + 8 * k);
+  }
+}
+
+// Whether it touches the tile: as in splat_rows.cl.
+inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
+                     float* depth_of_block, const CompositeParameters* p) {
+  const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
+  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
+  if (rows.x > rows.y || columns.x > columns.y) return 0;
+  int form = 0;
+#ifdef LIGHT_ORDERED
+  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));
+  *depth_of_block += deepest;
+  form = form_of_layer(deepest, *depth_of_block, p);
+#endif
+  float values[8 * TILE_HEIGHT];
+  Window window;
+  window.y = rows.x;
+  window.rows = rows.y - rows.x + 1;
+  for (window.x = columns.x; window.x <= columns.y; window.x += 8) {
+    fill_rows(values, &window, splat, of_tile);
+    update_window(tile, &window, (float8)(1.0f), values, splat, form);
+  }
+  return 1;
+}

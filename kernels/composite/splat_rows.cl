@@ -1,0 +1,199 @@
+// A splat in a tile, eight pixels of a row at a time: its shape is the product of one along x and
+// one along y, of which each is worked out once.
+
+// What all splats of a tile share.
+typedef struct SplatTile {
+  float mean_sigma;
+} SplatTile;
+
+inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
+  SplatTile of_tile;
+  of_tile.mean_sigma = grid.mean_sigma;
+  return of_tile;
+}
+
+inline float inverse_of(float sigma) {
+  return 1.44269504f / (sigma * sigma);
+}
+
+// fill_axis() of a bright splat.
+inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma >= WIDE_MEAN) {
+    for (int k = 0; k < count; k += 8)
+      vstore8(wide_bright_mean(first + (float)k + ramp - low, sigma), 0, values + k);
+    return;
+  }
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 8) {
+    const float8 edge = (first - 0.5f + (float)k + ramp - low) * per_sigma;
+    vstore8(complement_of_erf(fabs(edge)), 0, values + k);
+  }
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 8) {
+    const float8 left = (first - 0.5f + (float)k + ramp - low) * per_sigma;
+    const float8 right = (first + 0.5f + (float)k + ramp - low) * per_sigma;
+    const float8 mean =
+        mean_of_complements(left, vload8(0, values + k), right, vload8(0, values + k + 1));
+    vstore8(mean * (PIXEL_MEAN_SCALE * sigma), 0, values + k);
+  }
+}
+
+// One axis of the separable shape at `count` pixels, the first one's centre at distance
+// `first` - `low`. Writes whole eights: `values` has room for 16 more than `count`.
+inline void fill_axis(float* values, float first, float low, int count, float sigma,
+                      float mean_sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (sigma < 0.0f) {
+    fill_bright_axis(values, first, low, count, -sigma);
+    return;
+  }
+  if (sigma >= mean_sigma) {
+    const float inverse = inverse_of(sigma);
+    for (int k = 0; k < count; k += 8) {
+      vstore8(gaussian(first + (float)k + ramp - low, inverse), 0, values + k);
+    }
+    return;
+  }
+  // Neighbouring pixels share an edge.
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 8) {
+    vstore8(error_function((first - 0.5f + (float)k + ramp - low) * per_sigma), 0, values + k);
+  }
+  // Pixels beyond `count` in its last eight are drawn, too: the very last has no far edge.
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 8) {
+    const float8 mean = vload8(0, values + k + 1) - vload8(0, values + k);
+    vstore8(mean * (PIXEL_MEAN_SCALE * sigma), 0, values + k);
+  }
+}
+
+// Means of pixels between seven neighboring edges, of which `distances` are those from the center;
+// the eighth is 0.
+inline float8 means_between(float8 distances, float sigma) {
+  const float8 edges = distances / fabs(sigma);
+  if (sigma < 0.0f) {
+    const float8 beyond = complement_of_erf(fabs(edges));
+    return mean_of_complements(edges, beyond, edges.s12345677, beyond.s12345677) *
+           (PIXEL_MEAN_SCALE * -sigma);
+  }
+  const float8 within = error_function(edges);
+  return (within.s12345677 - within) * (PIXEL_MEAN_SCALE * sigma);
+}
+
+// Pixel means of seven pixels, the first one's center at distance `first` - `low`; the eighth is 0.
+inline float8 seven_means(float first, float low, float sigma) {
+  return means_between(first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low, sigma);
+}
+
+// Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
+// the first.
+inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
+#ifdef KERNEL_CUT
+  const float last = FIRST_X + (float)(width - 1);
+  const float nearest =
+      clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
+#ifdef ELLIPSES
+  const float part_of_radius = nearest / splat->along_x.radius;
+  const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+#else
+  const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+#endif
+  rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
+#endif
+  window->y = rows.x;
+  window->rows = rows.y - rows.x + 1;
+  return rows.x;
+}
+
+inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                           float mean_sigma, int form) {
+  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
+            columns.y - columns.x + 1, sigma_x, mean_sigma);
+  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, LOW_Y(*splat), rows.y - rows.x + 1, sigma,
+            mean_sigma);
+  Window window;
+  window.x = columns.x;
+#ifdef ROWS_OF_16
+  if (takes_rows_of_16(form)) {
+    for (; columns.y - window.x >= 8; window.x += 16) {
+      const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
+      update_window_of_16(tile, &window, load_sixteen(along_x + (window.x - columns.x)), along,
+                          splat, form);
+    }
+  }
+#endif
+  for (; window.x <= columns.y; window.x += 8) {
+    const float* along = along_y + (set_rows(&window, rows, 8, splat) - rows.x);
+    update_window(tile, &window, vload8(0, along_x + (window.x - columns.x)), along, splat, form);
+  }
+}
+
+// Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
+// Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
+inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
+                     float* depth_of_block, const CompositeParameters* p) {
+  const float mean_sigma = of_tile->mean_sigma;
+  const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
+  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
+  if (rows.x > rows.y || columns.x > columns.y) return 0;
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  int form = 0;
+#ifdef LIGHT_ORDERED
+  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+                        (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+  *depth_of_block += deepest;
+  form = form_of_layer(deepest, *depth_of_block, p);
+#endif
+  Window window;
+  const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
+#ifndef ELLIPSES
+  if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
+    // A grain: the edges of its pixels along both axes fit one call.
+    window.rows = 3;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    const float dx = (float)window.x + (FIRST_X - 0.5f) - splat->x;
+    const float dy = (float)window.y + (FIRST_Y - 0.5f) - splat->y;
+    const float8 low = (float8)((float4)(LOW_X(*splat)), (float4)(LOW_Y(*splat)));
+    const float8 means = means_between(
+        (float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3) - low, sigma);
+    float along[4];
+    vstore4(means.hi, 0, along);
+    update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, form);
+    return 1;
+  }
+#endif
+  if (columns_count <= 7 && rows_count <= 7) {
+    // Most splats of a large snapshot: one window, and row counts that are easy to predict.
+    // Rows beside the splat take its tails, which is no less exact.
+    window.rows = rows_count <= 4 ? 4 : 7;
+    window.x = columns.x;
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    float along[8];
+    const float dx = (float)window.x + FIRST_X - splat->x,
+                dy = (float)window.y + FIRST_Y - splat->y;
+    const float inverse = inverse_of(sigma);
+    float8 across;
+    if (sigma < mean_sigma) {
+      across = seven_means(dx, LOW_X(*splat), sigma);
+      vstore8(seven_means(dy, LOW_Y(*splat), sigma), 0, along);
+    } else {
+      across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat), inverse);
+      vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_Y(*splat), inverse), 0, along);
+    }
+#ifdef ELLIPSES
+    across = sigma_x < mean_sigma ? seven_means(dx, LOW_X(*splat), sigma_x)
+                                  : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat),
+                                             inverse_of(sigma_x));
+#endif
+    update_window(tile, &window, across, along, splat, form);
+    return 1;
+  }
+  add_wide_splat(tile, splat, rows, columns, mean_sigma, form);
+  return 1;
+}
