@@ -9,6 +9,7 @@
 
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
+#include "ranks/spread_particles.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
 #include "smoothing/smoothing_lengths.h"
@@ -175,7 +176,8 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
                                            count(), sizes_.neighbors)
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
                                           sizes_.neighbors);
-  if (all_are_sizes(lengths)) {
+  const auto spread = snapshot_->spread();
+  if (spread ? spread->all(all_are_sizes(lengths)) : all_are_sizes(lengths)) {
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
                     type_->type, has_density ? "density and mass" : "the volumes of its cells"));
     return lengths;
@@ -188,6 +190,13 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
 Column TypeFields::find_lengths() const {
   const char* reason = "";
   if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
+  if (snapshot_->spread()) {
+    throw UsageError(
+        fmt::format("{}: particles of type {} have no smoothing lengths{}, expected some, since "
+                    "neighbours are not looked for among particles that are spread over "
+                    "processes; set the field smoothing_length, or density and mass, or size.fixed",
+                    label_, type_->type, reason));
+  }
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
                   "reaches to neighbour {}",
