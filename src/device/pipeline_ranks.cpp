@@ -7,6 +7,7 @@
 #include "device/ranks/slice_part.h"
 #include "device/ranks/splat_exchange.h"
 #include "device/stages/carry_splats.h"
+#include "ranks/values.h"
 
 namespace splotchcl {
 namespace {
@@ -97,6 +98,7 @@ Planes Pipeline::draw_by_first(Planes planes) {
   } else {
     ranks_->spread->follow();
   }
+  broadcast_value(ranks_->all, counts_);
   return planes;
 }
 

@@ -1,0 +1,139 @@
+// What goes wrong on one rank, or on all: each call ends on all of them, and one says why.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ranks/spread_particles.h"
+#include "splotchcl/error.h"
+#include "splotchcl/frame_drawer.h"
+#include "splotchcl/load.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/spread_snapshot.h"
+#include "spread/simulation.h"
+
+namespace splotchcl::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string head = "snapshot = \"memory\"\n[image]\nsize = [32, 32]\n";
+const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
+const std::string component = "[[component]]\nname = \"gas\"\ntypes = \"gas\"\n";
+
+// The messages of the ranks on which this throws an Error; on all others another one has failed.
+std::vector<std::string> failures(int size, const std::function<void(Communicator&)>& work) {
+  std::vector<std::string> messages;
+  std::mutex mutex;
+  ThreadRanks::run(size, [&](Communicator& ranks) {
+    try {
+      work(ranks);
+      ADD_FAILURE() << "rank " << ranks.rank() << " has not failed";
+    } catch (const Error& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      messages.push_back(error.what());
+    } catch (const FailedElsewhere&) {
+    }
+  });
+  return messages;
+}
+
+// Loads a scene of gas that has no field "smoothing_length" unless it is set.
+std::vector<std::string> failures_to_load(const std::function<std::string(int rank)>& scene) {
+  Arrays arrays = gas_and_stars(100, 0);
+  arrays[gas].scalars.erase("smoothing_length");
+  arrays[gas].scalars.erase("density");
+  return failures(3, [&](Communicator& ranks) {
+    const Arrays part = part_of_rank(arrays, uneven(3), ranks.rank());
+    ArraySnapshot own;
+    set_fields(part, own);
+    const SpreadSnapshot all(own, borrowed(ranks));
+    std::vector<std::string> notes;
+    load_frame(parse_scene(scene(ranks.rank()), "scene"), all, notes);
+  });
+}
+
+TEST(SpreadFailures, AreToldOnce) {
+  EXPECT_THAT(failures_to_load([](int) {
+                return head + camera + component + "color = { field = \"entropy\" }\n";
+              }),
+              ElementsAre(HasSubstr("entropy")));
+}
+
+TEST(SpreadFailures, AreThoseOfScenesThatDiffer) {
+  EXPECT_THAT(failures_to_load([](int rank) {
+                return head + camera + component + (rank == 2 ? "brightness = 2\n" : "");
+              }),
+              ElementsAre(HasSubstr("another scene on rank 2")));
+}
+
+TEST(SpreadFailures, AreSizesThatWouldTakeNeighbours) {
+  EXPECT_THAT(failures_to_load([](int) { return head + camera + component; }),
+              ElementsAre(HasSubstr("neighbours are not looked for")));
+}
+
+// While the others wait for its particles.
+TEST(SpreadFailures, OfOneRankEndTheOthersWhereTheyWait) {
+  const Arrays arrays = gas_and_stars(100, 0);
+  EXPECT_THAT(failures(3,
+                       [&](Communicator& ranks) {
+                         const Arrays part = part_of_rank(arrays, uneven(3), ranks.rank());
+                         ArraySnapshot own;
+                         set_fields(part, own);
+                         const SpreadSnapshot all(own, borrowed(ranks));
+                         all.spread()->agree_on([&] {
+                           const Column mass = all.read(gas, "mass");
+                           if (ranks.rank() == 1) throw DataError("its disk is full");
+                           mass.source()->make(0, 100, std::vector<float>(100).data());
+                         });
+                       }),
+              ElementsAre("process 1 on host1: its disk is full"));
+}
+
+TEST(SpreadFailures, LeaveTheNextPictureAsItIs) {
+  const Arrays arrays = gas_and_stars(100, 0);
+  ThreadRanks::run(2, [&](Communicator& ranks) {
+    const Arrays part = part_of_rank(arrays, uneven(2), ranks.rank());
+    ArraySnapshot own;
+    set_fields(part, own);
+    const SpreadSnapshot all(own, borrowed(ranks));
+    std::vector<std::string> notes;
+    const Scene wrong =
+        parse_scene(head + camera + component + "color = { field = \"entropy\" }\n", "scene");
+    EXPECT_ANY_THROW(load_frame(wrong, all, notes));
+    const Frame frame = load_frame(parse_scene(head + camera + component, "scene"), all, notes);
+    EXPECT_EQ(frame.components.front().particles.position[299],
+              arrays.at(gas).vectors.at("position")[299]);
+  });
+}
+
+TEST(SpreadFailures, AreDevicesThatOneRankHasNot) {
+  EXPECT_THAT(failures(2,
+                       [](Communicator& ranks) {
+                         FrameDrawerOptions options;
+                         options.ranks = borrowed(ranks);
+                         if (ranks.rank() == 1) options.device = "no such device";
+                         FrameDrawer drawer(options);
+                       }),
+              ElementsAre(HasSubstr("process 1 on host1")));
+}
+
+TEST(SpreadFailures, AreRenderersOfOneProcess) {
+  const Arrays arrays = gas_and_stars(100, 0);
+  EXPECT_THAT(failures(2,
+                       [&](Communicator& ranks) {
+                         const Arrays part = part_of_rank(arrays, uneven(2), ranks.rank());
+                         ArraySnapshot own;
+                         set_fields(part, own);
+                         const SpreadSnapshot all(own, borrowed(ranks));
+                         FrameDrawer().draw(parse_scene(head + camera + component, "scene"), all);
+                       }),
+              ElementsAre(HasSubstr("spread over 2 processes and a renderer of 1")));
+}
+
+}  // namespace
+}  // namespace splotchcl::test
