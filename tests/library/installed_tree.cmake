@@ -71,6 +71,7 @@ set(mpirun_mpich mpirun.mpich -n)
 # Containers and test machines have one user.
 set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)
 set(ENV{OMPI_ALLOW_RUN_AS_ROOT_CONFIRM} 1)
+separate_arguments(MPIS)
 foreach(mpi IN LISTS MPIS)
   find_program(mpicc_${mpi} mpicc.${mpi})
   find_program(mpicxx_${mpi} mpicxx.${mpi})
