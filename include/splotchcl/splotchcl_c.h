@@ -134,7 +134,7 @@ int splotchcl_write_image(const char* path, const float* rgba, int width, int he
  * of the MPI ("openmpi", "mpich") and the address of the MPI_Comm. */
 splotchcl_ranks* splotchcl_ranks_new(const char* mpi, const void* communicator,
                                      splotchcl_error* error);
-/* After the renderers that were made with them, before MPI_Finalize. */
+/* After the renderers and particles that were used with them, before MPI_Finalize. */
 void splotchcl_ranks_free(splotchcl_ranks* ranks);
 /* As splotchcl_renderer_new. Collective. splotchcl_draw with this renderer is collective, too, and
  * draws the particles of all ranks. All of them have the pictures then; those that do not want

@@ -199,7 +199,7 @@ int splotchcl_scene_decide(splotchcl_scene* scene, const splotchcl_particles* pa
 int splotchcl_scene_decide_for_ranks(splotchcl_scene* scene, const splotchcl_particles* particles,
                                      splotchcl_ranks* ranks, splotchcl_error* error) {
   return guarded(error, [&] {
-    const auto& communicator = require(ranks, "the ranks")->communicator;
+    const auto& communicator = require(ranks, "the object of ranks")->communicator;
     splotchcl::agree(communicator.get(), [&] {
       require(scene, "the scene");
       require(particles, "the particles");
@@ -269,7 +269,7 @@ splotchcl_renderer* splotchcl_renderer_new_for_ranks(const char* device, splotch
                                                      splotchcl_error* error) {
   return made<splotchcl_renderer>(error, [&] {
     splotchcl::FrameDrawerOptions options;
-    options.ranks = require(ranks, "the ranks")->communicator;
+    options.ranks = require(ranks, "the object of ranks")->communicator;
     if (device != nullptr) options.device = device;
     return std::unique_ptr<splotchcl_renderer>(
         new splotchcl_renderer{splotchcl::FrameDrawer(options), options.ranks, ""});

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <mutex>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ranks/spread_particles.h"
@@ -120,6 +122,65 @@ TEST(SpreadFailures, AreDevicesThatOneRankHasNot) {
                          FrameDrawer drawer(options);
                        }),
               ElementsAre(HasSubstr("process 1 on host1")));
+}
+
+// What one rank is given fails while all draw; nobody expects to be told.
+class FailsToExchange : public Communicator {
+ public:
+  explicit FailsToExchange(Communicator& ranks) : ranks_(ranks) {}
+
+  int rank() const override { return ranks_.rank(); }
+  int size() const override { return ranks_.size(); }
+  int rank_on_host() const override { return ranks_.rank_on_host(); }
+  int size_on_host() const override { return ranks_.size_on_host(); }
+  std::string host() const override { return ranks_.host(); }
+  void broadcast(void* data, std::size_t bytes, int root) override {
+    ranks_.broadcast(data, bytes, root);
+  }
+  std::vector<Bytes> gather(const Bytes& own) override { return ranks_.gather(own); }
+  void add_up(std::vector<std::uint64_t>& values) override { ranks_.add_up(values); }
+  std::vector<Bytes> exchange(std::vector<Bytes> parts) override {
+    if (rank() == 1) throw DeviceError("its memory is full");
+    return ranks_.exchange(std::move(parts));
+  }
+  void send(const void* data, std::size_t bytes, int to) override { ranks_.send(data, bytes, to); }
+  void receive(void* data, std::size_t bytes, int from) override {
+    ranks_.receive(data, bytes, from);
+  }
+  [[noreturn]] void abort(int code) override {
+    aborted_with = code;
+    throw std::runtime_error("aborted");
+  }
+
+  int aborted_with = 0;
+
+ private:
+  Communicator& ranks_;
+};
+
+TEST(SpreadFailures, WhileAllDrawEndAllProcesses) {
+  const Arrays arrays = gas_and_stars(100, 0);
+  std::vector<int> codes(2);
+  ::testing::internal::CaptureStderr();
+  EXPECT_ANY_THROW(ThreadRanks::run(2, [&](Communicator& ranks) {
+    FailsToExchange failing(ranks);
+    const Arrays part = part_of_rank(arrays, uneven(2), ranks.rank());
+    ArraySnapshot own;
+    set_fields(part, own);
+    FrameDrawerOptions options;
+    options.ranks = borrowed(failing);
+    FrameDrawer drawer(options);
+    const SpreadSnapshot all(own, options.ranks);
+    try {
+      drawer.draw(parse_scene(head + camera + component, "scene"), all);
+    } catch (...) {
+      codes[static_cast<std::size_t>(ranks.rank())] = failing.aborted_with;
+      throw;
+    }
+  }));
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              HasSubstr("splotchcl: process 1 on host1: its memory is full\n"));
+  EXPECT_EQ(codes[1], 1);
 }
 
 TEST(SpreadFailures, AreRenderersOfOneProcess) {

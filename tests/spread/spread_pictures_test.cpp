@@ -18,7 +18,8 @@ namespace {
 
 const std::string head = "snapshot = \"memory\"\n[image]\nsize = [96, 64]\n";
 const std::string outside = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
-const std::string inside = "[camera]\nposition = [0, -0.2, 0]\nlook_at = [0, 1, 0]\nsky = [0, 0, 1]\n";
+const std::string inside =
+    "[camera]\nposition = [0, -0.2, 0]\nlook_at = [0, 1, 0]\nsky = [0, 0, 1]\n";
 const std::string gas_text = R"(
 [[component]]
 name = "gas"
