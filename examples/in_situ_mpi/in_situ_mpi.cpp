@@ -4,6 +4,7 @@
 //   mpirun -n 3 in_situ_mpi_cpp [FOLDER]     writes disk_0.png, disk_1.png, ... on rank 0
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>

@@ -9,6 +9,7 @@
 
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
+#include "load/spread_sizes.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
@@ -190,18 +191,16 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
 Column TypeFields::find_lengths() const {
   const char* reason = "";
   if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
-  if (snapshot_->spread()) {
-    throw UsageError(
-        fmt::format("{}: particles of type {} have no smoothing lengths{}, expected some, since "
-                    "neighbours are not looked for among particles that are spread over "
-                    "processes; set the field smoothing_length, or density and mass, or size.fixed",
-                    label_, type_->type, reason));
-  }
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
                   "reaches to neighbour {}",
                   type_->type, reason, sizes_.neighbors));
   const Column position = positions();
+  if (const auto spread = snapshot_->spread()) {
+    return find_spread_sizes(*spread, type_->type, position,
+                             snapshot_->place_in_file(type_->type, 0), sizes_,
+                             [this](const Column& all) { return periodic_box(all); });
+  }
   return find_sizes_by_neighbors(snapshot_->info(), type_->type, position, periodic_box(position),
                                  sizes_, [this](const std::string& text) { say(text); });
 }

@@ -74,6 +74,17 @@ bool SpreadParticles::all(bool own) {
   return sum(own ? 0 : 1) == 0;
 }
 
+void SpreadParticles::join(std::vector<float>& values, const std::vector<std::size_t>& begins) {
+  wait_for_all();
+  for (std::size_t rank = 0; rank + 1 < begins.size(); ++rank) {
+    const std::size_t count = begins[rank + 1] - begins[rank];
+    if (count > 0) {
+      ranks_->broadcast(values.data() + begins[rank], count * sizeof(float),
+                        static_cast<int>(rank));
+    }
+  }
+}
+
 // Before each step that all make: a rank that has failed tells so instead.
 void SpreadParticles::wait_for_all() {
   std::vector<std::uint64_t> failed = {0};

@@ -28,6 +28,8 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
   // Collective: of all ranks.
   std::uint64_t sum(std::uint64_t own);
   bool all(bool own);
+  // Collective: rank r has set values [begins[r], begins[r + 1]), and all have all afterwards.
+  void join(std::vector<float>& values, const std::vector<std::size_t>& begins);
 
   // Collective: does the work, in which all ranks ask for the same values. Where it throws on one
   // of them, the others do not wait for it: it throws on all, as agree() does.

@@ -73,11 +73,6 @@ TEST(SpreadFailures, AreThoseOfScenesThatDiffer) {
               ElementsAre(HasSubstr("another scene on rank 2")));
 }
 
-TEST(SpreadFailures, AreSizesThatWouldTakeNeighbours) {
-  EXPECT_THAT(failures_to_load([](int) { return head + camera + component; }),
-              ElementsAre(HasSubstr("neighbours are not looked for")));
-}
-
 // While the others wait for its particles.
 TEST(SpreadFailures, OfOneRankEndTheOthersWhereTheyWait) {
   const Arrays arrays = gas_and_stars(100, 0);

@@ -156,6 +156,18 @@ TEST(SpreadPictures, FindSizesFromDensities) {
   expect_bits_of_one_process(arrays, head + outside + ordered);
 }
 
+// As in one process, which notes it.
+TEST(SpreadPictures, FindSizesFromNeighboursOnAllRanks) {
+  Arrays arrays = gas_and_stars(12000, 2000);
+  for (auto& [type, of_type] : arrays) {
+    of_type.scalars.erase("smoothing_length");
+    of_type.scalars.erase("density");
+  }
+  expect_bits_of_one_process(arrays, head + outside + ordered);
+  arrays[stars].vectors["position"][5] = std::numeric_limits<float>::infinity();
+  expect_bits_of_one_process(arrays, head + outside + gas_text + stars_text);
+}
+
 TEST(SpreadPictures, LeaveBadParticlesOutOnAllRanks) {
   Arrays arrays = few();
   for (const std::size_t i : {std::size_t{3}, std::size_t{5999}})

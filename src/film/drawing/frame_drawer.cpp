@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "common/quiet_errors.h"
@@ -90,9 +91,15 @@ DrawnFrame all_or_none(const Frame& frame, const Draw& draw) {
     return draw();
   } catch (const std::exception& failure) {
     if (dynamic_cast<const AgreedFailure*>(&failure) != nullptr) throw;
-    const std::string line = fmt::format("splotchcl: process {} on {}: {}\n", ranks.rank(),
-                                         ranks.host(), failure.what());
-    std::fputs(line.c_str(), stderr);
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+    std::string line = fmt::format(
+        "splotchcl: process {} on {}: {}", ranks.rank(), ranks.host(),
+        is_memory ? "out of memory; fewer particles, a smaller picture or fewer processes on one "
+                    "machine need less"
+                  : failure.what());
+    // What a compiler says has several.
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fputs((line + "\n").c_str(), stderr);
     ranks.abort(failed);
     throw;  // not reached
   }
