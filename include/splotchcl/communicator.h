@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,5 +45,30 @@ class Communicator {
   // Ends all ranks' processes with this code, whatever they are at.
   [[noreturn]] virtual void abort(int code) = 0;
 };
+
+// What ranks throw that have agreed to end what they are at: none of them waits for another one.
+class AgreedFailure {
+ public:
+  virtual ~AgreedFailure() = default;
+};
+
+// Thrown by ranks that did not fail, or not first: another one tells what happened, by an Error.
+// This is none, so that nobody takes it for one of this rank's own.
+class FailedElsewhere : public std::exception, public AgreedFailure {
+ public:
+  explicit FailedElsewhere(bool is_usage) : is_usage_(is_usage) {}
+  const char* what() const noexcept override { return "another process has failed"; }
+  bool is_usage() const { return is_usage_; }  // UsageError there, else another Error
+
+ private:
+  bool is_usage_;
+};
+
+// Made from an MPI communicator by splotchcl::ranks_of (mpi_communicator.h), which tells which MPI
+// it is of, "openmpi" or "mpich", and where the MPI_Comm lies. The ranks of one machine share out
+// its cores: before the first OpenCL call it sets PoCL's variables of the environment for that,
+// unless they are set. Throws UsageError for another MPI, and before MPI_Init; DataError where the
+// library was built without a module for this MPI.
+std::shared_ptr<Communicator> ranks_of_mpi(const std::string& mpi, const void* communicator);
 
 }  // namespace splotchcl

@@ -15,6 +15,8 @@
 
 namespace splotchcl {
 
+class SpreadParticles;
+
 // A field's way to [0, 1], with every number decided: scaled(v) is v, log10(v) or
 // asinh(v); normalised = clamp((scaled(v) - minimum) / (maximum - minimum), 0, 1).
 // minimum and maximum are after scaling. maximum == minimum maps all to 0.
@@ -67,6 +69,9 @@ struct Frame {
   // tolerance * max(1, |reference|), >= 0; 0: the most exact that it can do (docs/accuracy.md).
   double tolerance = 1e-3;
   std::vector<DrawnComponent> components;
+  // Where particles are spread over ranks (spread_snapshot.h), what the renderer gets those from
+  // that it draws. Null: this process has them all.
+  std::shared_ptr<SpreadParticles> spread;
 };
 
 // Of all components together, bad ones included.

@@ -62,6 +62,7 @@ struct SnapshotInfo {
 };
 
 class LoadMemory;
+class SpreadParticles;
 
 // A snapshot that has been opened: its header is known, no particle has been read. What it
 // holds does not change as long as it lives.
@@ -89,6 +90,11 @@ class Snapshot {
 
   // Not zero only where the file holds double-precision positions.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
+
+  // Not null where the particles are spread over ranks (spread_snapshot.h).
+  virtual std::shared_ptr<SpreadParticles> spread() const { return nullptr; }
+  // Of such a snapshot what this rank has, with its counts in info(); of others all.
+  virtual const Snapshot& own_part() const { return *this; }
 
   // What decide and load have made of the snapshot and want again for the next frame of a film:
   // selections, derived fields, snapshots of single components. No part of the snapshot's

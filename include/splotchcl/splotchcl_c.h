@@ -36,6 +36,7 @@ typedef struct splotchcl_error {
 typedef struct splotchcl_scene splotchcl_scene;         /* what to draw and how */
 typedef struct splotchcl_particles splotchcl_particles; /* the caller's arrays */
 typedef struct splotchcl_renderer splotchcl_renderer;   /* a device */
+typedef struct splotchcl_ranks splotchcl_ranks;         /* processes that draw together */
 
 /* Of the library: "0.1.0". */
 const char* splotchcl_version(void);
@@ -117,6 +118,32 @@ int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
  * be written. */
 int splotchcl_write_image(const char* path, const float* rgba, int width, int height, double gamma,
                           splotchcl_error* error);
+
+/* Ranks: the processes of a simulation that uses MPI draw together, each with its own particles in
+ * its own splotchcl_particles. For each type all particles together are those of rank 0, then those
+ * of rank 1, and so on; the picture has the bits that one process draws from all arrays put
+ * together. All ranks make the same calls, with the same scene. A type has the same fields, and the
+ * same mass for all, on all ranks that have particles of it; those that have none need not set
+ * them.
+ *
+ * Where a call fails on one rank it fails on all, with the same code: the first that failed has the
+ * message, and that of all others is empty. What fails on one rank while all draw (its device, its
+ * memory) ends all processes by MPI_Abort, with one line on standard error. */
+
+/* The ranks of an MPI communicator: splotchcl_ranks_of in splotchcl_mpi.h calls this with the name
+ * of the MPI ("openmpi", "mpich") and the address of the MPI_Comm. */
+splotchcl_ranks* splotchcl_ranks_new(const char* mpi, const void* communicator,
+                                     splotchcl_error* error);
+/* After the renderers and particles that were used with them, before MPI_Finalize. */
+void splotchcl_ranks_free(splotchcl_ranks* ranks);
+/* As splotchcl_renderer_new. Collective. splotchcl_draw with this renderer is collective, too, and
+ * draws the particles of all ranks. All of them have the pictures then; those that do not want
+ * them, as all but rank 0, give 0 for `count`. */
+splotchcl_renderer* splotchcl_renderer_new_for_ranks(const char* device, splotchcl_ranks* ranks,
+                                                     splotchcl_error* error);
+/* As splotchcl_scene_decide, from the particles of all ranks. Collective. */
+int splotchcl_scene_decide_for_ranks(splotchcl_scene* scene, const splotchcl_particles* particles,
+                                     splotchcl_ranks* ranks, splotchcl_error* error);
 
 #ifdef __cplusplus
 }

@@ -91,6 +91,7 @@ class Pipeline {
                                          std::uint64_t own);
   void add_up_counts();
   Planes draw_slices(Planes planes);
+  Planes draw_by_first(Planes planes);
   SplatLight draw_slice(const SortedSplats& sorted, const SlicePart& part,
                         const std::vector<SplatChunk>& chunks, SplatLight light);
   SplatLight draw_slice_in_bands(const SortedSplats& sorted, const SlicePart& part,

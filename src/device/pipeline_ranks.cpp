@@ -7,6 +7,7 @@
 #include "device/ranks/slice_part.h"
 #include "device/ranks/splat_exchange.h"
 #include "device/stages/carry_splats.h"
+#include "ranks/values.h"
 
 namespace splotchcl {
 namespace {
@@ -88,6 +89,19 @@ SplatLight Pipeline::receive_state(int from) {
   return light;
 }
 
+// The others give it their particles where it has not all.
+Planes Pipeline::draw_by_first(Planes planes) {
+  if (ranks_->spread == nullptr) {
+    if (is_first()) planes = draw_alone(std::move(planes));
+  } else if (is_first()) {
+    ranks_->spread->lead([&] { planes = draw_alone(std::move(planes)); });
+  } else {
+    ranks_->spread->follow();
+  }
+  broadcast_value(ranks_->all, counts_);
+  return planes;
+}
+
 // Each rank sorts a slice of the order, nearest first by ranks, and composites its chunks behind
 // what comes from the rank before. In rounds the last rank passes on to the first of the next
 // round; it waits with that until all splats of that round are where they belong, for which all
@@ -103,7 +117,7 @@ Planes Pipeline::draw_slices(Planes planes) {
   counts_.around = found.around;
   if (counts_.too_sharp > 0) return planes;
   // Clouds around the camera reach all over the picture, in front of splats of every slice.
-  if (counts_.around > 0) return is_first() ? draw_alone(std::move(planes)) : std::move(planes);
+  if (counts_.around > 0) return draw_by_first(std::move(planes));
   const std::uint64_t splats = found.visible;
   const int rank = ranks_->rank(), last = ranks_->size() - 1;
   counts_.windows =

@@ -13,8 +13,10 @@
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
+#include "device/ranks/fetch_particles.h"
 #include "parallel/thread_seconds.h"
 #include "ranks/agreement.h"
+#include "ranks/spread_particles.h"
 #include "ranks/values.h"
 #include "splotchcl/error.h"
 
@@ -89,6 +91,17 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
 }
 
+// Whether all ranks that have particles draw.
+void check_ranks(const Frame& frame, const Communicator* ranks) {
+  if (!frame.spread) return;
+  const int drawing = ranks == nullptr ? 1 : ranks->size();
+  if (drawing == frame.spread->ranks().size()) return;
+  throw UsageError("found particles that are spread over " +
+                   std::to_string(frame.spread->ranks().size()) + " processes and a renderer of " +
+                   std::to_string(drawing) +
+                   ", expected one of all of them; give it the same communicator as the snapshot");
+}
+
 // Ranks of one host take its devices in turn.
 int device_of_rank(const Communicator* ranks) {
   return ranks == nullptr ? 0 : ranks->rank_on_host();
@@ -154,6 +167,7 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
 
 Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   check_frame(frame);
+  check_ranks(frame, ranks.get());
   const auto start = std::chrono::steady_clock::now();
   const double host_start = thread_seconds();
   const double built_before = device.programs.build_seconds();
@@ -167,6 +181,7 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
 
   stats.check.is_bound = plan.certify;
   work = {};
+  const FetchedParticles fetched(frame, plan, device.traits);
   Image image = draw_until_kept(frame, plan).image;
   share(image);
   particles.end_frame();
@@ -245,7 +260,7 @@ bool Renderer::State::mend_in_order(const Frame& frame, const FramePlan& plan,
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
   std::optional<FrameRanks> of_frame;
-  if (ranks) of_frame.emplace(FrameRanks{*ranks, work});
+  if (ranks) of_frame.emplace(FrameRanks{*ranks, work, frame.spread.get()});
   Pipeline pipeline(device, particles, frame, plan, progress, of_frame ? &*of_frame : nullptr);
   Image image = pipeline.draw();
   splats.counts = pipeline.counts();
@@ -296,13 +311,15 @@ void Renderer::State::share(Image& image) const {
 }
 
 Renderer::Renderer(const RendererOptions& options) {
-  try {
-    const auto lock = lock_runtime();
-    state_ = std::make_unique<State>(options);
-  } catch (const compute::opencl_error& error) {
-    throw DeviceError("cannot open the OpenCL device: " + error.error_string() +
-                      "; see that its driver works, or choose another device");
-  }
+  agree(options.ranks.get(), [&] {
+    try {
+      const auto lock = lock_runtime();
+      state_ = std::make_unique<State>(options);
+    } catch (const compute::opencl_error& error) {
+      throw DeviceError("cannot open the OpenCL device: " + error.error_string() +
+                        "; see that its driver works, or choose another device");
+    }
+  });
   // Others may wait for the runtime, and this one for them.
   state_->join_ranks(options);
 }
@@ -311,8 +328,17 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::render(const Frame& frame) {
-  check_frame(frame);
-  return render(frame, make_plan(frame, state_->plan_options));
+  if (!frame.spread) {
+    check_frame(frame);
+    return render(frame, make_plan(frame, state_->plan_options));
+  }
+  FramePlan plan;
+  frame.spread->agree_on([&] {
+    check_frame(frame);
+    check_ranks(frame, state_->ranks.get());
+    plan = make_plan(frame, state_->plan_options);
+  });
+  return render(frame, plan);
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {

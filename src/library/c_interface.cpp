@@ -5,11 +5,14 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ranks/agreement.h"
 #include "splotchcl/array_snapshot.h"
+#include "splotchcl/communicator.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"
@@ -17,17 +20,26 @@
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/splotchcl_c.h"
+#include "splotchcl/spread_snapshot.h"
 
 struct splotchcl_scene {
   splotchcl::Scene scene;
 };
 
+struct splotchcl_ranks {
+  std::shared_ptr<splotchcl::Communicator> communicator;
+};
+
 struct splotchcl_particles {
   splotchcl::ArraySnapshot arrays;
+  // Of the ranks that they were last drawn with.
+  mutable std::optional<splotchcl::SpreadSnapshot> of_all_ranks;
+  mutable std::shared_ptr<splotchcl::Communicator> ranks;
 };
 
 struct splotchcl_renderer {
   splotchcl::FrameDrawer drawer;
+  std::shared_ptr<splotchcl::Communicator> ranks;  // null: one process
   std::string notes;
 };
 
@@ -50,6 +62,8 @@ int guarded(splotchcl_error* error, Work&& work) noexcept {
   try {
     work();
     return report(error, done, "");
+  } catch (const splotchcl::FailedElsewhere& elsewhere) {
+    return report(error, elsewhere.is_usage() ? called_wrong : failed, "");
   } catch (const splotchcl::UsageError& failure) {
     return report(error, called_wrong, failure.what());
   } catch (const std::bad_alloc&) {
@@ -79,6 +93,20 @@ const splotchcl::ArraySnapshot& arrays_now(const splotchcl_particles* particles)
   const splotchcl::ArraySnapshot& arrays = require(particles, "the particles")->arrays;
   arrays.changed();
   return arrays;
+}
+
+// Those of all ranks. Collective; without ranks those of this process.
+const splotchcl::Snapshot& arrays_of_all(const splotchcl_particles* particles,
+                                         const std::shared_ptr<splotchcl::Communicator>& ranks) {
+  if (!ranks) return arrays_now(particles);
+  if (particles->ranks == ranks && particles->of_all_ranks) {
+    particles->of_all_ranks->changed();
+  } else {
+    particles->of_all_ranks.reset();
+    particles->of_all_ranks.emplace(particles->arrays, ranks);
+    particles->ranks = ranks;
+  }
+  return *particles->of_all_ranks;
 }
 
 std::vector<splotchcl::PictureSize> sizes_of(const splotchcl_scene* scene) {
@@ -168,6 +196,20 @@ int splotchcl_scene_decide(splotchcl_scene* scene, const splotchcl_particles* pa
   });
 }
 
+int splotchcl_scene_decide_for_ranks(splotchcl_scene* scene, const splotchcl_particles* particles,
+                                     splotchcl_ranks* ranks, splotchcl_error* error) {
+  return guarded(error, [&] {
+    const auto& communicator = require(ranks, "the object of ranks")->communicator;
+    splotchcl::agree(communicator.get(), [&] {
+      require(scene, "the scene");
+      require(particles, "the particles");
+    });
+    std::vector<std::string> notes;
+    scene->scene = splotchcl::fixed_scene(
+        splotchcl::decide(scene->scene, arrays_of_all(particles, communicator), notes));
+  });
+}
+
 void splotchcl_scene_free(splotchcl_scene* scene) {
   delete scene;
 }
@@ -219,8 +261,31 @@ splotchcl_renderer* splotchcl_renderer_new(const char* device, splotchcl_error* 
     splotchcl::FrameDrawerOptions options;
     if (device != nullptr) options.device = device;
     return std::unique_ptr<splotchcl_renderer>(
-        new splotchcl_renderer{splotchcl::FrameDrawer(options), ""});
+        new splotchcl_renderer{splotchcl::FrameDrawer(options), nullptr, ""});
   });
+}
+
+splotchcl_renderer* splotchcl_renderer_new_for_ranks(const char* device, splotchcl_ranks* ranks,
+                                                     splotchcl_error* error) {
+  return made<splotchcl_renderer>(error, [&] {
+    splotchcl::FrameDrawerOptions options;
+    options.ranks = require(ranks, "the object of ranks")->communicator;
+    if (device != nullptr) options.device = device;
+    return std::unique_ptr<splotchcl_renderer>(
+        new splotchcl_renderer{splotchcl::FrameDrawer(options), options.ranks, ""});
+  });
+}
+
+splotchcl_ranks* splotchcl_ranks_new(const char* mpi, const void* communicator,
+                                     splotchcl_error* error) {
+  return made<splotchcl_ranks>(error, [&] {
+    return std::unique_ptr<splotchcl_ranks>(new splotchcl_ranks{
+        splotchcl::ranks_of_mpi(require(mpi, "the name of the MPI"), communicator)});
+  });
+}
+
+void splotchcl_ranks_free(splotchcl_ranks* ranks) {
+  delete ranks;
 }
 
 const char* splotchcl_renderer_notes(const splotchcl_renderer* renderer) {
@@ -235,9 +300,14 @@ int splotchcl_draw(splotchcl_renderer* renderer, const splotchcl_scene* scene,
                    const splotchcl_particles* particles, float* const* images,
                    const size_t* capacities, size_t count, splotchcl_error* error) {
   return guarded(error, [&] {
-    check_images(sizes_of(scene), images, capacities, count);
+    const auto& ranks = require(renderer, "the renderer")->ranks;
+    splotchcl::agree(ranks.get(), [&] {
+      const std::vector<splotchcl::PictureSize> sizes = sizes_of(scene);
+      require(particles, "the particles");
+      if (!ranks || count > 0) check_images(sizes, images, capacities, count);
+    });
     const splotchcl::DrawnFrame drawn =
-        require(renderer, "the renderer")->drawer.draw(scene->scene, arrays_now(particles));
+        renderer->drawer.draw(scene->scene, arrays_of_all(particles, ranks));
     std::string notes;
     for (const std::string& note : drawn.all_notes())
       notes += note + "\n";

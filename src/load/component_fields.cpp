@@ -8,6 +8,7 @@
 #include "between/interpolated_column.h"
 #include "load/component_boxes.h"
 #include "parallel/available_memory.h"
+#include "ranks/spread_particles.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
@@ -57,13 +58,18 @@ Column joined(const std::vector<Part>& parts, std::size_t width) {
 ComponentFields::ComponentFields(const Component& component, const Snapshot& snapshot,
                                  const MissingSizes& sizes, std::vector<std::string>& notes,
                                  double periodic_box)
-    : component_(component), snapshot_(snapshot), notes_(notes), periodic_box_(periodic_box) {
+    : component_(component),
+      snapshot_(snapshot),
+      notes_(notes),
+      periodic_box_(periodic_box),
+      spread_(snapshot.spread()) {
+  const Snapshot& own = snapshot.own_part();
   for (const int type : component.types) {
-    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
+    const ParticleTypeInfo* const info = own.info().find_type(type);
     if (info != nullptr) {
       types_.emplace_back(
-          snapshot, *info, label(), component.center,
-          [this](const std::string& text) { note(text); }, sizes);
+          own, *info, label(), component.center, [this](const std::string& text) { note(text); },
+          sizes);
     } else if (component.types.size() > 1) {
       note(fmt::format("the snapshot has no particles of type {}", type));
     }
@@ -89,8 +95,8 @@ void ComponentFields::check(const SortOrder& sort) const {
     }
   };
   for (const TypeFields& type : types_) {
-    check_selection(component_, type, snapshot_);
-    const std::string catalog = tell_found_catalog(component_, type, snapshot_);
+    check_selection(component_, type, snapshot_.own_part());
+    const std::string catalog = tell_found_catalog(component_, type, snapshot_.own_part());
     if (!catalog.empty()) note(catalog);
     if (!component_.color_vector.empty()) {
       type.check_vectors(component_.color_vector, "color.vector");
@@ -103,19 +109,29 @@ void ComponentFields::check(const SortOrder& sort) const {
 }
 
 void ComponentFields::select() {
+  counts_.clear();
   for (std::size_t t = 0; t < types_.size(); ++t) {
-    selected_[t] = select_particles(component_, types_[t], snapshot_, periodic_box_);
+    selected_[t] = select_particles(component_, types_[t], snapshot_.own_part(), periodic_box_);
+    if (spread_) counts_.push_back(static_cast<std::size_t>(spread_->sum(own_count_of(t))));
   }
   if (count() > 0) return;
-  std::size_t total = 0;
-  for (const TypeFields& type : types_)
-    total += type.count();
   note(fmt::format("select and exclude leave none of its {} particles; nothing of it is drawn",
-                   total));
+                   count_before_selecting()));
+}
+
+std::size_t ComponentFields::own_count_of(std::size_t type) const {
+  return selected_[type] ? selected_[type]->size() : types_[type].count();
 }
 
 std::size_t ComponentFields::count_of(std::size_t type) const {
-  return selected_[type] ? selected_[type]->size() : types_[type].count();
+  return spread_ ? counts_.at(type) : own_count_of(type);
+}
+
+std::size_t ComponentFields::count_before_selecting() const {
+  std::size_t total = 0;
+  for (const TypeFields& type : types_)
+    total += static_cast<std::size_t>(snapshot_.info().find_type(type.info().type)->count);
+  return total;
 }
 
 std::size_t ComponentFields::count() const {
@@ -129,12 +145,14 @@ std::size_t ComponentFields::count() const {
 // file has it is not copied at all.
 Column ComponentFields::collected(const std::string& what, const Read& read,
                                   std::size_t width) const {
-  if (types_.size() == 1 && !selected_.front()) return read(types_.front());
+  if (types_.size() == 1 && !selected_.front() && !spread_) return read(types_.front());
   const std::string key = fmt::format("{}: {}", particles_key(), what);
   return snapshot_.memory().get<Column>(key, [&] {
     std::vector<Part> parts;
     for (std::size_t t = 0; t < types_.size(); ++t) {
-      parts.push_back({gather(read(types_[t]), selected_[t].get(), width), count_of(t)});
+      Column column = gather(read(types_[t]), selected_[t].get(), width);
+      if (spread_) column = spread_->spread(column, own_count_of(t), width);
+      parts.push_back({std::move(column), count_of(t)});
     }
     return joined(parts, width);
   });

@@ -18,7 +18,8 @@ namespace splotchcl {
 class ComponentFields {
  public:
   // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
-  // the component's types. Reads nothing yet.
+  // the component's types. Reads nothing yet. Where particles are spread over ranks, each derives
+  // and selects of its own; what is asked for here is of all ranks.
   // `periodic_box` is the side of the box across whose faces it selects; 0: none.
   ComponentFields(const Component& component, const Snapshot& snapshot, const MissingSizes& sizes,
                   std::vector<std::string>& notes, double periodic_box = 0);
@@ -59,6 +60,8 @@ class ComponentFields {
   using Read = std::function<Column(const TypeFields&)>;
   Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
   std::size_t count_of(std::size_t type) const;
+  std::size_t own_count_of(std::size_t type) const;
+  std::size_t count_before_selecting() const;
   std::string particles_key() const;
   [[noreturn]] void refuse_types() const;
 
@@ -68,6 +71,8 @@ class ComponentFields {
   double periodic_box_;
   std::vector<TypeFields> types_;
   std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
+  std::shared_ptr<SpreadParticles> spread_;                       // null: all particles are here
+  std::vector<std::size_t> counts_;                               // of all ranks, by types
 };
 
 }  // namespace splotchcl

@@ -167,13 +167,17 @@ Frame FrameLoader::load(const DecidedScene& decided) {
   read_background();
   Frame frame = frame_of(*decided.scene.camera);
   frame.background_image = background_;
+  frame.spread = snapshot_.spread();
   auto numbers = decided.components.begin();
   for (Part& part : parts_) {
     DrawnComponent drawn = read(part, numbers->weight, decided.scene.camera->look_at);
     drawn.color = numbers->color;
     drawn.intensity = numbers->intensity;
     drawn.reference_column = numbers->reference_column;
-    if (const auto note = tell_rounded_positions(drawn)) notes_.push_back(*note);
+    // It would take all values of all ranks for each frame.
+    if (!frame.spread) {
+      if (const auto note = tell_rounded_positions(drawn)) notes_.push_back(*note);
+    }
     frame.components.push_back(std::move(drawn));
     ++numbers;
   }

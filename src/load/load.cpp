@@ -4,32 +4,68 @@
 #include "load/frame_loader.h"
 #include "load/missing_sizes.h"
 #include "load/open_components.h"
+#include "load/same_scene.h"
+#include "ranks/spread_particles.h"
+#include "snapshot/load_memory.h"
 
 namespace splotchcl {
+namespace {
+
+void forget_all(const Snapshot& snapshot) {
+  LoadMemory fresh;
+  fresh.share_with(snapshot.memory());
+  snapshot.memory() = fresh;
+}
+
+// Where particles are spread over ranks, all of them do it, or none.
+template <class Work>
+auto together(const Scene& scene, const Snapshot& snapshot, const Work& work) -> decltype(work()) {
+  const auto spread = snapshot.spread();
+  if (!spread) return work();
+  require_same_scene(scene, *spread);
+  decltype(work()) result;
+  try {
+    spread->agree_on([&] { result = work(); });
+  } catch (...) {
+    // Ranks ended at different places.
+    forget_all(snapshot);
+    forget_all(snapshot.own_part());
+    throw;
+  }
+  return result;
+}
+
+}  // namespace
 
 DecidedScene decide(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
                     const LoadProgress& progress) {
-  return FrameLoader(scene, snapshot, notes, progress).decide();
+  return together(scene, snapshot,
+                  [&] { return FrameLoader(scene, snapshot, notes, progress).decide(); });
 }
 
 Camera decide_camera(const Scene& scene, const Snapshot& snapshot) {
   std::vector<std::string> ignored;  // decide tells it again
-  return FrameLoader(scene, snapshot, ignored, {}).decide_camera();
+  return together(scene, snapshot,
+                  [&] { return FrameLoader(scene, snapshot, ignored, {}).decide_camera(); });
 }
 
 Frame load(const DecidedScene& decided, const Snapshot& snapshot, std::vector<std::string>& notes,
            const LoadProgress& progress) {
-  FrameLoader loader(decided.scene, snapshot, notes, progress);
-  loader.begin_load();
-  return loader.load(decided);
+  return together(decided.scene, snapshot, [&] {
+    FrameLoader loader(decided.scene, snapshot, notes, progress);
+    loader.begin_load();
+    return loader.load(decided);
+  });
 }
 
 Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::string>& notes,
                  const LoadProgress& progress) {
-  FrameLoader loader(scene, snapshot, notes, progress);
-  loader.begin_load();
-  loader.read_background();
-  return loader.load(loader.decide());
+  return together(scene, snapshot, [&] {
+    FrameLoader loader(scene, snapshot, notes, progress);
+    loader.begin_load();
+    loader.read_background();
+    return loader.load(loader.decide());
+  });
 }
 
 void check_load(const Scene& scene, const Snapshot& snapshot) {

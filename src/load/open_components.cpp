@@ -65,8 +65,11 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
 }
 
 void OpenComponents::begin_load() {
-  for (const Snapshot* const source : sources_)
+  for (const Snapshot* const source : sources_) {
     source->memory().begin_load();
+    const Snapshot& own = source->own_part();
+    if (&own != source) own.memory().begin_load();
+  }
 }
 
 }  // namespace splotchcl

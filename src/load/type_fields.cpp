@@ -9,6 +9,8 @@
 
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
+#include "load/spread_sizes.h"
+#include "ranks/spread_particles.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
 #include "smoothing/smoothing_lengths.h"
@@ -175,7 +177,8 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
                                            count(), sizes_.neighbors)
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
                                           sizes_.neighbors);
-  if (all_are_sizes(lengths)) {
+  const auto spread = snapshot_->spread();
+  if (spread ? spread->all(all_are_sizes(lengths)) : all_are_sizes(lengths)) {
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
                     type_->type, has_density ? "density and mass" : "the volumes of its cells"));
     return lengths;
@@ -193,6 +196,11 @@ Column TypeFields::find_lengths() const {
                   "reaches to neighbour {}",
                   type_->type, reason, sizes_.neighbors));
   const Column position = positions();
+  if (const auto spread = snapshot_->spread()) {
+    return find_spread_sizes(*spread, type_->type, position,
+                             snapshot_->place_in_file(type_->type, 0), sizes_,
+                             [this](const Column& all) { return periodic_box(all); });
+  }
   return find_sizes_by_neighbors(snapshot_->info(), type_->type, position, periodic_box(position),
                                  sizes_, [this](const std::string& text) { say(text); });
 }

@@ -12,7 +12,13 @@ class Mpi final : public MpiLibrary {
     int provided = 0;
     // Other threads write files and compile kernels; one of them calls MPI.
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-    return ranks_of(MPI_COMM_WORLD, true);
+    return mpi_ranks(MPI_COMM_WORLD, true);
+  }
+  std::unique_ptr<Communicator> ranks_of(const void* communicator) const override {
+    int is_initialized = 0;
+    MPI_Initialized(&is_initialized);
+    if (is_initialized == 0) return nullptr;
+    return mpi_ranks(*static_cast<const MPI_Comm*>(communicator), false);
   }
 };
 

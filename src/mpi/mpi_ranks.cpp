@@ -46,6 +46,7 @@ class MpiRanks final : public Communicator {
  public:
   MpiRanks(MPI_Comm communicator, bool ends_mpi) : ends_mpi_(ends_mpi) {
     MPI_Comm_dup(communicator, &all_);
+    MPI_Comm_set_errhandler(all_, MPI_ERRORS_ARE_FATAL);
     MPI_Comm_rank(all_, &rank_);
     MPI_Comm_size(all_, &size_);
     MPI_Comm on_host = MPI_COMM_NULL;
@@ -59,6 +60,9 @@ class MpiRanks final : public Communicator {
     host_.assign(name.data(), static_cast<std::size_t>(length));
   }
   ~MpiRanks() override {
+    int is_finalized = 0;
+    MPI_Finalized(&is_finalized);
+    if (is_finalized != 0) return;
     MPI_Comm_free(&all_);
     if (ends_mpi_) MPI_Finalize();
   }
@@ -169,7 +173,7 @@ class MpiRanks final : public Communicator {
 
 }  // namespace
 
-std::unique_ptr<Communicator> ranks_of(MPI_Comm communicator, bool ends_mpi) {
+std::unique_ptr<Communicator> mpi_ranks(MPI_Comm communicator, bool ends_mpi) {
   return std::make_unique<MpiRanks>(communicator, ends_mpi);
 }
 

@@ -10,6 +10,6 @@ namespace splotchcl {
 
 // Ranks of an MPI communicator. What they tell each other does not meet what the program around
 // sends: they have a duplicate of it. Collective. `ends_mpi`: MPI is finalized when it goes.
-std::unique_ptr<Communicator> ranks_of(MPI_Comm communicator, bool ends_mpi);
+std::unique_ptr<Communicator> mpi_ranks(MPI_Comm communicator, bool ends_mpi);
 
 }  // namespace splotchcl

@@ -11,6 +11,20 @@
 namespace splotchcl {
 namespace {
 
+template <class Kind>
+class Agreed : public Kind, public AgreedFailure {
+ public:
+  using Kind::Kind;
+};
+
+[[noreturn]] void fail(char kind, const std::string& message) {
+  if (kind == 'U') throw Agreed<UsageError>(message);
+  if (kind == 'V') throw Agreed<DeviceError>(message);
+  throw Agreed<DataError>(message);
+}
+
+}  // namespace
+
 // The first letter says which, the rest is the message; empty: none.
 std::string told(const std::function<void()>& work) {
   try {
@@ -30,36 +44,25 @@ std::string told(const std::function<void()>& work) {
   }
 }
 
-template <class Kind>
-class Agreed : public Kind, public AgreedFailure {
- public:
-  using Kind::Kind;
-};
-
-[[noreturn]] void fail(char kind, const std::string& message) {
-  if (kind == 'U') throw Agreed<UsageError>(message);
-  if (kind == 'V') throw Agreed<DeviceError>(message);
-  throw Agreed<DataError>(message);
-}
-
-}  // namespace
-
 void agree(Communicator* ranks, const std::function<void()>& work) {
   if (ranks == nullptr) {
     work();
     return;
   }
-  const std::string own = told(work);
-  const std::vector<std::string> all = gather_texts(*ranks, own);
+  settle(*ranks, told(work));
+}
+
+void settle(Communicator& ranks, const std::string& own) {
+  const std::vector<std::string> all = gather_texts(ranks, own);
   const auto first =
       std::find_if(all.begin(), all.end(), [](const std::string& text) { return !text.empty(); });
   if (first == all.end()) return;
-  const bool is_own = first - all.begin() == ranks->rank();
+  const bool is_own = first - all.begin() == ranks.rank();
   if (!is_own || first->size() == 1) throw FailedElsewhere(first->front() == 'U' || *first == "u");
   const bool all_alike =
       std::all_of(all.begin(), all.end(), [&](const std::string& text) { return text == *first; });
   const std::string where =
-      all_alike ? "" : "process " + std::to_string(ranks->rank()) + " on " + ranks->host() + ": ";
+      all_alike ? "" : "process " + std::to_string(ranks.rank()) + " on " + ranks.host() + ": ";
   fail(first->front(), where + first->substr(1));
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "modules/module_file.h"
+#include "ranks/shared_host.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -19,17 +20,15 @@ bool is_above_one(const std::string& number) {
   return std::strtol(number.c_str(), nullptr, 10) > 1;
 }
 
-// Never unloaded.
-const MpiLibrary& load(const std::string& mpi) {
+// Never unloaded. `why` ends with a word for the MPI.
+const MpiLibrary& load(const std::string& mpi, const std::string& why, const std::string& advice) {
   const std::string module_name = "libsplotchcl_" + mpi + ".so";
   // Open MPI's own plugins look for its functions among what is global.
   void* const module = dlopen(module_file(module_name).c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (module == nullptr) {
     const std::string reason = dlerror();
-    throw DataError("started by an MPI (" + mpi + ") with other processes, which needs " +
-                    module_name + ", which cannot be loaded (" + reason +
-                    "); install it beside the program, or let each process draw by itself with "
-                    "SPLOTCHCL_MPI=none");
+    throw DataError(why + ", which needs " + module_name + ", which cannot be loaded (" + reason +
+                    "); " + advice);
   }
   void* const entry = dlsym(module, mpi_library_entry);
   if (entry == nullptr) {
@@ -59,8 +58,32 @@ std::string mpi_of_environment() {
 std::shared_ptr<Communicator> started_with_mpi() {
   const std::string mpi = mpi_of_environment();
   if (mpi.empty()) return nullptr;
-  std::shared_ptr<Communicator> ranks = load(mpi).start();
+  std::shared_ptr<Communicator> ranks =
+      load(mpi, "started by an MPI (" + mpi + ") with other processes",
+           "install it beside the program, or let each process draw by itself with "
+           "SPLOTCHCL_MPI=none")
+          .start();
   return ranks->size() > 1 ? ranks : nullptr;
+}
+
+std::shared_ptr<Communicator> ranks_of_mpi(const std::string& mpi, const void* communicator) {
+  if (mpi != "openmpi" && mpi != "mpich") {
+    throw UsageError("a communicator of MPI: found " + mpi +
+                     ", expected openmpi or mpich; with another one derive a class from "
+                     "splotchcl::Communicator");
+  }
+  if (communicator == nullptr) throw UsageError("the communicator of MPI is a null pointer");
+  std::shared_ptr<Communicator> ranks =
+      load(mpi, "given a communicator of an MPI (" + mpi + ")",
+           "build splotchcl where this MPI is installed, and install the module beside it")
+          .ranks_of(communicator);
+  if (!ranks) {
+    throw UsageError("a communicator of MPI (" + mpi +
+                     "): found that MPI has not been initialized, or is another one, expected "
+                     "this one; call MPI_Init before");
+  }
+  share_cores(*ranks);
+  return ranks;
 }
 
 }  // namespace splotchcl

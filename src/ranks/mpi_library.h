@@ -15,6 +15,9 @@ class MpiLibrary {
   // MPI_COMM_WORLD of the program that was started. MPI is initialized, once, and finalized when
   // the communicator goes.
   virtual std::unique_ptr<Communicator> start() const = 0;
+  // A duplicate of the MPI_Comm that lies there, of a program that has initialized MPI; null where
+  // it has not. Collective.
+  virtual std::unique_ptr<Communicator> ranks_of(const void* communicator) const = 0;
 };
 
 // What a module exports.

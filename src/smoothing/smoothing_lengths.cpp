@@ -247,6 +247,18 @@ void replace_zeros(std::vector<float>& lengths, double fallback) {
   std::replace(lengths.begin(), lengths.end(), 0.0F, smallest);
 }
 
+// Blocks are those of one rank.
+std::vector<std::size_t> begins_of_ranks(std::size_t points, int ranks) {
+  const std::size_t blocks = (points + block_size - 1) / block_size;
+  std::vector<std::size_t> begins;
+  for (int rank = 0; rank <= ranks; ++rank) {
+    const std::size_t block =
+        blocks * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);
+    begins.push_back(std::min(points, block * block_size));
+  }
+  return begins;
+}
+
 void check(const Column& position, std::size_t count, int neighbors) {
   if (neighbors < 1) throw UsageError("smoothing lengths need at least one neighbour");
   if (!position.is_array() || position.size() != 3 * count) {
@@ -262,7 +274,7 @@ void check(const Column& position, std::size_t count, int neighbors) {
 
 Column find_smoothing_lengths(const Column& position, std::size_t count,
                               std::optional<double> periodic_box, int neighbors,
-                              const Progress& progress) {
+                              const Progress& progress, const SearchShare& share) {
   check(position, count, neighbors);
   const Cloud cloud(position.data(), count);
   const std::size_t points = cloud.kdtree_get_point_count();
@@ -271,17 +283,23 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
 
   const NeighborSearch search(cloud, periodic_box);
   const std::size_t k = std::min(static_cast<std::size_t>(neighbors), points - 1);
+  const std::vector<std::size_t> begins = begins_of_ranks(points, share.ranks);
+  const auto rank = static_cast<std::size_t>(share.rank);
+  const std::size_t begin = begins[rank];
+  std::vector<float> in_order(points);
   for_blocks(
-      points, block_size,
+      begins[rank + 1] - begin, block_size,
       [&](std::size_t first, std::size_t last) {
         NeighborWalk walk(search, k);
-        for (std::size_t i = first; i < last; ++i) {
-          const std::size_t point = search.point_in_order(i);
-          const double squared = k == 0 ? 0 : walk.farthest_squared(point);
-          lengths[cloud.particle(point)] = static_cast<float>(std::sqrt(squared));
+        for (std::size_t i = begin + first; i < begin + last; ++i) {
+          const double squared = k == 0 ? 0 : walk.farthest_squared(search.point_in_order(i));
+          in_order[i] = static_cast<float>(std::sqrt(squared));
         }
       },
       progress);
+  if (share.join) share.join(in_order, begins);
+  for (std::size_t i = 0; i < points; ++i)
+    lengths[cloud.particle(search.point_in_order(i))] = in_order[i];
   const double extent = std::max(search.extent(), periodic_box.value_or(0));
   replace_zeros(lengths, extent > 0 ? fallback_fraction * extent : 1);
   return Column::owning(std::move(lengths));

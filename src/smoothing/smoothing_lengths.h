@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "splotchcl/particles.h"
 
@@ -15,6 +16,13 @@ using Progress = std::function<void(double)>;
 // what most codes aim at with the cubic spline.
 constexpr int particles_in_sphere = 64;
 
+// Of ranks that all have the same positions each searches for a part of the particles.
+struct SearchShare {
+  int rank = 0, ranks = 1;
+  // Rank r has set values [begins[r], begins[r + 1]): afterwards all ranks have all of them.
+  std::function<void(std::vector<float>& values, const std::vector<std::size_t>& begins)> join;
+};
+
 // Each particle's distance to its `neighbours`-th nearest other particle (or to the
 // farthest, where there are fewer): a smoothing length for matter that has none.
 //
@@ -22,14 +30,15 @@ constexpr int particles_in_sphere = 64;
 // across the faces of the box, wherever its corner lies; positions must be within one
 // period. A particle counts there once per image.
 //
-// Results are the same for any number of threads. A position that is not finite gets
+// Results are the same for any number of threads and ranks. A position that is not finite gets
 // not-a-number and is nobody's neighbour. Where all those neighbours coincide with the
 // particle, it gets the smallest length found for others; where there is none (or no
 // neighbour at all), a thousandth of the particles' extent or of the box; where that is
 // zero too, 1.
 Column find_smoothing_lengths(const Column& position, std::size_t count,
                               std::optional<double> periodic_box = std::nullopt,
-                              int neighbors = particles_in_sphere, const Progress& progress = {});
+                              int neighbors = particles_in_sphere, const Progress& progress = {},
+                              const SearchShare& share = {});
 
 // The length whose sphere holds the mass of `neighbours` particles at the particle's density:
 // h = (3 * neighbours m / (4 pi rho))^(1/3). Not finite or not positive where mass or density

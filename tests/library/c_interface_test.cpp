@@ -243,5 +243,27 @@ TEST(CInterfaceNull, FreeFunctionsTakeNull) {
   EXPECT_STRNE(splotchcl_version(), "");
 }
 
+TEST(CRanks, AreOfMpisThatAreKnown) {
+  const int communicator = 0;
+  splotchcl_error error;
+  EXPECT_EQ(splotchcl_ranks_new("another MPI", &communicator, &error), nullptr);
+  EXPECT_EQ(error.code, 2);
+  EXPECT_THAT(error.message, HasSubstr("found another MPI, expected openmpi or mpich"));
+  for (const char* const mpi : {static_cast<const char*>(nullptr), "openmpi"}) {
+    EXPECT_EQ(splotchcl_ranks_new(mpi, nullptr, &error), nullptr);
+    EXPECT_EQ(error.code, 2);
+    EXPECT_THAT(error.message, HasSubstr("null pointer"));
+  }
+}
+
+TEST(CRanks, AreNeeded) {
+  splotchcl_error error;
+  EXPECT_EQ(splotchcl_renderer_new_for_ranks(nullptr, nullptr, &error), nullptr);
+  EXPECT_EQ(error.code, 2);
+  EXPECT_EQ(splotchcl_scene_decide_for_ranks(nullptr, nullptr, nullptr, &error), 2);
+  EXPECT_THAT(error.message, HasSubstr("the object of ranks is a null pointer"));
+  splotchcl_ranks_free(nullptr);
+}
+
 }  // namespace
 }  // namespace splotchcl::testing

@@ -3,28 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "cli/program.h"
+#include "mpi/under_mpi.h"
 
 namespace splotchcl::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-struct Mpi {
-  std::string name;  // of the module
-  std::string run;   // with the number of processes behind it
-};
-
-std::ostream& operator<<(std::ostream& out, const Mpi& mpi) {
-  return out << mpi.name;
-}
 
 struct SmallScene {
   std::string name, text;
@@ -62,52 +50,16 @@ std::vector<SmallScene> small_scenes() {
   };
 }
 
-class MpiRun : public ::testing::TestWithParam<Mpi> {
+class MpiRun : public UnderMpi {
  protected:
   void SetUp() override {
-    SKIP_WITHOUT_DEVICE();
-    const std::filesystem::path module =
-        test::program_path().parent_path() / ("libsplotchcl_" + GetParam().name + ".so");
-    if (!std::filesystem::exists(module)) GTEST_SKIP() << "built without " << GetParam().name;
-    folder_ = std::make_unique<TemporaryFolder>();
-    if (run("command -v " + program()).exit_code != 0)
-      GTEST_SKIP() << "no " << program() << " here; scripts/setup installs it";
+    UnderMpi::SetUp();
+    if (IsSkipped()) return;
     ASSERT_EQ(run("\"$splotchcl\" generate universe -o u --particles 30000").exit_code, 0);
   }
-
-  std::string program() const { return GetParam().run.substr(0, GetParam().run.find(' ')); }
-  // Compiled kernels are kept, so that only the first process of a kind compiles them. Open MPI
-  // has to be told that containers and test machines have one user.
-  ProgramResult run(const std::string& command) const {
-    return run_in(*folder_,
-                  "export SPLOTCHCL_CACHE=$PWD/kernels OMPI_ALLOW_RUN_AS_ROOT=1 "
-                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " +
-                      command);
-  }
-  std::string mpirun(int processes) const {
-    return "timeout 300 " + GetParam().run + " " + std::to_string(processes) + " ";
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(*folder_ / name) << text;
-  }
-  // What the program itself has told, in one line: MPIs tell of processes that have failed as well.
-  static std::string own_line(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream all(text);
-    for (std::string line; std::getline(all, line);) {
-      if (line.rfind("splotchcl: ", 0) == 0) lines.push_back(line);
-    }
-    EXPECT_EQ(lines.size(), 1u) << text;
-    return lines.empty() ? "" : lines.front();
-  }
-
-  std::unique_ptr<TemporaryFolder> folder_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Mpis, MpiRun,
-                         ::testing::Values(Mpi{"openmpi", "mpirun.openmpi --oversubscribe -n"},
-                                           Mpi{"mpich", "mpirun.mpich -n"}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Mpis, MpiRun, all_mpis(), name_of_mpi);
 
 TEST_P(MpiRun, DrawsTheBitsOfOneProcess) {
   int processes = 2;

@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "device/cloud_frames.h"
 #include "device/opencl/device_context.h"
 #include "device/pipeline.h"
+#include "device/ranks/fetch_particles.h"
 #include "device/scene_maker.h"
 #include "device/stages.h"
 #include "long_tests.h"
+#include "ranks/spread_particles.h"
 #include "ranks/thread_ranks.h"
 
 namespace splotchcl::test {
@@ -44,6 +47,38 @@ bool are_equal(const CollectedSplats& a, const CollectedSplats& b) {
                     });
 }
 
+// What particles each rank has.
+enum class Holds { all, own };
+
+// A rank's own values of a column: the first rank has none, the others have as many each.
+Column spread_over(SpreadParticles& spread, const Column& column, std::size_t count,
+                   std::size_t width) {
+  if (!column.is_array()) return column;
+  const auto rank = static_cast<std::size_t>(spread.ranks().rank());
+  const auto others = static_cast<std::size_t>(spread.ranks().size() - 1);
+  const std::size_t begin = rank == 0 ? 0 : count * (rank - 1) / others;
+  const std::size_t end = count * rank / others;
+  std::vector<float> own;
+  for (std::size_t i = begin * width; i < end * width; ++i)
+    own.push_back(column[i]);
+  return spread.spread(Column::owning(std::move(own)), end - begin, width);
+}
+
+Frame spread_over(Communicator& ranks, const Frame& frame) {
+  Frame spread = frame;
+  spread.spread = std::make_shared<SpreadParticles>(
+      std::shared_ptr<Communicator>(std::shared_ptr<Communicator>(), &ranks));
+  for (DrawnComponent& component : spread.components) {
+    Particles& particles = component.particles;
+    for (Column* const column : {&particles.position, &particles.color_vector})
+      *column = spread_over(*spread.spread, *column, particles.count, 3);
+    for (Column* const column : {&particles.smoothing_length, &particles.weight, &particles.color,
+                                 &particles.intensity, &particles.sort_field})
+      *column = spread_over(*spread.spread, *column, particles.count, 1);
+  }
+  return spread;
+}
+
 class RankFrames : public testing::TestWithParam<bool> {
  protected:
   // Few splats of a chunk and few particles of a block, so that small scenes have many.
@@ -57,17 +92,18 @@ class RankFrames : public testing::TestWithParam<bool> {
   }
 
   // By so many ranks; 0: by one process, without any.
-  Drawn draw(const Frame& frame, int ranks, int slabs = -1) {
+  Drawn draw(const Frame& frame, int ranks, int slabs = -1, Holds holds = Holds::all) {
     PlanOptions options;
     options.slabs = slabs;
     const FramePlan plan = make_plan(frame, options);
     Drawn drawn;
     drawn.work.resize(static_cast<std::size_t>(std::max(1, ranks)));
-    const auto draw_with = [&](DeviceContext& device, FrameRanks* with) {
+    const auto draw_with = [&](const Frame& own, DeviceContext& device, FrameRanks* with) {
       set_sizes(device);
+      const FetchedParticles fetched(own, plan, device.traits);
       ParticleStore particles(device);
       particles.begin_frame();
-      Pipeline pipeline(device, particles, frame, plan, {}, with);
+      Pipeline pipeline(device, particles, own, plan, {}, with);
       Image image = pipeline.draw();
       device.queue.finish();
       if (with != nullptr) drawn.work[static_cast<std::size_t>(with->rank())] = with->work;
@@ -77,18 +113,24 @@ class RankFrames : public testing::TestWithParam<bool> {
       if (drawn.counts.too_sharp == 0) drawn.collected = pipeline.collected();
     };
     if (ranks == 0) {
-      draw_with(device_of_rank(0), nullptr);
+      draw_with(frame, device_of_rank(0), nullptr);
     } else {
       ThreadRanks::run(ranks, [&](Communicator& all) {
-        FrameRanks with = {all, {}};
-        draw_with(device_of_rank(all.rank()), &with);
+        const Frame own = holds == Holds::own ? spread_over(all, frame) : frame;
+        FrameRanks with = {all, {}, own.spread.get()};
+        draw_with(own, device_of_rank(all.rank()), &with);
       });
     }
     return drawn;
   }
 
   void expect_same_bits(const Frame& frame, int ranks, int slabs = -1) {
-    const Drawn one = draw(frame, 0, slabs), many = draw(frame, ranks, slabs);
+    const Drawn one = draw(frame, 0, slabs);
+    expect_same(draw(frame, ranks, slabs), one, ranks);
+    expect_same(draw(frame, ranks, slabs, Holds::own), one, ranks);
+  }
+
+  static void expect_same(const Drawn& many, const Drawn& one, int ranks) {
     EXPECT_EQ(many.image.pixels, one.image.pixels) << ranks << " ranks";
     EXPECT_TRUE(are_equal(many.collected, one.collected)) << ranks << " ranks";
     EXPECT_EQ(many.counts.particles, one.counts.particles);
@@ -165,9 +207,11 @@ TEST_P(RankFrames, DrawInRoundsWhereMemoryAsksForIt) {
   const Drawn one = draw(frame, 0);
   for (const int ranks : {2, 3}) {
     make_room_for(300, frame);
-    const Drawn many = draw(frame, ranks);
-    EXPECT_EQ(many.image.pixels, one.image.pixels) << ranks;
-    EXPECT_GE(many.counts.windows, 6u);
+    for (const Holds holds : {Holds::all, Holds::own}) {
+      const Drawn many = draw(frame, ranks, -1, holds);
+      EXPECT_EQ(many.image.pixels, one.image.pixels) << ranks;
+      EXPECT_GE(many.counts.windows, 6u);
+    }
   }
 }
 

@@ -229,7 +229,9 @@ compute::buffer ParticleStore::interpolated_buffer(
   return entries_.emplace(key, std::move(entry)).first->second.buffer;
 }
 
+// Those that are made as they are wanted make room for the next component's.
 bool ParticleStore::are_whole(const Particles& particles) const {
+  if (has_streamed_column(particles)) return false;
   const Piece piece = piece_of(particles, {0, 0, 0});
   return piece.end == particles.count;
 }

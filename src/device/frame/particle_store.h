@@ -42,7 +42,7 @@ class ParticleStore {
   // blocks of particles that `bounds`, which may be null, leave out: those are bad particles then.
   ParticleBuffers get(const Particles& particles, const ParticleChunk& chunk,
                       const ViewBounds* bounds = nullptr);
-  // Whether get() of a chunk returns all particles.
+  // Whether get() of a chunk returns all particles, which stay beside those of other components.
   bool are_whole(const Particles& particles) const;
   // Bytes on the device, without those that lie in the caller's memory.
   std::uint64_t device_bytes() const { return device_bytes_; }

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <exception>
+#include <new>
 #include <utility>
 
 #include "common/quiet_errors.h"
 #include "pictures/other_scenes.h"
+#include "ranks/spread_particles.h"
+#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 
@@ -75,6 +80,31 @@ std::optional<std::string> tell_of_bad_particles(const RenderStats& stats) {
       stats.bad_particles, stats.particles);
 }
 
+// The ranks that have the particles of a frame wait for each other while they draw. What they have
+// not agreed upon nobody else could hear of.
+template <class Draw>
+DrawnFrame all_or_none(const Frame& frame, const Draw& draw) {
+  if (!frame.spread) return draw();
+  constexpr int failed = 1;
+  Communicator& ranks = frame.spread->ranks();
+  try {
+    return draw();
+  } catch (const std::exception& failure) {
+    if (dynamic_cast<const AgreedFailure*>(&failure) != nullptr) throw;
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+    std::string line = fmt::format(
+        "splotchcl: process {} on {}: {}", ranks.rank(), ranks.host(),
+        is_memory ? "out of memory; fewer particles, a smaller picture or fewer processes on one "
+                    "machine need less"
+                  : failure.what());
+    // What a compiler says has several.
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fputs((line + "\n").c_str(), stderr);
+    ranks.abort(failed);
+    throw;  // not reached
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> DrawnFrame::all_notes() const {
@@ -110,6 +140,11 @@ struct FrameDrawer::State {
   }
 
   Image draw_with_reference(const Frame& view, RenderStats& total) const {
+    if (view.spread) {
+      throw UsageError(
+          "found particles that are spread over processes, expected those of one: the reference "
+          "draws alone");
+    }
     const auto start = std::chrono::steady_clock::now();
     RenderStats stats;
     stats.device = "reference";
@@ -158,12 +193,14 @@ DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes) {
   std::vector<std::string> notes;
   const Frame frame = load_frame(scene, snapshot, notes, state_->progress);
-  return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes));
+  return all_or_none(frame, [&] {
+    return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes));
+  });
 }
 
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot) {
   OtherScenes none_kept;
-  return state_->draw(scene, frame, snapshot, none_kept, {});
+  return all_or_none(frame, [&] { return state_->draw(scene, frame, snapshot, none_kept, {}); });
 }
 
 ImageFileOptions image_file_options(const Scene& scene,

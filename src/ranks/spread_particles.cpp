@@ -1,0 +1,278 @@
+#include "ranks/spread_particles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "ranks/agreement.h"
+#include "ranks/values.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// Another rank has failed: what it says is asked for where the work began. No Error, so that
+// nobody on the way takes it for one.
+struct Interrupted {};
+
+// Of one rank to another, and of the first to those that follow it.
+struct Request {
+  std::uint64_t column, begin, end;
+};
+constexpr Request no_more = {~std::uint64_t{0}, 0, 0};
+
+// Overlapping stretches become one.
+std::vector<SpreadColumn::Stretch> joined(std::vector<SpreadColumn::Stretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(),
+            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::vector<SpreadColumn::Stretch> all;
+  for (const auto& stretch : stretches) {
+    if (stretch.is_empty()) continue;
+    if (!all.empty() && stretch.begin <= all.back().end) {
+      all.back().end = std::max(all.back().end, stretch.end);
+    } else {
+      all.push_back(stretch);
+    }
+  }
+  return all;
+}
+
+std::vector<Request> requests_in(const Communicator::Bytes& bytes) {
+  std::vector<Request> requests(bytes.size() / sizeof(Request));
+  if (!requests.empty()) std::memcpy(requests.data(), bytes.data(), bytes.size());
+  return requests;
+}
+
+}  // namespace
+
+SpreadParticles::SpreadParticles(std::shared_ptr<Communicator> ranks) : ranks_(std::move(ranks)) {}
+
+Column SpreadParticles::spread(const Column& own, std::uint64_t own_particles,
+                               std::size_t values_per_particle) {
+  if (!own.is_array()) return own;
+  wait_for_all();
+  std::vector<std::size_t> begins = {0};
+  for (const std::uint64_t particles : gather_values(*ranks_, own_particles))
+    begins.push_back(begins.back() + static_cast<std::size_t>(particles) * values_per_particle);
+  auto column = std::make_shared<const SpreadColumn>(shared_from_this(), next_number_, own,
+                                                     std::move(begins));
+  columns_[next_number_++] = column.get();
+  return Column::made_by(std::move(column));
+}
+
+std::uint64_t SpreadParticles::sum(std::uint64_t own) {
+  wait_for_all();
+  std::vector<std::uint64_t> sums = {own};
+  ranks_->add_up(sums);
+  return sums.front();
+}
+
+bool SpreadParticles::all(bool own) {
+  return sum(own ? 0 : 1) == 0;
+}
+
+void SpreadParticles::join(std::vector<float>& values, const std::vector<std::size_t>& begins) {
+  wait_for_all();
+  for (std::size_t rank = 0; rank + 1 < begins.size(); ++rank) {
+    const std::size_t count = begins[rank + 1] - begins[rank];
+    if (count > 0) {
+      ranks_->broadcast(values.data() + begins[rank], count * sizeof(float),
+                        static_cast<int>(rank));
+    }
+  }
+}
+
+// Before each step that all make: a rank that has failed tells so instead.
+void SpreadParticles::wait_for_all() {
+  std::vector<std::uint64_t> failed = {0};
+  ranks_->add_up(failed);
+  if (failed.front() > 0) throw Interrupted();
+}
+
+void SpreadParticles::agree_on(const std::function<void()>& work) {
+  std::string own;
+  bool is_interrupted = false;
+  try {
+    own = told(work);
+  } catch (const Interrupted&) {
+    is_interrupted = true;
+  } catch (const std::exception& failure) {
+    own = std::string("D") + failure.what();
+  }
+  if (!is_interrupted) {
+    std::vector<std::uint64_t> failed = {own.empty() ? 0u : 1u};
+    ranks_->add_up(failed);
+    if (failed.front() == 0) return;
+  }
+  // Ranks that were interrupted may have fewer columns.
+  const std::vector<std::uint64_t> numbers = gather_values(*ranks_, next_number_);
+  next_number_ = *std::max_element(numbers.begin(), numbers.end());
+  settle(*ranks_, own);
+}
+
+void SpreadParticles::ask(std::uint64_t column, std::size_t begin, std::size_t end) {
+  wanted_[column].push_back({begin, end});
+}
+
+void SpreadParticles::read(const SpreadColumn& column, std::size_t begin, std::size_t end,
+                           float* values) {
+  if (mode_ == Mode::together) {
+    wait_for_all();
+    read_together(column, begin, end, values);
+    return;
+  }
+  if (read_here(column, begin, end, values)) return;
+  if (mode_ != Mode::leading) {
+    throw DataError("values " + std::to_string(begin) + " to " + std::to_string(end) +
+                    " of a column that is spread over processes were wanted for drawing and had "
+                    "not been fetched; please report it");
+  }
+  read_leading(column, begin, end, values);
+}
+
+void SpreadParticles::read_together(const SpreadColumn& column, std::size_t begin, std::size_t end,
+                                    float* values) const {
+  for (int rank = 0; rank < ranks_->size(); ++rank) {
+    const Stretch stretch = column.of_rank(rank, begin, end);
+    if (stretch.is_empty()) continue;
+    float* const first = values + (stretch.begin - begin);
+    if (rank == ranks_->rank()) column.copy_own(stretch, first);
+    ranks_->broadcast(first, stretch.count() * sizeof(float), rank);
+  }
+}
+
+const SpreadParticles::Fetched* SpreadParticles::find_fetched(std::uint64_t column,
+                                                              std::size_t value) const {
+  const auto of_column = fetched_.find(column);
+  if (of_column == fetched_.end()) return nullptr;
+  const auto behind = of_column->second.upper_bound(value);
+  if (behind == of_column->second.begin()) return nullptr;
+  const Fetched& fetched = std::prev(behind)->second;
+  return value < fetched.end() ? &fetched : nullptr;
+}
+
+// From what this rank has or has fetched.
+bool SpreadParticles::read_here(const SpreadColumn& column, std::size_t begin, std::size_t end,
+                                float* values) const {
+  for (std::size_t next = begin; next < end;) {
+    const Stretch own = column.of_rank(ranks_->rank(), next, end);
+    if (own.begin == next && !own.is_empty()) {
+      column.copy_own(own, values + (next - begin));
+      next = own.end;
+      continue;
+    }
+    const Fetched* const fetched = find_fetched(column.number(), next);
+    if (fetched == nullptr) return false;
+    const std::size_t last = std::min(end, fetched->end());
+    std::copy_n(fetched->values.data() + (next - fetched->begin), last - next,
+                values + (next - begin));
+    next = last;
+  }
+  return true;
+}
+
+void SpreadParticles::read_leading(const SpreadColumn& column, std::size_t begin, std::size_t end,
+                                   float* values) const {
+  Request request = {column.number(), begin, end};
+  ranks_->broadcast(&request, sizeof(request), 0);
+  for (int rank = 0; rank < ranks_->size(); ++rank) {
+    const Stretch stretch = column.of_rank(rank, begin, end);
+    if (stretch.is_empty()) continue;
+    float* const first = values + (stretch.begin - begin);
+    if (rank == ranks_->rank()) {
+      column.copy_own(stretch, first);
+    } else {
+      ranks_->receive(first, stretch.count() * sizeof(float), rank);
+    }
+  }
+}
+
+void SpreadParticles::lead(const std::function<void()>& work) {
+  mode_ = Mode::leading;
+  work();
+  mode_ = Mode::drawing;
+  Request end = no_more;
+  ranks_->broadcast(&end, sizeof(end), 0);
+}
+
+void SpreadParticles::follow() {
+  for (;;) {
+    Request request = no_more;
+    ranks_->broadcast(&request, sizeof(request), 0);
+    if (request.column == no_more.column) return;
+    const SpreadColumn& column = *columns_.at(request.column);
+    const Stretch stretch = column.of_rank(ranks_->rank(), request.begin, request.end);
+    if (stretch.is_empty()) continue;
+    std::vector<float> values(stretch.count());
+    column.copy_own(stretch, values.data());
+    ranks_->send(values.data(), values.size() * sizeof(float), 0);
+  }
+}
+
+void SpreadParticles::fetch(const std::function<void()>& ask) {
+  forget();
+  mode_ = Mode::asking;
+  ask();
+  mode_ = Mode::drawing;
+  for (auto& [column, stretches] : wanted_)
+    stretches = joined(std::move(stretches));
+  std::vector<Communicator::Bytes> packets;
+  for (int rank = 0; rank < ranks_->size(); ++rank)
+    packets.push_back(request_to(rank));
+  packets = ranks_->exchange(std::move(packets));
+  for (Communicator::Bytes& packet : packets)
+    packet = answer(packet);
+  packets = ranks_->exchange(std::move(packets));
+  for (int rank = 0; rank < ranks_->size(); ++rank)
+    keep(rank, packets[static_cast<std::size_t>(rank)]);
+  wanted_.clear();
+}
+
+// What is its own no rank asks for.
+Communicator::Bytes SpreadParticles::request_to(int rank) const {
+  std::vector<Request> requests;
+  for (const auto& [number, stretches] : wanted_) {
+    for (const Stretch& wanted : stretches) {
+      const Stretch part = columns_.at(number)->of_rank(rank, wanted.begin, wanted.end);
+      if (rank != ranks_->rank() && !part.is_empty())
+        requests.push_back({number, part.begin, part.end});
+    }
+  }
+  Communicator::Bytes bytes(requests.size() * sizeof(Request));
+  if (!bytes.empty()) std::memcpy(bytes.data(), requests.data(), bytes.size());
+  return bytes;
+}
+
+Communicator::Bytes SpreadParticles::answer(const Communicator::Bytes& request) const {
+  std::vector<float> values;
+  for (const Request& wanted : requests_in(request)) {
+    const std::size_t first = values.size();
+    values.resize(first + static_cast<std::size_t>(wanted.end - wanted.begin));
+    columns_.at(wanted.column)->copy_own({wanted.begin, wanted.end}, values.data() + first);
+  }
+  Communicator::Bytes bytes(values.size() * sizeof(float));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+void SpreadParticles::keep(int from, const Communicator::Bytes& values) {
+  const std::byte* next = values.data();
+  for (const Request& asked : requests_in(request_to(from))) {
+    const auto begin = static_cast<std::size_t>(asked.begin);
+    Fetched fetched = {begin, std::vector<float>(static_cast<std::size_t>(asked.end) - begin)};
+    std::memcpy(fetched.values.data(), next, fetched.values.size() * sizeof(float));
+    next += fetched.values.size() * sizeof(float);
+    fetched_[asked.column].emplace(begin, std::move(fetched));
+  }
+}
+
+void SpreadParticles::forget() {
+  wanted_.clear();
+  fetched_.clear();
+  mode_ = Mode::together;
+}
+
+}  // namespace splotchcl
