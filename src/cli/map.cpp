@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "cli/commands.h"
-#include "cli/compiler_process.h"
 #include "common/output_files.h"
 #include "open_scene/input_files.h"
 #include "splotchcl/error.h"
@@ -87,10 +86,7 @@ DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) 
   if (options.reference) {
     return [](const Frame& frame) { return reference::render(frame).to_float(); };
   }
-  RendererOptions of_renderer;
-  of_renderer.device = options.device;
-  of_renderer.start_compiler = compiler_processes();
-  renderer.emplace(of_renderer);
+  renderer.emplace(RendererOptions{options.device});
   return [&renderer](const Frame& frame) { return renderer->render(frame); };
 }
 
