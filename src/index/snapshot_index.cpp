@@ -178,10 +178,8 @@ SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
 }
 
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
-  if (!is_of_use(info)) return std::nullopt;
-  const std::filesystem::path path = path_for(info);
-  if (!is_regular(path)) return std::nullopt;
-  const auto file = MappedFile::open(path);
+  if (!is_there(info)) return std::nullopt;
+  const auto file = MappedFile::open(path_for(info));
   Bytes bytes(*file);
   FileHeader header{};
   if (!bytes.take(&header, sizeof header) || header.mark != mark || header.key != key_of(info) ||
@@ -209,8 +207,8 @@ bool SnapshotIndex::is_of_use(const SnapshotInfo& info) {
   return info.particles_per_drawn == 1 && has_parts(info);
 }
 
-bool SnapshotIndex::is_stale(const SnapshotInfo& info) {
-  return is_of_use(info) && is_regular(path_for(info)) && !read(info);
+bool SnapshotIndex::is_there(const SnapshotInfo& info) {
+  return is_of_use(info) && is_regular(path_for(info));
 }
 
 void SnapshotIndex::write(const SnapshotInfo& info) const {

@@ -39,8 +39,8 @@ class SnapshotIndex {
 
   // Whether a snapshot's files are read in parts, so that an index saves something.
   static bool is_of_use(const SnapshotInfo& info);
-  // Whether there is one that read() does not take.
-  static bool is_stale(const SnapshotInfo& info);
+  // Whether there is one beside the snapshot: stale, where read() does not take it.
+  static bool is_there(const SnapshotInfo& info);
 
   // Throws DataError when the file cannot be written, UsageError when another one is in its place.
   void write(const SnapshotInfo& info) const;

@@ -145,7 +145,7 @@ void surround(const Column& placed, std::vector<ParticleBox>& boxes) {
 }  // namespace
 
 std::string tell_stale_index(const Snapshot& snapshot) {
-  if (known_boxes(snapshot).beside || !SnapshotIndex::is_stale(snapshot.info())) return {};
+  if (known_boxes(snapshot).beside || !SnapshotIndex::is_there(snapshot.info())) return {};
   return fmt::format(
       "{} is not of the files beside it and is not used; splotchcl index makes it anew",
       SnapshotIndex::path_for(snapshot.info()).string());
