@@ -27,8 +27,4 @@ class ProgramCompiler {
 // threads.
 using StartCompiler = std::function<std::unique_ptr<ProgramCompiler>()>;
 
-// The other process's part: compiles in this one, on the first device of these names. Empty where
-// that fails.
-std::string compile_program(const ProgramToCompile& program);
-
 }  // namespace splotchcl

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/child_process.h"
+#include "device/opencl/local_compiler.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {
@@ -141,11 +142,12 @@ int run_compiler() {
   expect_socket(STDIN_FILENO);
   const Socket socket(STDIN_FILENO);
   end_with(socket);
+  LocalCompiler compiler;
   while (true) {
     const auto device = socket.receive(for_ever), options = socket.receive(for_ever),
                source = socket.receive(for_ever);
     if (!device || !options || !source) return 0;
-    if (!socket.send(compile_program({*device, *options, *source}))) return 0;
+    if (!socket.send(compiler.compile({*device, *options, *source}))) return 0;
   }
 }
 

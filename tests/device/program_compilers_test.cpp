@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/opencl/local_compiler.h"
 #include "device/opencl/program_text.h"
 #include "device/opencl/shared_work.h"
 #include "device/pictures.h"
@@ -84,7 +85,7 @@ TEST_F(ProgramCompilers, CompileProgramsOfTheSameBits) {
   Pretence pretence;
   draw_in_new_folder(pretence.start());  // to know the programs
   for (const ProgramToCompile& program : std::vector(pretence.asked))
-    pretence.binaries[program.source] = compile_program(program);
+    pretence.binaries[program.source] = LocalCompiler().compile(program);
   ASSERT_FALSE(pretence.binaries.empty());
   pretence.asked.clear();
   EXPECT_EQ(draw_in_new_folder(pretence.start()).pixels, draw_alone().pixels);
@@ -128,20 +129,20 @@ TEST_F(ProgramCompilers, HaveTheirProgramsKept) {
   Pretence pretence;
   draw_in_new_folder(pretence.start());
   for (const ProgramToCompile& program : std::vector(pretence.asked))
-    pretence.binaries[program.source] = compile_program(program);
+    pretence.binaries[program.source] = LocalCompiler().compile(program);
   draw(cache, pretence.start());
   Pretence later;
   draw(cache, later.start());
   EXPECT_EQ(later.started, 0);
 }
 
-TEST(ProgramCompiler, GivesNothingForADeviceThatIsNotThere) {
-  EXPECT_EQ(compile_program({"no such device", "", "__kernel void nothing() {}"}), "");
+TEST(LocalCompiler, GivesNothingForADeviceThatIsNotThere) {
+  EXPECT_EQ(LocalCompiler().compile({"no such device", "", "__kernel void nothing() {}"}), "");
 }
 
-TEST(ProgramCompiler, GivesNothingForWhatIsNoProgram) {
+TEST(LocalCompiler, GivesNothingForWhatIsNoProgram) {
   DeviceContext device(choose_device(""));
-  EXPECT_EQ(compile_program({full_name_of(device.device), "", "no program"}), "");
+  EXPECT_EQ(LocalCompiler().compile({full_name_of(device.device), "", "no program"}), "");
 }
 
 TEST(SharedWork, IsDoneOnce) {
