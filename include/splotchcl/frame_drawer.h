@@ -30,6 +30,7 @@ struct FrameDrawerOptions {
   std::uint64_t memory_bytes = 0;  // as in RendererOptions
   // As in RendererOptions. All ranks draw the same scenes and have the same pictures.
   std::shared_ptr<Communicator> ranks = nullptr;
+  StartCompiler start_compiler = {};  // as in RendererOptions
 };
 
 // One frame of a scene, drawn, and what is to be told of it.

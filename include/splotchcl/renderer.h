@@ -12,6 +12,7 @@
 #include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"
 #include "splotchcl/plan.h"
+#include "splotchcl/program_compiler.h"
 
 namespace splotchcl {
 
@@ -68,6 +69,10 @@ struct RendererOptions {
   // the frame is drawn; not for frames of one part. What it throws ends the drawing; the next frame
   // is drawn as if nothing had been. Must not use the renderer.
   std::function<void(double fraction)> progress = {};
+  // Where many programs have to be compiled, some are by these, one for each core but one at most.
+  // Only on a processor, through PoCL, and only where compiled programs are kept from run to run.
+  // Empty: this process compiles all.
+  StartCompiler start_compiler = {};
 };
 
 struct StageTime {

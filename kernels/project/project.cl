@@ -1,26 +1,24 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
 
-// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
-// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
-// the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
-// tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
-// tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
-// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
-// a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
-// more, else 0.
-__kernel void project(const ProjectParameters p, const ExtendedParameters e,
-                      __global const float* positions, __global const float* smoothing_lengths,
-                      __global const float* weights, __global const float* colors,
-                      __global const float* intensities, __global const float* sort_fields,
-                      __global const uint* offsets, __global BlockCounts* counts,
-                      __global Splat* splats, __global uint* keys, __global ushort* key_ends,
-                      __global uint* order, __global const WidthNeeds* width_needs,
-                      __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS
-                          KEY_PARAMETERS TILE_PARAMETERS) {
+#define PROJECT_PARAMETERS                                                                  \
+  __global const float *positions, __global const float *smoothing_lengths,                 \
+      __global const float *weights, __global const float *colors,                          \
+      __global const float *intensities, __global const float *sort_fields,                 \
+      __global const uint *offsets, __global BlockCounts *counts, __global Splat *splats,   \
+      __global uint *keys, __global ushort *key_ends, __global uint *order,                 \
+      __global const WidthNeeds *width_needs,                                               \
+      __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS \
+          TILE_PARAMETERS
+
+// A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles.
+__attribute__((noinline)) void project_block(uint block, const ProjectParameters* of_frame,
+                                             const ExtendedParameters* extended_of_frame,
+                                             PROJECT_PARAMETERS) {
+  const ProjectParameters p = *of_frame;
+  const ExtendedParameters e = *extended_of_frame;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);
-  const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
   const uint numbered = p.first_block + block;
@@ -144,4 +142,19 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
 #ifdef COUNT_KEYS
   key_bins[block] = bins;
 #endif
+}
+
+// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
+// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
+// the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
+// tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
+// tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
+// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
+// a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
+// more, else 0.
+__kernel void project(const ProjectParameters p, const ExtendedParameters e, PROJECT_PARAMETERS) {
+  project_block(get_global_id(0), &p, &e, positions, smoothing_lengths, weights, colors,
+                intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
+                width_needs,
+                left_out OWN_COLORS_ARGUMENT EXTENDED_ARGUMENTS KEY_ARGUMENTS TILE_ARGUMENTS);
 }

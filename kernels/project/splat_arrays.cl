@@ -119,21 +119,27 @@ inline uint count_true(INTEGER mask) {
 #define EXTENDED_PARAMETERS                                                        \
   , __global const ComponentColors *component_colors, __global const float *knots, \
       __global ExtendedSplat *extended_splats
+#define EXTENDED_ARGUMENTS , component_colors, knots, extended_splats
 #else
 #define EXTENDED_PARAMETERS
+#define EXTENDED_ARGUMENTS
 #endif
 
 // Where sort keys are counted (sort_keys.cl).
 #ifdef COUNT_KEYS
 #define KEY_PARAMETERS , __global uint *key_counts, __global KeyBins *key_bins
+#define KEY_ARGUMENTS , key_counts, key_bins
 #else
 #define KEY_PARAMETERS
+#define KEY_ARGUMENTS
 #endif
 
 // Where splats are binned as they come.
 #ifdef COUNT_TILES
 #define TILE_PARAMETERS \
   , __global const Grid *grids, __global uint *tile_counts, __global uint *tiles
+#define TILE_ARGUMENTS , grids, tile_counts, tiles
 #else
 #define TILE_PARAMETERS
+#define TILE_ARGUMENTS
 #endif

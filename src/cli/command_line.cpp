@@ -9,6 +9,7 @@
 #include "cli/command_builder.h"
 #include "cli/command_tree.h"
 #include "cli/commands.h"
+#include "cli/compiler_process.h"
 #include "cli/galaxy_commands.h"
 #include "cli/list_commands.h"
 #include "cli/map_command.h"
@@ -271,6 +272,13 @@ void add_pages(CLI::App& app, Run& run) {
   });
 }
 
+// For the program itself. Hidden as well.
+void add_compiler(CLI::App& app, Run& run) {
+  CLI::App* const sub = app.add_subcommand(compiler_command, "Compile for another splotchcl");
+  sub->group("");
+  sub->callback([&run] { run = run_compiler; });
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CommandWords& command : describe_commands(app).commands)
@@ -369,6 +377,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_galaxy(app, run, console);
   add_evolve(app, run, console);
   add_pages(app, run);
+  add_compiler(app, run);
   bool is_verbose = false, is_quiet = false;
   add_verbosity(app, is_verbose, is_quiet);
   for (CLI::App* const sub : app.get_subcommands([](const CLI::App*) { return true; }))

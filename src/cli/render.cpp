@@ -4,6 +4,7 @@
 #include <map>
 
 #include "cli/commands.h"
+#include "cli/compiler_process.h"
 #include "cli/explanation.h"
 #include "cli/processes.h"
 #include "cli/render_stats.h"
@@ -165,6 +166,7 @@ FrameDrawerOptions drawer_options(const RenderOptions& options,
                                options.shape,          false,
                                options.memory_bytes};
   of_drawer.ranks = ranks;
+  of_drawer.start_compiler = compiler_processes(ranks);
   return of_drawer;
 }
 

@@ -13,7 +13,7 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
     : particles_(particles),
       context_(device, frame, plan),
       projector_(context_),
-      sorter_(device),
+      sorter_(device, plan.needs_sort()),
       binner_(context_),
       compositor_(context_),
       resolver_(context_),
@@ -22,6 +22,8 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       progress_(std::move(progress)),
       ranks_(ranks) {
   if (ranks_ != nullptr) transfer_.emplace(context_, compositor_, *ranks_);
+  // What all stages have asked for, before the device has work to do.
+  device.programs.compile_all();
 }
 
 Image Pipeline::draw() {

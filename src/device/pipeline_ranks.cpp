@@ -57,16 +57,8 @@ class PassedSplats {
 
 void Pipeline::add_up_counts() {
   if (ranks_ == nullptr) return;
-  std::vector<std::uint64_t> sums = {counts_.visible,         counts_.bad,
-                                     counts_.too_sharp,       counts_.around,
-                                     counts_.blocks_left_out, counts_.tile_entries};
-  ranks_->all.add_up(sums);
-  counts_.visible = sums[0];
-  counts_.bad = sums[1];
-  counts_.too_sharp = sums[2];
-  counts_.around = sums[3];
-  counts_.blocks_left_out = sums[4];
-  counts_.tile_entries = sums[5];
+  add_up(ranks_->all, {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around,
+                       &counts_.blocks_left_out, &counts_.tile_entries});
 }
 
 std::vector<CloudAround> Pipeline::gather_around(const std::vector<ParticleChunk>& own_chunks,

@@ -123,6 +123,7 @@ struct Renderer::State {
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
     progress = options.progress;
+    device.programs.use_compilers(options.start_compiler);
   }
 
   void join_ranks(const RendererOptions& options);

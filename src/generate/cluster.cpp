@@ -195,9 +195,7 @@ GeneratedSnapshot generate_cluster(const GenerateSettings& settings) {
   GeneratedSnapshot snapshot;
   add_gas(snapshot.gas, around, shares.gas, random);
   add_stars(snapshot.stars, around, shares.stars, random);
-  set_mass(snapshot.gas, gas_mass);
-  set_mass(snapshot.stars, star_mass);
-  find_density(snapshot);
+  set_masses(snapshot, gas_mass, star_mass);
   return snapshot;
 }
 

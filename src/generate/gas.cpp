@@ -22,6 +22,23 @@ std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double
   return {lengths.data(), lengths.data() + lengths.size()};
 }
 
+void set_mass(GeneratedParticles& particles, double total) {
+  if (particles.count() == 0) return;
+  particles.mass = static_cast<float>(total / static_cast<double>(particles.count()));
+}
+
+void find_density(GeneratedSnapshot& snapshot) {
+  for (GeneratedParticles* particles : {&snapshot.gas, &snapshot.stars}) {
+    if (particles->count() == 0) continue;
+    particles->smoothing_length = smoothing_lengths(*particles, snapshot.box_size);
+  }
+  const std::vector<float>& lengths = snapshot.gas.smoothing_length;
+  const Column density = densities_from_smoothing_lengths(
+      Column::uniform(snapshot.gas.mass), Column(nullptr, lengths.data(), lengths.size()),
+      lengths.size());
+  snapshot.gas.density.assign(density.data(), density.data() + density.size());
+}
+
 }  // namespace
 
 ParticleShares share_particles(const GenerateSettings& settings) {
@@ -40,21 +57,10 @@ ParticleShares share_particles(const GenerateSettings& settings) {
   return shares;
 }
 
-void set_mass(GeneratedParticles& particles, double total) {
-  if (particles.count() == 0) return;
-  particles.mass = static_cast<float>(total / static_cast<double>(particles.count()));
-}
-
-void find_density(GeneratedSnapshot& snapshot) {
-  for (GeneratedParticles* particles : {&snapshot.gas, &snapshot.stars}) {
-    if (particles->count() == 0) continue;
-    particles->smoothing_length = smoothing_lengths(*particles, snapshot.box_size);
-  }
-  const std::vector<float>& lengths = snapshot.gas.smoothing_length;
-  const Column density = densities_from_smoothing_lengths(
-      Column::uniform(snapshot.gas.mass), Column(nullptr, lengths.data(), lengths.size()),
-      lengths.size());
-  snapshot.gas.density.assign(density.data(), density.data() + density.size());
+void set_masses(GeneratedSnapshot& snapshot, double of_gas, double of_stars) {
+  set_mass(snapshot.gas, of_gas);
+  set_mass(snapshot.stars, of_stars);
+  find_density(snapshot);
 }
 
 }  // namespace splotchcl

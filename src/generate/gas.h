@@ -14,11 +14,9 @@ struct ParticleShares {
 // range.
 ParticleShares share_particles(const GenerateSettings& settings);
 
-// Shares a mass between the particles.
-void set_mass(GeneratedParticles& particles, double total);
-
-// Fills in smoothing lengths and the gas's density as Gadget relates them: a ball of the
-// smoothing length holds the mass of a fixed number of particles.
-void find_density(GeneratedSnapshot& snapshot);
+// Shares the masses of gas and stars between their particles, and fills in smoothing lengths and
+// the gas's density as Gadget relates them: a ball of the smoothing length holds the mass of a
+// fixed number of particles.
+void set_masses(GeneratedSnapshot& snapshot, double of_gas, double of_stars);
 
 }  // namespace splotchcl

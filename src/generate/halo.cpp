@@ -171,9 +171,7 @@ GeneratedSnapshot generate_halo(const GenerateSettings& settings) {
   GeneratedSnapshot snapshot;
   add_gas(snapshot.gas, all, shares.gas, random);
   add_stars(snapshot.stars, all, shares.stars, random);
-  set_mass(snapshot.gas, gas_mass);
-  set_mass(snapshot.stars, star_mass);
-  find_density(snapshot);
+  set_masses(snapshot, gas_mass, star_mass);
   return snapshot;
 }
 

@@ -185,9 +185,7 @@ GeneratedSnapshot generate_universe(const GenerateSettings& settings) {
 
   const double mean_density = cosmology::baryons * critical_density;
   const double gas_mass = mean_density * box * box * box;
-  set_mass(snapshot.gas, gas_mass);
-  set_mass(snapshot.stars, stars_per_gas * gas_mass);
-  find_density(snapshot);
+  set_masses(snapshot, gas_mass, stars_per_gas * gas_mass);
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const double contrast = static_cast<double>(snapshot.gas.density[i]) / mean_density;
     snapshot.gas.internal_energy.push_back(

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "common/mapped_file.h"
 #include "common/marked_file.h"
@@ -158,7 +159,7 @@ std::filesystem::path SnapshotIndex::path_for(const SnapshotInfo& info) {
 SnapshotIndex SnapshotIndex::make(const Snapshot& snapshot,
                                   const std::function<void(double)>& progress) {
   const SnapshotInfo& info = snapshot.info();
-  if (info.particles_per_drawn != 1 || !has_parts(info)) {
+  if (!is_of_use(info)) {
     throw UsageError(fmt::format(
         "{}: {} cannot be read in parts, expected a whole snapshot of a format that can, such as "
         "Gadget's or HDF5; convert it first (splotchcl convert)",
@@ -170,11 +171,15 @@ SnapshotIndex SnapshotIndex::make(const Snapshot& snapshot,
   return index;
 }
 
+SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
+  SnapshotIndex index;
+  index.types_ = std::move(types);
+  return index;
+}
+
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
-  if (info.particles_per_drawn != 1 || !has_parts(info)) return std::nullopt;
-  const std::filesystem::path path = path_for(info);
-  if (!is_regular(path)) return std::nullopt;
-  const auto file = MappedFile::open(path);
+  if (!is_there(info)) return std::nullopt;
+  const auto file = MappedFile::open(path_for(info));
   Bytes bytes(*file);
   FileHeader header{};
   if (!bytes.take(&header, sizeof header) || header.mark != mark || header.key != key_of(info) ||
@@ -198,9 +203,12 @@ std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
   return index;
 }
 
-bool SnapshotIndex::is_stale(const SnapshotInfo& info) {
-  return has_parts(info) && info.particles_per_drawn == 1 && is_regular(path_for(info)) &&
-         !read(info);
+bool SnapshotIndex::is_of_use(const SnapshotInfo& info) {
+  return info.particles_per_drawn == 1 && has_parts(info);
+}
+
+bool SnapshotIndex::is_there(const SnapshotInfo& info) {
+  return is_of_use(info) && is_regular(path_for(info));
 }
 
 void SnapshotIndex::write(const SnapshotInfo& info) const {

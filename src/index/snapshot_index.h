@@ -32,11 +32,15 @@ class SnapshotIndex {
   // Reads all positions and smoothing lengths. Throws UsageError where a snapshot has no files
   // whose parts can be read alone, as tables of text and NumPy's arrays, or is a part of one.
   static SnapshotIndex make(const Snapshot& snapshot, const std::function<void(double)>& progress);
+  // Of boxes that are known otherwise.
+  static SnapshotIndex of(std::vector<Type> types);
   // That beside the snapshot; none where there is no such file, or it is damaged or of other files.
   static std::optional<SnapshotIndex> read(const SnapshotInfo& info);
 
-  // Whether there is one that read() does not take.
-  static bool is_stale(const SnapshotInfo& info);
+  // Whether a snapshot's files are read in parts, so that an index saves something.
+  static bool is_of_use(const SnapshotInfo& info);
+  // Whether there is one beside the snapshot: stale, where read() does not take it.
+  static bool is_there(const SnapshotInfo& info);
 
   // Throws DataError when the file cannot be written, UsageError when another one is in its place.
   void write(const SnapshotInfo& info) const;

@@ -7,10 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "index/snapshot_index.h"
+#include "load/cell_index.h"
 #include "load/placement.h"
+#include "parallel/available_memory.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 
@@ -20,15 +23,39 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t corners = 8;
 
-using Types = std::vector<const SnapshotIndex::Type*>;
 using Index = std::shared_ptr<const SnapshotIndex>;
+using KnownType = std::shared_ptr<const SnapshotIndex::Type>;
+using Types = std::vector<KnownType>;
 
-// Read once for all frames of a film.
-Index index_of(const Snapshot& snapshot) {
-  return snapshot.memory().get<Index>("index", [&snapshot]() -> Index {
-    auto index = SnapshotIndex::read(snapshot.info());
-    return index ? std::make_shared<const SnapshotIndex>(std::move(*index)) : nullptr;
+// What is known of a snapshot's blocks. Read once for all frames of a film.
+struct KnownBoxes {
+  Index beside;    // null: there is no index beside it, or it is stale
+  Index of_cells;  // then that of its own cells, which may have no type
+};
+
+KnownBoxes known_boxes(const Snapshot& snapshot) {
+  return snapshot.memory().get<KnownBoxes>("index", [&snapshot]() -> KnownBoxes {
+    const SnapshotInfo& info = snapshot.info();
+    if (auto index = SnapshotIndex::read(info))
+      return {std::make_shared<const SnapshotIndex>(std::move(*index)), nullptr};
+    if (!SnapshotIndex::is_of_use(info)) return {};
+    return {nullptr, std::make_shared<const SnapshotIndex>(index_of_cells(snapshot))};
   });
+}
+
+// Cells do not tell how large particles are: their smoothing lengths are read before. That pays
+// where the columns are so large that they are read in parts, and what is out of view is not.
+KnownType with_smoothing_lengths(const SnapshotIndex::Type& type, const Snapshot& snapshot) {
+  return snapshot.memory().get<KnownType>(
+      "index with lengths " + std::to_string(type.type), [&]() -> KnownType {
+        const ParticleTypeInfo* const info = snapshot.info().find_type(type.type);
+        const FieldInfo* const length = find_field(*info, "smoothing_length");
+        const bool pays = is_too_large_to_copy(3 * sizeof(float) * type.count);
+        if (length == nullptr || length->file_name.empty() || !pays) return nullptr;
+        auto known = std::make_shared<SnapshotIndex::Type>(type);
+        add_smoothing_lengths(snapshot.read(type.type, length->name), *known);
+        return known;
+      });
 }
 
 // Blocks of the component, whose particles are those of all types.
@@ -36,7 +63,7 @@ ParticleBoxes joined(const Types& types) {
   ParticleBoxes all;
   all.block_particles = SnapshotIndex::block_particles;
   std::uint64_t first = 0;  // particle of the component
-  for (const SnapshotIndex::Type* const type : types) {
+  for (const KnownType& type : types) {
     const ParticleBoxes own = {SnapshotIndex::block_particles, type->boxes};
     const std::uint64_t end = first + type->count;
     for (std::uint64_t begin = first; begin < end;) {
@@ -57,18 +84,25 @@ ParticleBoxes joined(const Types& types) {
   return all;
 }
 
+// Null where it is not known where its particles are, or how large.
+KnownType known_type(const Component& component, const Snapshot& snapshot, int type) {
+  const KnownBoxes boxes = known_boxes(snapshot);
+  const Index& index = boxes.beside ? boxes.beside : boxes.of_cells;
+  const SnapshotIndex::Type* const known = index ? index->find(type) : nullptr;
+  if (known == nullptr) return nullptr;
+  if (component.size_fixed) return {index, known};
+  if (canonical_field_name(component.size_field) != "smoothing_length") return nullptr;
+  if (known->has_smoothing_lengths) return {index, known};
+  return boxes.beside ? nullptr : with_smoothing_lengths(*known, snapshot);
+}
+
 std::optional<ParticleBoxes> boxes_as_stored(const Component& component, const Snapshot& snapshot,
                                              const std::vector<int>& types) {
-  const Index index = index_of(snapshot);
-  if (!index) return std::nullopt;
-  const bool is_of_file = canonical_field_name(component.size_field) == "smoothing_length";
   Types found;
   for (const int type : types) {
-    const SnapshotIndex::Type* const known = index->find(type);
-    const bool tells =
-        known != nullptr && (component.size_fixed || (is_of_file && known->has_smoothing_lengths));
-    if (!tells) return std::nullopt;
-    found.push_back(known);
+    KnownType known = known_type(component, snapshot, type);
+    if (!known) return std::nullopt;
+    found.push_back(std::move(known));
   }
   ParticleBoxes boxes = joined(found);
   if (component.size_fixed) {
@@ -111,7 +145,7 @@ void surround(const Column& placed, std::vector<ParticleBox>& boxes) {
 }  // namespace
 
 std::string tell_stale_index(const Snapshot& snapshot) {
-  if (index_of(snapshot) || !SnapshotIndex::is_stale(snapshot.info())) return {};
+  if (known_boxes(snapshot).beside || !SnapshotIndex::is_there(snapshot.info())) return {};
   return fmt::format(
       "{} is not of the files beside it and is not used; splotchcl index makes it anew",
       SnapshotIndex::path_for(snapshot.info()).string());

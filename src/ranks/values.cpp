@@ -33,4 +33,13 @@ std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own) {
   return *std::min_element(values.begin(), values.end());
 }
 
+void add_up(Communicator& ranks, const std::vector<std::uint64_t*>& counts) {
+  std::vector<std::uint64_t> sums;
+  for (const std::uint64_t* const count : counts)
+    sums.push_back(*count);
+  ranks.add_up(sums);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    *counts[i] = sums[i];
+}
+
 }  // namespace splotchcl

@@ -16,6 +16,9 @@ std::vector<std::uint64_t> gather_values(Communicator& ranks, std::uint64_t own)
 std::vector<std::string> gather_texts(Communicator& ranks, const std::string& own);
 std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own);
 
+// Each of these becomes the sum of all ranks'.
+void add_up(Communicator& ranks, const std::vector<std::uint64_t*>& counts);
+
 // The root's, at every rank; of any length.
 template <class T>
 void broadcast_values(Communicator& ranks, std::vector<T>& values, int root = 0) {

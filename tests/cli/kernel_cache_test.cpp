@@ -1,9 +1,13 @@
-// Kernels kept from run to run: what is damaged, or may come from others, is compiled again.
+// Kernels kept from run to run: what is damaged, or may come from others, is compiled again. Of
+// those that are missing other processes compile some.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "cli/program.h"
 
@@ -11,6 +15,7 @@ namespace splotchcl::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class KernelCache : public ::testing::Test {
  protected:
@@ -59,6 +64,64 @@ TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
   std::filesystem::create_directory(folder_ / "kernels");
   std::filesystem::permissions(folder_ / "kernels", std::filesystem::perms::all);
   EXPECT_THAT(draw("a.png").err, HasSubstr("may be written to by others"));
+}
+
+// Draws in the background, and does `with_child` as soon as $parent has started a $child. Exit code
+// 98: it has started none.
+std::string while_compiling(const std::string& with_child) {
+  return "mkdir pocl && export POCL_CACHE_DIR=\"$PWD/pocl\" SPLOTCHCL_CACHE=\"$PWD/kernels\"\n"
+         "\"$splotchcl\" render h --set 'image.size=[32,24]' -o a.png & parent=$!\n"
+         "child=; while [ -z \"$child\" ]; do\n"
+         "  kill -0 $parent 2>/dev/null || exit 98\n"
+         "  child=$(cat /proc/$parent/task/*/children 2>/dev/null | tr -d ' ')\n"
+         "  sleep 0.01\n"
+         "done\n" +
+         with_child;
+}
+
+class KernelCompilers : public KernelCache {
+ protected:
+  void SetUp() override {
+    KernelCache::SetUp();
+    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "only on several cores";
+  }
+};
+
+TEST_F(KernelCompilers, ThatAreKilledAreDoneWithout) {
+  const ProgramResult result =
+      run_in(folder_, while_compiling("kill -KILL $child; wait $parent || exit 97"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("compil")));
+  ASSERT_EQ(draw("b.png").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
+}
+
+// Ended, or a zombie that nobody has to wait for any more.
+TEST_F(KernelCompilers, DoNotOutliveTheProcessThatStartedThem) {
+  const ProgramResult result =
+      run_in(folder_, while_compiling("kill -KILL $parent; for i in $(seq 500); do\n"
+                                      "  state=$(sed 's/.*) //' /proc/$child/stat 2>/dev/null)\n"
+                                      "  case \"$state\" in ''|Z*) exit 0;; esac; sleep 0.02\n"
+                                      "done; exit 96"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(KernelCompilers, DoNotNeedAFolderThatCanBeWrittenTo) {
+  std::ofstream(folder_ / "file") << "no folder";
+  const std::string command =
+      "mkdir pocl && POCL_CACHE_DIR=\"$PWD/pocl\" SPLOTCHCL_CACHE=\"$PWD/file/kernels\" "
+      "\"$splotchcl\" render h --set 'image.size=[32,24]' -o a.png";
+  const ProgramResult result = run_in(folder_, command);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(draw("b.png").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
+}
+
+TEST_F(KernelCompilers, SayWhatTheyAreForWhenAUserStartsOne) {
+  const ProgramResult result = splotchcl_in(folder_, "compile-for-another");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("expected to be started by another splotchcl"));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
                                const std::vector<float>& x) {
     std::string defines = "#define FUNCTION " + function + "\n#define ELLIPSES\n";
     if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
-    const compute::program program =
+    const Program program =
         device().programs.get({defines,
                                {"splat.h", "project.h", "common.cl", "lanes.cl", "precise.cl",
                                 "extended.cl", "extended_angle.cl", "wide_angle_extended.cl"},

@@ -26,7 +26,7 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
   std::vector<float> evaluate(const std::string& function, const std::string& defines,
                               const std::vector<float>& x) {
     const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
-    const compute::program program =
+    const Program program =
         device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
                                {"splat.h", "common.cl", "lanes.cl", "shape.cl"},
                                kernel});
@@ -81,7 +81,7 @@ class DoubleLanes : public StageTest {
   // The largest part of itself by which `function` errs at these.
   double largest_part(const std::string& function, const std::vector<float>& x,
                       const std::function<double(double)>& exact) {
-    const compute::program program = device().programs.get(
+    const Program program = device().programs.get(
         {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n",
          {"double_lanes.cl"},
          R"(

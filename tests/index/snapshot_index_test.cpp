@@ -86,10 +86,11 @@ TEST_F(Index, GivesABlockWithABadParticleNoEnd) {
 TEST_F(Index, IsReadAsItWasWritten) {
   const auto snapshot = write(long_row());
   const SnapshotIndex made = SnapshotIndex::make(*snapshot, {});
+  EXPECT_FALSE(SnapshotIndex::is_there(snapshot->info()));
   made.write(snapshot->info());
   const auto read = SnapshotIndex::read(snapshot->info());
   ASSERT_TRUE(read);
-  EXPECT_FALSE(SnapshotIndex::is_stale(snapshot->info()));
+  EXPECT_TRUE(SnapshotIndex::is_there(snapshot->info()));
   const SnapshotIndex::Type* const gas = read->find(0);
   ASSERT_NE(gas, nullptr);
   EXPECT_EQ(read->find(4), nullptr);
@@ -103,7 +104,7 @@ TEST_F(Index, IsNotUsedOnceAFileHasChanged) {
   const auto time = std::filesystem::last_write_time(folder_ / "row");
   std::filesystem::last_write_time(folder_ / "row", time + std::chrono::seconds(1));
   EXPECT_FALSE(SnapshotIndex::read(snapshot->info()));
-  EXPECT_TRUE(SnapshotIndex::is_stale(snapshot->info()));
+  EXPECT_TRUE(SnapshotIndex::is_there(snapshot->info()));
   std::filesystem::last_write_time(folder_ / "row", time);
   EXPECT_TRUE(SnapshotIndex::read(snapshot->info()));
 }

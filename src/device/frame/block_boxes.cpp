@@ -45,7 +45,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   const std::size_t count =
       (particles.count + p.block_particles - 1) / std::size_t{p.block_particles};
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
-  const compute::program program =
+  const Program program =
       device.programs.get(Specialization::boxes(device.traits.rows, has_own_colors));
   Launch launch(device, "boxes", program.create_kernel("find_boxes"));
   pass_columns(launch.value(p), buffers);

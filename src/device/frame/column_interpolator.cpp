@@ -48,8 +48,7 @@ shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColu
 }
 
 Launch launch_of(DeviceContext& device, const char* kernel) {
-  const compute::program program =
-      device.programs.get(Specialization::interpolate(device.traits.rows));
+  const Program program = device.programs.get(Specialization::interpolate(device.traits.rows));
   return Launch(device, "interpolate", program.create_kernel(kernel));
 }
 

@@ -15,6 +15,7 @@ class BinaryCache {
   // Without a folder nothing is found and nothing kept; nor in one that belongs to another user
   // or that others may write to.
   explicit BinaryCache(std::optional<std::filesystem::path> folder);
+  bool is_used() const { return folder_.has_value(); }
   // Why the folder is not used; empty: it is, or there is none.
   const std::string& note() const { return note_; }
 

@@ -16,6 +16,9 @@ namespace splotchcl {
 // it is number `which`, round and round.
 compute::device choose_device(const std::string& part_of_name, int which = 0);
 
+// Its platform's name and its own, of which users may write a part.
+std::string full_name_of(const compute::device& device);
+
 // What may be in use at one time, in bytes.
 struct DeviceMemory {
   std::uint64_t total = 0;    // of working memory: planes, splats, keys, lists

@@ -59,6 +59,10 @@ compute::device one_like(const compute::device& first, const std::vector<compute
 
 }  // namespace
 
+std::string full_name_of(const compute::device& device) {
+  return device.platform().name() + " " + device.name();
+}
+
 std::string no_device_advice() {
   return "no OpenCL device found, expected at least one: install PoCL, which runs on any "
          "processor (Debian: apt-get install pocl-opencl-icd), or the OpenCL driver of your GPU";
@@ -87,8 +91,8 @@ compute::device choose_device(const std::string& part_of_name, int which) {
   if (part_of_name.empty()) return one_like(devices[default_index(devices)], devices, which);
   const std::string wanted = lower(part_of_name);
   for (const compute::device& device : devices) {
-    const std::string name = lower(device.platform().name() + " " + device.name());
-    if (name.find(wanted) != std::string::npos) return one_like(device, devices, which);
+    if (lower(full_name_of(device)).find(wanted) != std::string::npos)
+      return one_like(device, devices, which);
   }
   throw UsageError("--device: found '" + part_of_name +
                    "', expected a part of the name of one of: " + names_of(devices));

@@ -1,101 +1,148 @@
 #include "device/opencl/program_cache.h"
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "device/opencl/device_context.h"
+#include "device/opencl/program_build.h"
 #include "device/opencl/runtime_lock.h"
+#include "device/opencl/shared_work.h"
 #include "splotchcl/error.h"
-#include "splotchcl_embedded/kernels.h"
 
 namespace splotchcl {
 namespace {
 
-std::string kernel_text(const std::string& name) {
-  for (const embedded::TextFile& file : embedded::kernels()) {
-    if (name == file.name) return std::string(file.text);
-  }
-  throw DeviceError("kernel source " + name + " is not part of this build");
-}
-
-// Relaxed math is unfit for keys and for expm1: no flags.
-constexpr char build_options[] = "";
-
 // All that the compiled program depends on; a platform's version names its compiler's.
-std::string key_of(const compute::device& device, const std::string& source) {
+std::string key_of(const compute::device& device, const ProgramText& text) {
   return device.platform().version() + '\n' + device.name() + '\n' + device.driver_version() +
-         '\n' + build_options + '\n' + source;
+         '\n' + text.options + '\n' + text.source;
 }
 
-std::string text_of(const ProgramSource& source) {
-  std::string text = source.defines;
-  for (const std::string& file : source.files)
-    text += kernel_text(file);
-  return text + source.more;
+std::size_t count_of(const std::string& word, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++count;
+  return count;
 }
 
-std::string names_of(const ProgramSource& source) {
-  std::string names;
-  for (const std::string& file : source.files)
-    names += (names.empty() ? "" : " + ") + file;
-  return names;
+// How long compiling takes beside other programs: each kernel is linked by itself.
+std::size_t work_of(const ProgramText& text) {
+  constexpr std::size_t bytes_of_linking = 10000;
+  return text.source.size() + bytes_of_linking * count_of("__kernel void", text.source);
 }
 
-compute::program build(const compute::context& context, const std::string& text,
-                       const std::string& names) {
-  compute::program program = compute::program::create_with_source(text, context);
-  try {
-    program.build(build_options);
-  } catch (const compute::opencl_error& error) {
-    throw DeviceError("device " + context.get_device().name() + " cannot compile " + names + ": " +
-                      error.error_string() +
-                      "; see that there is memory and room in the folder for temporary files, or "
-                      "choose another device: " +
-                      program.build_log());
+// Adds its life to `seconds`.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  return program;
-}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
 
-// Empty where the driver has none to give.
-std::string binary_of(const compute::program& program) {
-  try {
-    const std::vector<unsigned char> binary = program.binary();
-    return std::string(binary.begin(), binary.end());
-  } catch (const compute::opencl_error&) {
-    return {};
-  }
-}
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
-// A driver may refuse what an earlier run left, for reasons of its own.
-std::optional<compute::program> ProgramCache::restore(const std::string& key) {
-  const std::optional<std::string> binary = binaries_.find(key);
-  if (!binary) return std::nullopt;
-  try {
-    compute::program program = compute::program::create_with_binary(
-        reinterpret_cast<const unsigned char*>(binary->data()), binary->size(), context_);
-    program.build(build_options);
-    return program;
-  } catch (const compute::opencl_error&) {
-    return std::nullopt;
-  }
+compute::kernel Program::create_kernel(const std::string& name) const {
+  return cache_->compiled(*entry_).create_kernel(name);
 }
 
-compute::program ProgramCache::get(const ProgramSource& source) {
-  const std::string text = text_of(source);
-  const std::string key = key_of(context_.get_device(), text);
+Program ProgramCache::get(const ProgramSource& source) {
+  const compute::device device = context_.get_device();
+  const bool is_short = is_pocl(device);
+  ProgramText text = is_short ? short_text_of(source) : text_of(source);
+  std::string key = key_of(device, text);
   const auto found = programs_.find(key);
-  if (found != programs_.end()) return found->second;
+  if (found != programs_.end()) return Program(*this, found->second);
+  Entry entry;
+  entry.key = key;
+  entry.names = names_of(source);
+  entry.text = std::move(text);
+  if (is_short) entry.fallback = text_of(source);
+  return Program(*this, programs_.emplace(std::move(key), std::move(entry)).first->second);
+}
 
+const compute::program& ProgramCache::compiled(Entry& entry) {
+  if (entry.compiled) return *entry.compiled;
   const auto lock = lock_runtime();
-  const auto start = std::chrono::steady_clock::now();
-  std::optional<compute::program> program = restore(key);
-  if (!program) {
-    program = build(context_, text, names_of(source));
-    binaries_.keep(key, binary_of(*program));
+  const Stopwatch stopwatch(build_seconds_);
+  if (!restore(entry)) build(entry);
+  return *entry.compiled;
+}
+
+void ProgramCache::compile_all() {
+  std::vector<Entry*> missing;
+  const auto lock = lock_runtime();
+  const Stopwatch stopwatch(build_seconds_);
+  for (auto& [key, entry] : programs_) {
+    if (!entry.compiled && !restore(entry)) missing.push_back(&entry);
   }
-  build_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  programs_.emplace(key, *program);
-  return *program;
+  build_together(missing);
+}
+
+bool ProgramCache::restore(Entry& entry) {
+  const std::optional<std::string> binary = binaries_.find(entry.key);
+  if (binary) entry.compiled = program_of_binary(context_, entry.text.options, *binary);
+  return entry.compiled.has_value();
+}
+
+void ProgramCache::build(Entry& entry) {
+  has_built_ = true;
+  try {
+    entry.compiled = build_program(context_, entry.text, entry.names);
+  } catch (const DeviceError&) {
+    if (!entry.fallback) throw;
+    entry.compiled = build_program(context_, *entry.fallback, entry.names);
+  }
+  binaries_.keep(entry.key, binary_of(*entry.compiled));
+}
+
+// A compiler takes half a second to start, as long as three programs or four.
+std::size_t ProgramCache::compilers_for(std::size_t programs) const {
+  const compute::device device = context_.get_device();
+  if (!start_compiler_ || !binaries_.is_used() || has_built_ || !is_pocl(device)) return 0;
+  const std::size_t cores = std::min(std::size_t{device.compute_units()},
+                                     std::size_t{std::thread::hardware_concurrency()});
+  if (programs < 3 || cores < 2) return 0;
+  return std::min(cores - 1, (programs - 1) / 2);
+}
+
+void ProgramCache::build_together(std::vector<Entry*> missing) {
+  std::sort(missing.begin(), missing.end(),
+            [](const Entry* a, const Entry* b) { return work_of(a->text) > work_of(b->text); });
+  const std::string device = full_name_of(context_.get_device());
+  std::vector<std::string> binaries(missing.size());
+  std::vector<std::unique_ptr<ProgramCompiler>> compilers;
+  std::vector<std::function<bool(std::size_t)>> elsewhere;
+  for (std::size_t i = compilers_for(missing.size()); i > 0; --i) {
+    compilers.push_back(start_compiler_());
+    if (!compilers.back()) break;
+    elsewhere.emplace_back([&, compiler = compilers.back().get()](std::size_t program) {
+      const ProgramText& text = missing[program]->text;
+      binaries[program] = compiler->compile({device, text.options, text.source});
+      return !binaries[program].empty();
+    });
+  }
+  share_work(
+      missing.size(), [&](std::size_t program) { build(*missing[program]); }, elsewhere);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    Entry& entry = *missing[i];
+    if (entry.compiled) continue;
+    entry.compiled = program_of_binary(context_, entry.text.options, binaries[i]);
+    if (entry.compiled)
+      binaries_.keep(entry.key, binaries[i]);
+    else
+      build(entry);
+  }
 }
 
 }  // namespace splotchcl

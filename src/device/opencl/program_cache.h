@@ -1,22 +1,41 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/opencl/binary_cache.h"
 #include "device/opencl/opencl.h"
+#include "device/opencl/program_text.h"
+#include "splotchcl/program_compiler.h"
 
 namespace splotchcl {
 
-// What a program is made of: lines of #defines, then files in kernels/ in their order, and
-// source that is no file (tests). Sources are put together rather than included, so that
-// every cache sees every change.
-struct ProgramSource {
-  std::string defines;
-  std::vector<std::string> files;
-  std::string more = {};
+class ProgramCache;
+
+// A program that has been asked for, which is compiled when a kernel of it is first needed, or with
+// others before (ProgramCache::compile_all). As long-lived as its cache.
+class Program {
+ public:
+  Program() = default;
+  // Throws DeviceError with the compiler's first message.
+  compute::kernel create_kernel(const std::string& name) const;
+
+ private:
+  friend class ProgramCache;
+  struct Entry {
+    std::string key, names;
+    ProgramText text;
+    std::optional<ProgramText> fallback;  // where the compiler does not take the text
+    std::optional<compute::program> compiled;
+  };
+  Program(ProgramCache& cache, Entry& entry) : cache_(&cache), entry_(&entry) {}
+
+  ProgramCache* cache_ = nullptr;
+  Entry* entry_ = nullptr;
 };
 
 // Compiled programs of one context, keyed on device, driver, options and source.
@@ -25,20 +44,34 @@ class ProgramCache {
  public:
   explicit ProgramCache(const compute::context& context)
       : context_(context), binaries_(BinaryCache::user_folder()) {}
+  ProgramCache(const ProgramCache&) = delete;
+  ProgramCache& operator=(const ProgramCache&) = delete;
 
-  // Throws DeviceError with the compiler's first message.
-  compute::program get(const ProgramSource& source);
+  Program get(const ProgramSource& source);
+  // What has been asked for and not been compiled yet. Many that no earlier run has compiled are
+  // shared out to other processes, if there is a way to start them. Throws as create_kernel.
+  void compile_all();
+  void use_compilers(StartCompiler start_compiler) { start_compiler_ = std::move(start_compiler); }
 
   double build_seconds() const { return build_seconds_; }
   // Why compiled programs are not kept from run to run; empty: they are, or need not be.
   const std::string& note() const { return binaries_.note(); }
 
  private:
-  std::optional<compute::program> restore(const std::string& key);
+  friend class Program;
+  using Entry = Program::Entry;
+
+  const compute::program& compiled(Entry& entry);
+  bool restore(Entry& entry);
+  void build(Entry& entry);
+  void build_together(std::vector<Entry*> missing);
+  std::size_t compilers_for(std::size_t programs) const;
 
   compute::context context_;
   BinaryCache binaries_;
-  std::map<std::string, compute::program> programs_;
+  std::map<std::string, Entry> programs_;
+  StartCompiler start_compiler_;
+  bool has_built_ = false;  // so that PoCL's library has been read
   double build_seconds_ = 0;
 };
 

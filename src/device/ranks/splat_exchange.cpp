@@ -29,12 +29,10 @@ SplatExchange::SplatExchange(const StageContext& context, const Projector& proje
 
 void SplatExchange::count_keys() {
   const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
-  const ParticleCounts& own = counter_.particles();
-  std::vector<std::uint64_t> sums = {own.visible, own.bad, own.too_sharp, own.around,
-                                     counter_.left_out()};
-  ranks_.all.add_up(sums);
-  counts_ = {sums[0], sums[1], sums[2], sums[3]};
-  left_out_ = sums[4];
+  counts_ = counter_.particles();
+  left_out_ = counter_.left_out();
+  add_up(ranks_.all,
+         {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});
   if (counts_.too_sharp > 0) return;
   capacity_ = smallest_of(ranks_.all, splat_capacity(context_));
   slices_ = cut_in_slices(

@@ -54,7 +54,7 @@ class Binner {
 
   const StageContext& context_;
   shared::BinParameters parameters_{};
-  compute::program program_;
+  Program program_;
   std::optional<GroupBinner> groups_;  // does the work in its shape
   std::uint64_t entry_capacity_ = 0;
   Buffer<std::uint32_t> no_order_;         // stand for what a variant of the kernels

@@ -7,7 +7,7 @@ namespace splotchcl {
 void carry_splats(const StageContext& context, const SortedSplats& sorted, std::uint32_t first,
                   const KeyedSplats& keyed) {
   DeviceContext& device = context.device;
-  const compute::program program = device.programs.get(Specialization::carry());
+  const Program program = device.programs.get(Specialization::carry());
   const auto copy = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
                         std::size_t splat_bytes) {
     Launch(device, "sort", program.create_kernel("carry_splats"))

@@ -33,7 +33,7 @@ class Certifier {
 
   const StageContext& context_;
   shared::CertifyParameters parameters_{};
-  compute::program program_;
+  Program program_;
   Buffer<float> cells_;  // none: not started
   bool has_started() const { return cells_.size() > 0; }
 };

@@ -22,7 +22,7 @@ class Compositor {
  private:
   // The kernels for some of the segments: of an ordered plan's coarse grids they add up.
   struct Kernels {
-    compute::program composite;
+    Program composite;
     const CloudTables* clouds = nullptr;
   };
   // The segments from `first` on.

@@ -30,7 +30,7 @@ class GroupBinner {
                    const shared::GroupBinParameters& parameters) const;
 
   const StageContext& context_;
-  compute::program program_;
+  Program program_;
   GroupScan scan_;
   GroupSorter sorter_;
 };

@@ -19,7 +19,7 @@ class GroupScan {
 
  private:
   DeviceContext& device_;
-  compute::program program_;
+  Program program_;
   Buffer<std::uint32_t> nothing_;  // what is before the first stretch
 };
 

@@ -66,7 +66,7 @@ class GroupSorter {
 
   DeviceContext& device_;
   GroupScan scan_;
-  compute::program program_;
+  Program program_;
 };
 
 }  // namespace splotchcl

@@ -75,7 +75,7 @@ Projector::Projector(const StageContext& context)
       width_needs_(upload_needs()),
       unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
       unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
-  // Compiled, or found compiled, before the device has work to do.
+  // Asked for, so that they are compiled with those of other stages.
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
   if (!rows) scan_.emplace(context.device);
@@ -135,7 +135,7 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   DeviceContext& device = context_.device;
   parameters.leaves_out_blocks = !left_out.empty();
   const Buffer<std::uint32_t> left_out_buffer = device.pool.upload(left_out, "blocks out of view");
-  const compute::program program = device.programs.get(context_.specialization.project(output));
+  const Program program = device.programs.get(context_.specialization.project(output));
   Launch launch(device, "project", program.create_kernel("project"));
   const DrawnComponent& component = context_.frame.components[parameters.component];
   launch.value(parameters).value(make_extended_parameters(context_, component));

@@ -43,7 +43,7 @@ class Resolver {
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
-  compute::program program_, grids_program_, slab_program_;
+  Program program_, grids_program_, slab_program_;
 };
 
 }  // namespace splotchcl

@@ -30,8 +30,12 @@ shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted
 
 }  // namespace
 
-Sorter::Sorter(DeviceContext& device) : device_(device) {
-  if (!device.traits.rows) groups_.emplace(device);
+Sorter::Sorter(DeviceContext& device, bool is_used) : device_(device) {
+  if (!is_used) return;
+  if (device.traits.rows)
+    device.programs.get(Specialization::sort());  // asked for, with those of other stages
+  else
+    groups_.emplace(device);
 }
 
 Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
@@ -44,7 +48,7 @@ Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_
   auto from = std::make_pair(std::move(keys), std::move(values));
   auto to = std::make_pair(pool.get<std::uint32_t>(count, "sort keys"),
                            pool.get<std::uint32_t>(count, "order"));
-  const compute::program program = device_.programs.get(Specialization::sort());
+  const Program program = device_.programs.get(Specialization::sort());
   std::uint32_t differing = ~0u;  // until the first pass has seen the keys
   for (std::uint32_t shift = 0; shift < 32; shift += SORT_DIGIT_BITS) {
     // A digit that all keys share needs no pass.
@@ -89,7 +93,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
                                    const Buffer<std::uint16_t>& ends, std::uint32_t count) const {
   shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
   const auto bits = device_.pool.get<shared::KeyBits>(parameters.block_count, "key bits");
-  const compute::program program = device_.programs.get(Specialization::sort());
+  const Program program = device_.programs.get(Specialization::sort());
   Launch(device_, "sort", program.create_kernel("sort_bits"))
       .value(parameters)
       .arg(keys)

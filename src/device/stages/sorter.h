@@ -12,7 +12,7 @@ namespace splotchcl {
 // Stable radix sort of (key, value) pairs on the device: the stage `sort`.
 class Sorter {
  public:
-  explicit Sorter(DeviceContext& device);
+  explicit Sorter(DeviceContext& device, bool is_used = true);
 
   // The splats in the order of ascending keys.
   SortedSplats sort(KeyedSplats keyed) const;

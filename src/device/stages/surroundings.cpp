@@ -115,7 +115,7 @@ std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
-  const compute::program program = device.programs.get(context_.specialization.list_around());
+  const Program program = device.programs.get(context_.specialization.list_around());
   Launch launch(device, "surroundings", program.create_kernel("list_around"));
   pass_columns(launch.value(p), particles).arg(listed).value(static_cast<cl_uint>(capacity));
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);

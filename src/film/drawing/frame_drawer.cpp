@@ -124,6 +124,7 @@ struct FrameDrawer::State {
       of_renderer.columns_stay = options.columns_stay;
       of_renderer.memory_bytes = options.memory_bytes;
       of_renderer.ranks = options.ranks;
+      of_renderer.start_compiler = options.start_compiler;
       of_renderer.progress = [this](double fraction) {
         if (progress) progress("drawing", fraction);
       };

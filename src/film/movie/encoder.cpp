@@ -17,7 +17,7 @@
 #include <system_error>
 
 #include "common/words.h"
-#include "film/movie/child_process.h"
+#include "common/child_process.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

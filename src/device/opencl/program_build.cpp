@@ -1,0 +1,46 @@
+#include "device/opencl/program_build.h"
+
+#include <vector>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+
+compute::program build_program(const compute::context& context, const ProgramText& text,
+                               const std::string& names) {
+  compute::program program = compute::program::create_with_source(text.source, context);
+  try {
+    program.build(text.options);
+  } catch (const compute::opencl_error& error) {
+    throw DeviceError("device " + context.get_device().name() + " cannot compile " + names + ": " +
+                      error.error_string() +
+                      "; see that there is memory and room in the folder for temporary files, or "
+                      "choose another device: " +
+                      program.build_log());
+  }
+  return program;
+}
+
+std::optional<compute::program> program_of_binary(const compute::context& context,
+                                                  const std::string& options,
+                                                  const std::string& binary) {
+  try {
+    compute::program program = compute::program::create_with_binary(
+        reinterpret_cast<const unsigned char*>(binary.data()), binary.size(), context);
+    program.build(options);
+    return program;
+  } catch (const compute::opencl_error&) {
+    return std::nullopt;
+  }
+}
+
+std::string binary_of(const compute::program& program) {
+  try {
+    const std::vector<unsigned char> binary = program.binary();
+    return std::string(binary.begin(), binary.end());
+  } catch (const compute::opencl_error&) {
+    return {};
+  }
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/opencl/opencl.h"
+
+namespace splotchcl {
+
+// What a program is made of: lines of #defines, then files in kernels/ in their order, and
+// source that is no file (tests). Sources are put together rather than included, so that
+// every cache sees every change.
+struct ProgramSource {
+  std::string defines;
+  std::vector<std::string> files;
+  std::string more = {};
+};
+
+// The same as a compiler takes it.
+struct ProgramText {
+  std::string options, source;
+};
+
+// Throws DeviceError for files that are not part of this build.
+ProgramText text_of(const ProgramSource& source);
+
+// The same for PoCL, which is told not to read the 16000 lines with which it declares the language
+// before each program: they take longer than all else of reading it. The program declares what it
+// uses. What is compiled has the same bits.
+ProgramText short_text_of(const ProgramSource& source);
+
+bool is_pocl(const compute::device& device);
+
+// Its files, for messages.
+std::string names_of(const ProgramSource& source);
+
+}  // namespace splotchcl

@@ -1,0 +1,102 @@
+// Programs that declare the language's functions themselves (kernels/common/builtins.h).
+#include "device/opencl/program_text.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "device/opencl/launch.h"
+#include "device/opencl/program_build.h"
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+std::vector<ProgramSource> programs_of(const Specialization& variant) {
+  std::vector<ProgramSource> programs = {variant.bin(), variant.composite(), variant.list_around(),
+                                         variant.behind(), variant.resolve()};
+  for (const ProjectOutput output :
+       {ProjectOutput::counts, ProjectOutput::splats, ProjectOutput::splats_and_keys,
+        ProjectOutput::key_counts, ProjectOutput::window_counts, ProjectOutput::window_splats})
+    programs.push_back(variant.project(output));
+  if (variant.is_extended()) return programs;
+  if (variant.is_ordered()) programs.push_back(variant.composite_with_clouds());
+  for (const ProgramSource& program :
+       {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify()})
+    programs.push_back(program);
+  return programs;
+}
+
+std::vector<ProgramSource> programs_of_all_frames() {
+  return {Specialization::interpolate(true),
+          Specialization::interpolate(false),
+          Specialization::boxes(true, true),
+          Specialization::boxes(false, false),
+          Specialization::scan_blocks(),
+          Specialization::compact(),
+          Specialization::sort(),
+          Specialization::sort_groups(),
+          Specialization::carry(),
+          Specialization::scan(),
+          Specialization::coarse_grids(),
+          Specialization::add_light(),
+          Specialization::lay_slab()};
+}
+
+class ShortTexts : public StageTest {
+ protected:
+  static void expect_compiled(const std::vector<ProgramSource>& programs) {
+    for (const ProgramSource& program : programs) {
+      EXPECT_NO_THROW(build_program(device().context, short_text_of(program), names_of(program)))
+          << program.defines;
+    }
+  }
+  static std::vector<Frame> frames() {
+    const Absorption none{Absorption::Kind::none, 0}, gray{Absorption::Kind::gray, 1};
+    return {small_frame(none, 1e-3, Projection::perspective),
+            small_frame(gray, 1e-5, Projection::perspective),
+            small_frame(gray, 0, Projection::perspective),
+            small_frame(gray, 1e-3, Projection::fisheye)};
+  }
+  static Frame small_frame(const Absorption& absorption, double tolerance, Projection projection) {
+    Frame frame = frame_of(32, 16, {component_of({{0, 0, 1, 1, 1}}, two_colors())});
+    frame.components.front().absorption = absorption;
+    frame.tolerance = tolerance;
+    frame.projection = projection;
+    frame.through_clouds = true;
+    return frame;
+  }
+};
+
+TEST_F(ShortTexts, DeclareAllThatKernelsCall) {
+  if (!is_pocl(device().device)) GTEST_SKIP() << "other compilers get the whole text";
+  expect_compiled(programs_of_all_frames());
+  std::set<std::string> compiled;
+  for (const bool rows : {true, false}) {
+    DeviceTraits traits = device().traits;
+    choose_shape(traits, rows);
+    for (const Frame& frame : frames()) {
+      const FramePlan plan = make_plan(frame);
+      std::vector<ProgramSource> programs;
+      for (const ProgramSource& program : programs_of(Specialization(frame, plan, traits))) {
+        if (compiled.insert(text_of(program).source).second) programs.push_back(program);
+      }
+      expect_compiled(programs);
+    }
+  }
+}
+
+TEST_F(ShortTexts, ThatDoNotCompileAreReplacedByWholeOnes) {
+  ProgramSource source;
+  source.more = "__kernel void root(__global float* x) { *x = cbrt(27.0f); }";
+  const auto result = device().pool.get<float>(1, "root");
+  Launch(device(), "test", device().programs.get(source).create_kernel("root"))
+      .arg(result)
+      .run_items(1);
+  EXPECT_FLOAT_EQ(device().pool.download(result, 1).front(), 3);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
