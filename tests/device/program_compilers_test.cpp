@@ -106,6 +106,14 @@ TEST_F(ProgramCompilers, ThatAnswerWithNonsenseAreDoneWithout) {
             draw_alone().pixels);
 }
 
+TEST_F(ProgramCompilers, ThatThrowAreDoneWithout) {
+  class Thrower : public ProgramCompiler {
+    std::string compile(const ProgramToCompile&) override { throw std::runtime_error("thrown"); }
+  };
+  EXPECT_EQ(draw_in_new_folder([] { return std::make_unique<Thrower>(); }).pixels,
+            draw_alone().pixels);
+}
+
 TEST_F(ProgramCompilers, ThatCannotBeStartedAreDoneWithout) {
   EXPECT_EQ(draw_in_new_folder([] { return nullptr; }).pixels, draw_alone().pixels);
 }

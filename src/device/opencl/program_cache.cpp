@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -33,6 +35,16 @@ std::size_t count_of(const std::string& word, const std::string& text) {
 std::size_t work_of(const ProgramText& text) {
   constexpr std::size_t bytes_of_linking = 10000;
   return text.source.size() + bytes_of_linking * count_of("__kernel void", text.source);
+}
+
+// Empty where there is none. Called in threads of their own, which no exception must leave.
+std::string binary_by(ProgramCompiler& compiler, const std::string& device,
+                      const ProgramText& text) {
+  try {
+    return compiler.compile({device, text.options, text.source});
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 // Adds its life to `seconds`.
@@ -109,7 +121,9 @@ void ProgramCache::build(Entry& entry) {
 // A compiler takes half a second to start, as long as three programs or four.
 std::size_t ProgramCache::compilers_for(std::size_t programs) const {
   const compute::device device = context_.get_device();
-  if (!start_compiler_ || !binaries_.is_used() || has_built_ || !is_pocl(device)) return 0;
+  const bool is_processor = (device.type() & CL_DEVICE_TYPE_CPU) != 0;
+  if (!start_compiler_ || !binaries_.is_used() || has_built_) return 0;
+  if (!is_processor || !is_pocl(device)) return 0;
   const std::size_t cores = std::min(std::size_t{device.compute_units()},
                                      std::size_t{std::thread::hardware_concurrency()});
   if (programs < 3 || cores < 2) return 0;
@@ -127,8 +141,7 @@ void ProgramCache::build_together(std::vector<Entry*> missing) {
     compilers.push_back(start_compiler_());
     if (!compilers.back()) break;
     elsewhere.emplace_back([&, compiler = compilers.back().get()](std::size_t program) {
-      const ProgramText& text = missing[program]->text;
-      binaries[program] = compiler->compile({device, text.options, text.source});
+      binaries[program] = binary_by(*compiler, device, missing[program]->text);
       return !binaries[program].empty();
     });
   }
