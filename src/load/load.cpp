@@ -11,12 +11,6 @@
 namespace splotchcl {
 namespace {
 
-void forget_all(const Snapshot& snapshot) {
-  LoadMemory fresh;
-  fresh.share_with(snapshot.memory());
-  snapshot.memory() = fresh;
-}
-
 // Where particles are spread over ranks, all of them do it, or none.
 template <class Work>
 auto together(const Scene& scene, const Snapshot& snapshot, const Work& work) -> decltype(work()) {
@@ -28,8 +22,8 @@ auto together(const Scene& scene, const Snapshot& snapshot, const Work& work) ->
     spread->agree_on([&] { result = work(); });
   } catch (...) {
     // Ranks ended at different places.
-    forget_all(snapshot);
-    forget_all(snapshot.own_part());
+    snapshot.memory().forget_own();
+    snapshot.own_part().memory().forget_own();
     throw;
   }
   return result;

@@ -36,6 +36,8 @@ class LoadMemory {
     shared_->companions[path] = std::move(snapshot);
   }
   void share_with(const LoadMemory& other) { shared_ = other.shared_; }
+  // All that was made from this snapshot; what does not depend on it is kept.
+  void forget_own() { own_ = {}; }
 
   void begin_load();
 

@@ -16,12 +16,6 @@
 namespace splotchcl {
 namespace {
 
-void start_anew(const Snapshot& snapshot) {
-  LoadMemory fresh;
-  fresh.share_with(snapshot.memory());
-  snapshot.memory() = fresh;
-}
-
 std::uint64_t count_of(const SnapshotInfo& info, int type) {
   const ParticleTypeInfo* const known = info.find_type(type);
   return known == nullptr ? 0 : known->count;
@@ -75,7 +69,7 @@ SpreadSnapshot::~SpreadSnapshot() = default;
 
 void SpreadSnapshot::changed() {
   own_.changed();
-  start_anew(*this);
+  memory().forget_own();
   if (!spread_) {
     info_ = own_.info();
     return;

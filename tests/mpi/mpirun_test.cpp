@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpi/under_mpi.h"
+#include "spread/component_texts.h"
 
 namespace splotchcl::testing {
 namespace {
@@ -18,24 +19,11 @@ struct SmallScene {
   std::string name, text;
 };
 
-constexpr char gas[] = R"(
-[[component]]
-name = "gas"
-types = "gas"
-color = { field = "internal_energy", scaling = "log" }
-palette = "temperature"
-)";
-constexpr char stars[] = R"(
-[[component]]
-name = "stars"
-types = "stars"
-palette = "stars"
-absorption = 0.3
-)";
+const std::string gas = test::gas_component, stars = test::stars_component;
 
 std::vector<SmallScene> small_scenes() {
   const std::string head = "snapshot = \"u\"\n[image]\nsize = [160, 80]\n";
-  const std::string both = std::string(gas) + "absorption = 0.2\n" + stars;
+  const std::string both = gas + "absorption = 0.2\n" + stars;
   return {
       {"emission", head + gas + "absorption = 0\n"},
       {"proportional", head + gas},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpi/under_mpi.h"
+#include "spread/component_texts.h"
 
 namespace splotchcl::testing {
 namespace {
@@ -16,20 +17,7 @@ using ::testing::HasSubstr;
 
 const std::string head = "[image]\nsize = [120, 90]\n";
 const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
-const std::string gas = R"(
-[[component]]
-name = "gas"
-types = "gas"
-color = { field = "internal_energy", scaling = "log" }
-palette = "temperature"
-)";
-const std::string stars = R"(
-[[component]]
-name = "stars"
-types = "stars"
-palette = "stars"
-absorption = 0.3
-)";
+const std::string gas = test::gas_component, stars = test::stars_component;
 
 class SpreadRun : public UnderMpi {
  protected:

@@ -11,6 +11,7 @@
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/spread_snapshot.h"
+#include "spread/component_texts.h"
 #include "spread/simulation.h"
 
 namespace splotchcl::test {
@@ -20,20 +21,7 @@ const std::string head = "snapshot = \"memory\"\n[image]\nsize = [96, 64]\n";
 const std::string outside = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
 const std::string inside =
     "[camera]\nposition = [0, -0.2, 0]\nlook_at = [0, 1, 0]\nsky = [0, 0, 1]\n";
-const std::string gas_text = R"(
-[[component]]
-name = "gas"
-types = "gas"
-color = { field = "internal_energy", scaling = "log" }
-palette = "temperature"
-)";
-const std::string stars_text = R"(
-[[component]]
-name = "stars"
-types = "stars"
-palette = "stars"
-absorption = 0.3
-)";
+const std::string gas_text = gas_component, stars_text = stars_component;
 const std::string emission = gas_text + "absorption = 0\n";
 const std::string ordered = gas_text + "absorption = 0.2\n" + stars_text;
 
