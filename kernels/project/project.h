@@ -18,6 +18,10 @@
 // The most that one splat gives a pixel, or takes from it, in units of the display's white.
 #define MOST_LIGHT 0x1p60f
 
+// What is farther than this from a cube face's axis has no light in the face
+// (src/scene/projection.cpp).
+#define SMALLEST_COSINE_OF_FACE 0x1p-4f
+
 // A field's way to [0, 1] (frame.h, ScalarMap).
 struct FieldScaling {
   int scaling;

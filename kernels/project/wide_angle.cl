@@ -1,8 +1,6 @@
 // Where the projections that look in all directions put a particle (docs/projections.md), on
 // VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
 
-#define SMALLEST_COSINE_OF_FACE 0.0625f
-
 typedef struct WideAnglePoint {
   VALUE x, y;                         // pixels from the middle of the picture
   VALUE scale;                        // pixels per length of a cloud's width

@@ -136,9 +136,7 @@ void ArraySnapshot::set_mass(int type, double mass) {
 }
 
 void ArraySnapshot::changed() const {
-  LoadMemory fresh;
-  fresh.share_with(memory());
-  memory() = fresh;
+  memory().forget_own();
 }
 
 void ArraySnapshot::clear(int type) {

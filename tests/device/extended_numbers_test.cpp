@@ -36,7 +36,7 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
  protected:
   std::vector<double> evaluate(const std::string& function, const char* kernel,
                                const std::vector<float>& x) {
-    std::string defines = "#define FUNCTION " + function + "\n#define ELLIPSES\n";
+    std::string defines = "#define FUNCTION " + function + "\n#define COPIES\n";
     if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
     const Program program =
         device().programs.get({defines,
