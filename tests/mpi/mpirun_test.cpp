@@ -103,15 +103,10 @@ TEST_P(MpiRun, EndsWhereThePictureCannotBeWritten) {
   EXPECT_THAT(own_line(result.err), HasSubstr("full.png: cannot be written"));
 }
 
-// It is stopped while kernels are compiled, which takes longer, so that none can finish before it
-// dies.
 TEST_P(MpiRun, EndsWhereAProcessIsKilled) {
   write("scene.toml", small_scenes()[2].text);
-  write("one_is_killed",
-        "#!/bin/sh\nexport SPLOTCHCL_CACHE=\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\n"
-        "if [ $rank = 1 ]; then (sleep 0.4; kill -STOP $$; sleep 0.6; kill -KILL $$) & fi\n"
-        "exec \"$splotchcl\" render scene.toml -o a.png\n");
-  const ProgramResult result = run("chmod +x one_is_killed; " + mpirun(3) + "./one_is_killed");
+  write_one_is_killed("\"$splotchcl\" render scene.toml -o a.png");
+  const ProgramResult result = run(mpirun(3) + "./one_is_killed");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
   EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));

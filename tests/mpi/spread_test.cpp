@@ -78,15 +78,10 @@ TEST_P(SpreadRun, NamesTheRankThatHasNoDevice) {
   EXPECT_FALSE(has_pictures());
 }
 
-// It dies while kernels are compiled, which takes longer.
 TEST_P(SpreadRun, EndsWhereARankIsKilled) {
   write("scene.toml", head + camera + gas + "absorption = 0.2\n" + stars);
-  write("one_is_killed",
-        "#!/bin/sh\nexport SPLOTCHCL_CACHE=\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\n"
-        "if [ $rank = 1 ]; then (sleep 1; kill -KILL $$) & fi\n"
-        "exec \"$simulation\" scene.toml a.floats\n");
-  const ProgramResult result =
-      run_simulation("chmod +x one_is_killed; " + mpirun(3), "./one_is_killed");
+  write_one_is_killed("\"$simulation\" scene.toml a.floats");
+  const ProgramResult result = run_simulation(mpirun(3), "./one_is_killed");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
   EXPECT_FALSE(has_pictures());

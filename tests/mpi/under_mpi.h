@@ -38,6 +38,16 @@ class UnderMpi : public ::testing::TestWithParam<Mpi> {
   std::string program() const { return GetParam().run.substr(0, GetParam().run.find(' ')); }
   // Compiled kernels are kept, so that only the first process of a kind compiles them. Open MPI
   // has to be told that containers and test machines have one user.
+  // A script `one_is_killed` for mpirun. Rank 1 is stopped while it compiles, before any rank can
+  // have what it needs of it, and dies.
+  void write_one_is_killed(const std::string& command) const {
+    write("one_is_killed",
+          "#!/bin/sh\nexport SPLOTCHCL_CACHE=\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\n"
+          "if [ $rank = 1 ]; then (sleep 0.3; kill -STOP $$; sleep 0.6; kill -KILL $$) & fi\n"
+          "exec " +
+              command + "\n");
+    std::filesystem::permissions(*folder_ / "one_is_killed", std::filesystem::perms::owner_all);
+  }
   ProgramResult run(const std::string& command) const {
     return run_in(*folder_,
                   "export SPLOTCHCL_CACHE=$PWD/kernels OMPI_ALLOW_RUN_AS_ROOT=1 "
