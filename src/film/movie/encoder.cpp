@@ -16,8 +16,8 @@
 #include <string>
 #include <system_error>
 
-#include "common/words.h"
 #include "common/child_process.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
