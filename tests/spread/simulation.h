@@ -12,6 +12,7 @@
 #include "ranks/thread_ranks.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/communicator.h"
+#include "splotchcl/spread_snapshot.h"
 
 namespace splotchcl::test {
 
@@ -98,5 +99,23 @@ inline Arrays part_of_rank(const Arrays& all, const Ends& ends, int rank) {
 inline std::shared_ptr<Communicator> borrowed(Communicator& ranks) {
   return {std::shared_ptr<Communicator>(), &ranks};
 }
+
+// One rank of a simulation: its own particles, and the snapshot of those of all ranks together.
+class RankOfSimulation {
+ public:
+  // Collective.
+  RankOfSimulation(const Arrays& arrays, const Ends& ends, Communicator& ranks)
+      : part_(part_of_rank(arrays, ends, ranks.rank())), own_(part_), all(own_, borrowed(ranks)) {}
+
+ private:
+  struct OwnSnapshot : ArraySnapshot {
+    explicit OwnSnapshot(const Arrays& part) { set_fields(part, *this); }
+  };
+  const Arrays part_;
+  const OwnSnapshot own_;
+
+ public:
+  const SpreadSnapshot all;
+};
 
 }  // namespace splotchcl::test

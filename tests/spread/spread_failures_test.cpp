@@ -50,12 +50,9 @@ std::vector<std::string> failures_to_load(const std::function<std::string(int ra
   arrays[gas].scalars.erase("smoothing_length");
   arrays[gas].scalars.erase("density");
   return failures(3, [&](Communicator& ranks) {
-    const Arrays part = part_of_rank(arrays, uneven(3), ranks.rank());
-    ArraySnapshot own;
-    set_fields(part, own);
-    const SpreadSnapshot all(own, borrowed(ranks));
+    const RankOfSimulation own(arrays, uneven(3), ranks);
     std::vector<std::string> notes;
-    load_frame(parse_scene(scene(ranks.rank()), "scene"), all, notes);
+    load_frame(parse_scene(scene(ranks.rank()), "scene"), own.all, notes);
   });
 }
 
@@ -78,12 +75,9 @@ TEST(SpreadFailures, OfOneRankEndTheOthersWhereTheyWait) {
   const Arrays arrays = gas_and_stars(100, 0);
   EXPECT_THAT(failures(3,
                        [&](Communicator& ranks) {
-                         const Arrays part = part_of_rank(arrays, uneven(3), ranks.rank());
-                         ArraySnapshot own;
-                         set_fields(part, own);
-                         const SpreadSnapshot all(own, borrowed(ranks));
-                         all.spread()->agree_on([&] {
-                           const Column mass = all.read(gas, "mass");
+                         const RankOfSimulation own(arrays, uneven(3), ranks);
+                         own.all.spread()->agree_on([&] {
+                           const Column mass = own.all.read(gas, "mass");
                            if (ranks.rank() == 1) throw DataError("its disk is full");
                            mass.source()->make(0, 100, std::vector<float>(100).data());
                          });
@@ -94,15 +88,12 @@ TEST(SpreadFailures, OfOneRankEndTheOthersWhereTheyWait) {
 TEST(SpreadFailures, LeaveTheNextPictureAsItIs) {
   const Arrays arrays = gas_and_stars(100, 0);
   ThreadRanks::run(2, [&](Communicator& ranks) {
-    const Arrays part = part_of_rank(arrays, uneven(2), ranks.rank());
-    ArraySnapshot own;
-    set_fields(part, own);
-    const SpreadSnapshot all(own, borrowed(ranks));
+    const RankOfSimulation own(arrays, uneven(2), ranks);
     std::vector<std::string> notes;
     const Scene wrong =
         parse_scene(head + camera + component + "color = { field = \"entropy\" }\n", "scene");
-    EXPECT_ANY_THROW(load_frame(wrong, all, notes));
-    const Frame frame = load_frame(parse_scene(head + camera + component, "scene"), all, notes);
+    EXPECT_ANY_THROW(load_frame(wrong, own.all, notes));
+    const Frame frame = load_frame(parse_scene(head + camera + component, "scene"), own.all, notes);
     EXPECT_EQ(frame.components.front().particles.position[299],
               arrays.at(gas).vectors.at("position")[299]);
   });
@@ -182,11 +173,9 @@ TEST(SpreadFailures, AreRenderersOfOneProcess) {
   const Arrays arrays = gas_and_stars(100, 0);
   EXPECT_THAT(failures(2,
                        [&](Communicator& ranks) {
-                         const Arrays part = part_of_rank(arrays, uneven(2), ranks.rank());
-                         ArraySnapshot own;
-                         set_fields(part, own);
-                         const SpreadSnapshot all(own, borrowed(ranks));
-                         FrameDrawer().draw(parse_scene(head + camera + component, "scene"), all);
+                         const RankOfSimulation own(arrays, uneven(2), ranks);
+                         FrameDrawer().draw(parse_scene(head + camera + component, "scene"),
+                                            own.all);
                        }),
               ElementsAre(HasSubstr("spread over 2 processes and a renderer of 1")));
 }

@@ -205,12 +205,10 @@ TEST(SpreadPictures, AreDrawnOfASceneThatWasDecidedTogether) {
   const std::string alone =
       format_scene(fixed_scene(decide(parse_scene(text, "scene"), whole, notes)));
   ThreadRanks::run(3, [&](Communicator& ranks) {
-    const Arrays part = part_of_rank(arrays, uneven(3), ranks.rank());
-    ArraySnapshot own;
-    set_fields(part, own);
-    const SpreadSnapshot all(own, borrowed(ranks));
+    const RankOfSimulation own(arrays, uneven(3), ranks);
     std::vector<std::string> own_notes;
-    EXPECT_EQ(format_scene(fixed_scene(decide(parse_scene(text, "scene"), all, own_notes))), alone);
+    EXPECT_EQ(format_scene(fixed_scene(decide(parse_scene(text, "scene"), own.all, own_notes))),
+              alone);
   });
 }
 
