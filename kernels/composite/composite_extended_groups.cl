@@ -155,8 +155,7 @@ inline Extended extended_square(Extended a) {
   return extended_product(a, a);
 }
 
-// face_shape() of face_shape.cl, in the pixel from whose corner (x, y)
-// is.
+// face_shape() of face_shape.cl, in the pixel whose corner is (x, y).
 inline Extended extended_face_shape(const __local ExtendedSplat* splat, float x, float y,
                                     const CubeFace face) {
   const Extended column = extended_of(x + 0.5f), row = extended_of(y + 0.5f);
