@@ -41,6 +41,7 @@ std::vector<ProgramSource> programs_of_all_frames() {
           Specialization::carry(),
           Specialization::scan(),
           Specialization::coarse_grids(),
+          Specialization::clear(),
           Specialization::add_light(),
           Specialization::lay_slab()};
 }

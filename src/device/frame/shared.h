@@ -7,6 +7,7 @@
 // What a variant of the kernels adds to Splat and TileSplat is not seen here: Specialization
 // knows their sizes.
 namespace splotchcl::shared {
+#include "kernels/common/clear.h"
 #include "kernels/common/group.h"
 #include "kernels/common/splat.h"
 // The others use what stands there.
@@ -27,6 +28,7 @@ constexpr bool has_words = sizeof(Shared) == 4 * words && alignof(Shared) == 4 &
 
 static_assert(has_words<FloatPair, 2>);
 static_assert(has_words<Grid, 20>);
+static_assert(has_words<ClearParameters, 3>);
 static_assert(has_words<WidthAlongX, 2>);
 static_assert(has_words<Tilt, 4>);
 static_assert(has_words<ExtendedTilt, 6>);

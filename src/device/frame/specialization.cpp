@@ -347,6 +347,10 @@ ProgramSource Specialization::coarse_grids() {
   return {"", {"splat.h", "resolve.h", "common.cl", "blur.cl", "refine.cl"}};
 }
 
+ProgramSource Specialization::clear() {
+  return {"", {"clear.h", "clear.cl"}};
+}
+
 ProgramSource Specialization::add_light() {
   return {"", {"splat.h", "composite.h", "add_light.cl"}};
 }

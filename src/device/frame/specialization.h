@@ -80,6 +80,7 @@ class Specialization {
   static ProgramSource scan();
   static ProgramSource coarse_grids();
   static ProgramSource add_light();
+  static ProgramSource clear();
 
  private:
   bool has_whole_sectors() const;

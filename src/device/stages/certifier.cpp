@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/clear_memory.h"
 
 namespace splotchcl {
 namespace {

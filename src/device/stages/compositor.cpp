@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "device/frame/float_pair.h"
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/clear_memory.h"
 
 namespace splotchcl {
 namespace {
@@ -19,6 +19,7 @@ Compositor::Compositor(const StageContext& context) : context_(context) {
   ProgramCache& programs = context.device.programs;
   const Specialization& specialization = context.specialization;
   layers_.composite = programs.get(specialization.composite());
+  if (context.device.traits.rows) programs.get(Specialization::clear());
   if (context.plan.slabs > 0) slabs_.composite = programs.get(specialization.composite_slab());
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
   parameters_.phi_short = context.plan.layers.phi_short;

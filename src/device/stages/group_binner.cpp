@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
 #include "device/stages/binner.h"
+#include "device/stages/clear_memory.h"
 
 namespace splotchcl {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "device/opencl/clear_memory.h"
+#include "device/stages/clear_memory.h"
 #include "device/stages/project_parameters.h"
 
 namespace splotchcl {

@@ -4,8 +4,8 @@
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/view_bounds.h"
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/clear_memory.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/clear_memory.h"
 #include "scene/plan/blur_filter.h"
 #include "splotchcl/frame_check.h"
 

@@ -9,8 +9,8 @@
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/key_windows.h"
-#include "device/opencl/clear_memory.h"
 #include "device/opencl/launch.h"
+#include "device/stages/clear_memory.h"
 #include "device/stages/project_parameters.h"
 #include "parallel/for_blocks.h"
 #include "scene/depth_key.h"
