@@ -54,9 +54,25 @@ inline VALUE gaussian(VALUE d, float inverse) {
   return exp2_negative(d * d * -inverse);
 }
 
-// erf, absolute error 2.3e-7, as x p(x^2); constant beyond its range, where 1 - erf is below
-// 1.6e-8.
-inline VALUE error_function(VALUE x) {
+// erf as x p(x^2), constant beyond its range: absolute error 2.3e-6, its even and its odd powers
+// apart, so that half as many steps wait for each other ...
+inline VALUE erf_to_five_digits(VALUE x) {
+  x = clamp(x, (VALUE)(-3.25f), (VALUE)(3.25f));
+  const VALUE u = x * x * 0.189349112f - 1.0f, u2 = u * u;
+  VALUE even = u2 * 0.00301567605f + 0.0101060802f;
+  VALUE odd = u2 * -0.00804491621f - 0.0168068465f;
+  even = even * u2 + 0.0344320126f;
+  odd = odd * u2 - 0.0568491593f;
+  even = even * u2 + 0.0825901553f;
+  odd = odd * u2 - 0.114175782f;
+  even = even * u2 + 0.153243437f;
+  odd = odd * u2 - 0.214459866f;
+  even = even * u2 + 0.434640795f;
+  return x * (odd * u + even);
+}
+
+// ... and 2.3e-7.
+inline VALUE erf_to_all_digits(VALUE x) {
   x = clamp(x, (VALUE)(-4.0f), (VALUE)(4.0f));
   const VALUE u = x * x * 0.125f - 1.0f;
   VALUE p = u * -0.00112648448f + 0.00287871086f;
@@ -76,6 +92,12 @@ inline VALUE error_function(VALUE x) {
   p = p * u + 0.353530973f;
   return x * p;
 }
+
+#ifdef FULL_PRECISION
+#define error_function erf_to_all_digits
+#else
+#define error_function erf_to_five_digits
+#endif
 
 // The mean of exp(-x^2 / sigma^2) over a pixel is pixel_mean_scale * sigma times the
 // difference of the error function at its two edges, in units of sigma.
