@@ -12,7 +12,7 @@
 
 inline void clear_planes(float* tile) {
   for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
-    vstore8((float8)(0.0f), 0, tile + i);
+    store_eight((float8)(0.0f), tile + i);
 }
 
 #ifdef LIGHT_ORDERED
@@ -23,20 +23,34 @@ inline void load_opacities(float* tile, __global const float* planes, const Grid
       __global const float* row =
           planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        vstore8(vload8(0, row + x), 0, tile + c * TILE_PIXELS + y * ROW + x);
+        store_eight(load_eight_of_planes(row + x), tile + c * TILE_PIXELS + y * ROW + x);
       }
     }
   }
 }
 #endif
 
+// A tile's rows lie all over the planes: what is stored at the end is asked for before the splats
+// are drawn.
+inline void ask_for_tile(__global float* planes, const Grid grid, size_t corner) {
+  const int floats_of_line = 16;
+  for (int c = 0; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      __global const float* row =
+          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      for (int x = 0; x < TILE_WIDTH; x += floats_of_line)
+        ask_to_write(row + x);
+    }
+  }
+}
+
 inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* row = planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        const float8 drawn = vload8(0, tile + c * TILE_PIXELS + y * ROW + x);
-        vstore8(c < SUMS ? vload8(0, row + x) + drawn : drawn, 0, row + x);
+        const float8 drawn = load_eight(tile + c * TILE_PIXELS + y * ROW + x);
+        store_eight_of_planes(c < SUMS ? load_eight_of_planes(row + x) + drawn : drawn, row + x);
       }
     }
   }
@@ -49,17 +63,17 @@ inline void store_tile(const float* tile, __global float* planes, const Grid gri
 #ifdef LIGHT_ORDERED
 inline void add_block(const float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += 8) {
-    const float8 opacity = vload8(0, front + SUMS * TILE_PIXELS + i);
-    const float8 behind = vload8(0, block + SUMS * TILE_PIXELS + i);
+    const float8 opacity = load_eight(front + SUMS * TILE_PIXELS + i);
+    const float8 behind = load_eight(block + SUMS * TILE_PIXELS + i);
     const float8 t = transmittance_of(opacity);
-    vstore8(vload8(0, front + i) + t * vload8(0, block + i), 0, front + i);
-    vstore8(carry_behind(opacity, t, behind), 0, front + SUMS * TILE_PIXELS + i);
+    store_eight(load_eight(front + i) + t * load_eight(block + i), front + i);
+    store_eight(carry_behind(opacity, t, behind), front + SUMS * TILE_PIXELS + i);
   }
 }
 #else
 inline void add_block(const float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
-    vstore8(vload8(0, front + i) + vload8(0, block + i), 0, front + i);
+    store_eight(load_eight(front + i) + load_eight(block + i), front + i);
 }
 #endif
 #endif
@@ -68,8 +82,8 @@ inline void store_partial(const float* tile, __global float* partial) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        vstore8(vload8(0, tile + c * TILE_PIXELS + y * ROW + x), 0,
-                partial + (c * TILE_HEIGHT + y) * TILE_WIDTH + x);
+        store_eight_of_planes(load_eight(tile + c * TILE_PIXELS + y * ROW + x),
+                              partial + (c * TILE_HEIGHT + y) * TILE_WIDTH + x);
       }
     }
   }
@@ -116,8 +130,8 @@ inline int is_opaque(const float* front, const float* block, float stop) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         const int i = c * TILE_PIXELS + y * ROW + x;
-        most = max(most,
-                   transmittance_of(vload8(0, front + i)) * transmittance_of(vload8(0, block + i)));
+        most = max(most, transmittance_of(load_eight(front + i)) *
+                             transmittance_of(load_eight(block + i)));
       }
     }
   }
@@ -148,6 +162,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   const TileClouds of_tile =
       clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
 #endif
+  if (segment.partial == NO_PARTIAL) ask_for_tile(planes, grid, corner);
   const SplatTile tile_of_splats = splat_tile(grid, segment.tile, &p);
   uint drawn = 0, end = segment.end;
   float depth_of_block = 0.0f;

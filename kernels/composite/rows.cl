@@ -13,9 +13,13 @@
 typedef float8 __attribute__((aligned(4))) Eight;
 #define load_eight(p) (*(const Eight*)(p))
 #define store_eight(v, p) (*(Eight*)(p) = (v))
+#define load_eight_of_planes(p) (*(__global const Eight*)(p))
+#define store_eight_of_planes(v, p) (*(__global Eight*)(p) = (v))
 #else
 #define load_eight(p) vload8(0, p)
 #define store_eight(v, p) vstore8(v, 0, p)
+#define load_eight_of_planes load_eight
+#define store_eight_of_planes store_eight
 #endif
 
 // Shapes of a splat on a face of a cube come row by row, and cut (face_rows.cl).

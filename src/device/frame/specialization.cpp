@@ -266,7 +266,7 @@ std::vector<std::string> Specialization::composite_files() const {
   if (rows_) {
     files.insert(files.end(), {"rows.cl", "wide_rows.cl"});
     files.push_back(face_of_cube_ ? "face_rows.cl" : "splat_rows.cl");
-    files.push_back("composite_rows.cl");
+    files.insert(files.end(), {"prefetch.cl", "composite_rows.cl"});
   } else {
     files.push_back("composite_groups.cl");
   }
