@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/frame/cell_layout.h"
+#include "device/frame/chunks.h"
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
 
@@ -21,6 +23,19 @@ class FrameBuffers {
         layout_(make_picture_layout(frame, plan, specialization)) {}
 
   std::uint64_t planes() const { return layout_.plane_floats * sizeof(float); }
+
+  // Of planes, and of what the check collects beside them; extended precision has no such cells.
+  std::uint64_t light() const {
+    shared::CertifyParameters cells{};
+    if (!specialization_.is_extended()) lay_out_cells(specialization_, cells);
+    return planes() + std::uint64_t{layout_.tile_count} * cells.cells_per_tile * sizeof(float);
+  }
+
+  // How many leaves of a sum are held at one time.
+  std::uint64_t held_leaves() const {
+    const std::size_t chunks = particle_chunks(frame_, traits_).size();
+    return std::max<std::size_t>(1, most_held_leaves(sum_leaves(chunks, traits_).size()));
+  }
 
   // Of one chunk of particles, in blocks that are never filled up in part.
   std::uint64_t chunk_splats() const {
@@ -102,7 +117,7 @@ std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
   const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) +
                                 buffers.tiles(buffers.chunk_splats()) +
                                 buffers.lists(buffers.blocks_of_chunk());
-  return buffers.planes() + std::max(drawing, buffers.blurred_columns());
+  return buffers.held_leaves() * buffers.light() + std::max(drawing, buffers.blurred_columns());
 }
 
 std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
@@ -116,7 +131,7 @@ std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
   const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
   const std::uint64_t drawing =
       count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
-  return buffers.planes() + buffers.splats(count) + std::max(sorting, drawing + buffers.slabs());
+  return buffers.light() + buffers.splats(count) + std::max(sorting, drawing + buffers.slabs());
 }
 
 }  // namespace

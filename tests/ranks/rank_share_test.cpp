@@ -79,6 +79,15 @@ TEST(SumLeaves, AreJoinedByATreeThatIsFullToTheLeft) {
   EXPECT_EQ(left_leaves(1000), 512u);
 }
 
+TEST(SumLeaves, AreHeldOncePerLevelOfTheTree) {
+  EXPECT_EQ(most_held_leaves(0), 0u);
+  EXPECT_EQ(most_held_leaves(1), 1u);
+  EXPECT_EQ(most_held_leaves(2), 2u);
+  EXPECT_EQ(most_held_leaves(3), 2u);  // the first two are added up by then
+  EXPECT_EQ(most_held_leaves(4), 3u);
+  EXPECT_EQ(most_held_leaves(1024), 11u);
+}
+
 TEST(SliceParts, CoverAllChunksOnce) {
   for (const std::vector<std::uint64_t>& sizes :
        {std::vector<std::uint64_t>{33, 40, 27}, {100, 0, 0}, {0, 0, 100}, {3, 4, 93}, {1, 2, 2}}) {

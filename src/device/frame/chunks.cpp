@@ -64,4 +64,11 @@ std::size_t left_leaves(std::size_t leaves) {
   return left;
 }
 
+// A left branch waits, added up, while the right one is drawn.
+std::size_t most_held_leaves(std::size_t leaves) {
+  if (leaves < 2) return leaves;
+  const std::size_t left = left_leaves(leaves);
+  return std::max(most_held_leaves(left), 1 + most_held_leaves(leaves - left));
+}
+
 }  // namespace splotchcl

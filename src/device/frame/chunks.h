@@ -30,6 +30,8 @@ struct ChunkRange {
 std::vector<ChunkRange> sum_leaves(std::size_t chunks, const DeviceTraits& traits);
 // Of a node of the tree with so many leaves, two or more: how many its left branch has.
 std::size_t left_leaves(std::size_t leaves);
+// So many leaves' light, added up or not, a process holds at one time that draws all leaves.
+std::size_t most_held_leaves(std::size_t leaves);
 
 // Splats [first, first + count) of the sorted order: a step of an ordered frame.
 struct SplatChunk {

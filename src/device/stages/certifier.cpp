@@ -5,31 +5,12 @@
 #include <iterator>
 #include <utility>
 
+#include "device/frame/cell_layout.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
 
 namespace splotchcl {
 namespace {
-
-// No wider than the smallest tile.
-constexpr int widest_shift = 4;
-// No narrower than two pixels, and four for peaks: together they take 3.5 bytes per pixel.
-constexpr int narrowest_ending_shift = 1, narrowest_peak_shift = 2;
-
-// Cells of an octave are as wide as its widest splats.
-int cell_shift(int octave, int narrowest) {
-  return std::clamp(octave, narrowest, widest_shift);
-}
-
-// Where the cells of a tile of `width` by `height` pixels begin, octave by octave.
-void lay_out(int narrowest, std::uint32_t width, std::uint32_t height, shared::OctaveCells* octaves,
-             std::uint32_t& count) {
-  for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
-    const int shift = cell_shift(octave, narrowest);
-    octaves[octave] = {count, shift};
-    count += (width >> shift) * (height >> shift);
-  }
-}
 
 // What was collected, tile by tile.
 struct CellsOfTiles {
@@ -93,13 +74,7 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
   const Specialization& specialization = context.specialization;
   program_ = context.device.programs.get(specialization.certify());
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
-  for (const auto& [narrowest, octaves] :
-       {std::pair(narrowest_peak_shift, parameters_.peaks),
-        std::pair(narrowest_ending_shift, parameters_.endings)}) {
-    lay_out(narrowest, specialization.tile_width(), specialization.tile_height(), octaves,
-            parameters_.cells_per_tile);
-  }
-  parameters_.listed = parameters_.cells_per_tile++;
+  lay_out_cells(specialization, parameters_);
   const SplatLimits& limits = context.plan.splats;
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
