@@ -61,7 +61,7 @@ struct Options {
   std::string filter;
   int runs = 5;
   int part_side = 64;
-  bool with_error = true;
+  bool with_error = true, with_floors = true;
   std::vector<std::string> settings;
 };
 
@@ -80,6 +80,7 @@ Options read_options(const Arguments& arguments) {
   options.runs = arguments.number("runs", 5);
   options.part_side = arguments.number("part", 64);
   options.with_error = !arguments.has("no-error");
+  options.with_floors = !arguments.has("no-floors");
   if (arguments.has("tolerance")) {
     options.settings.push_back("tolerance=" + arguments.text("tolerance", ""));
   }
@@ -119,7 +120,7 @@ struct Measured {
   RenderStats stats;
   std::uint64_t heap_bytes = 0;  // of the loaded columns, without mapped files
   Yardstick yardstick;
-  FrameCounts counts;
+  std::optional<FrameCounts> counts;  // where floors are wanted
   MachineRates rates;
   std::optional<WholeProcess> process;
   std::optional<FrameError> error;
@@ -216,8 +217,10 @@ Measured measure_scene(const std::string& name, const Options& options, Renderer
   }
   measured.yardstick = mean_of(before_frames, measure_yardstick(threads));
   measured.stats = renderer.stats();
-  measured.counts = frame_counts(frame, measured.stats, options.device);
-  measured.rates = measure_rates(measured.counts, threads);
+  if (options.with_floors) {
+    measured.counts = frame_counts(frame, measured.stats, options.device);
+    measured.rates = measure_rates(*measured.counts, threads);
+  }
   if (options.with_error) measured.error = judge(image, frame, options.part_side);
   return measured;
 }
@@ -311,9 +314,10 @@ class Report {
   }
 
   void add_floors(const std::string& name, const Measured& measured) {
+    if (!measured.counts) return;
     FrameFloors floors;
     floors.scene = name;
-    floors.counts = measured.counts;
+    floors.counts = *measured.counts;
     floors.rates = measured.rates;
     floors.measured = measured.stages.all();
     floors.drawings = measured.stats.check.errors_of_promise.size();
@@ -369,7 +373,8 @@ int main(int count, char** words) {
        "filter=TEXT: only scenes with this in their name",
        "tolerance=X: instead of the scenes' own", "runs=COUNT: how often each frame is timed (5)",
        "part=PIXELS: side of the squares on which the error is measured (64)",
-       "no-error: leaves the reference out", "device=NAME: part of a device's name",
-       "csv=FOLDER: where the tables go"},
+       "no-error: leaves the reference out",
+       "no-floors: leaves out what stages could take at least",
+       "device=NAME: part of a device's name", "csv=FOLDER: where the tables go"},
       splotchcl::bench::run);
 }
