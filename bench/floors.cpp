@@ -94,7 +94,7 @@ std::vector<StageFloor> floors_of(const FrameCounts& counts, const MachineRates&
   std::vector<StageFloor> floors = {floor_of("project", project(counts), rates)};
   if (counts.is_ordered) floors.push_back(floor_of("sort", sort(counts), rates));
   floors.push_back(floor_of("bin", bin(counts), rates));
-  floors.push_back(floor_of("certify", certify(counts), rates));
+  if (counts.is_collected) floors.push_back(floor_of("certify", certify(counts), rates));
   floors.push_back(floor_of("composite", composite(counts), rates));
   floors.back().operation_seconds = seconds_of(counts.layered, rates.yardstick.layered) +
                                     seconds_of(counts.summed, rates.yardstick.summed);

@@ -28,6 +28,7 @@ struct ListWork {
 // What a frame gave its stages to do. Bytes are those of one.
 struct FrameCounts {
   bool is_ordered = false;
+  bool is_collected = true;   // for the check after drawing: not at tolerance 0
   int slabs = 0;              // that are laid at most
   double particles = 0;       // in its components
   double particle_bytes = 0;  // of all columns, the mean
@@ -62,7 +63,7 @@ struct StageFloor {
   double seconds() const;        // the larger one
 };
 
-// In the order in which stages run; an unordered frame has no sort.
+// In the order in which stages run; those that a frame does not need are left out.
 std::vector<StageFloor> floors_of(const FrameCounts& counts, const MachineRates& rates);
 
 }  // namespace splotchcl::bench

@@ -115,11 +115,13 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
   const Specialization specialization(frame, plan, device.traits);
   FrameCounts counts;
   counts.is_ordered = plan.needs_sort();
+  counts.is_collected = !plan.is_extended();
   counts.slabs = plan.slabs;
   counts.particles = static_cast<double>(stats.particles);
   counts.particle_bytes = static_cast<double>(particle_bytes(frame)) / counts.particles;
   counts.splats = static_cast<double>(stats.drawn_particles);
-  counts.splat_bytes = static_cast<double>(specialization.splat_bytes());
+  counts.splat_bytes =
+      static_cast<double>(specialization.splat_bytes() + specialization.extended_splat_bytes());
   counts.entry_bytes = static_cast<double>(specialization.tile_splat_bytes());
   const bool by_depth = frame.sort.by == SortOrder::By::depth;
   counts.key_bytes = sizeof(std::uint32_t) + (by_depth ? sizeof(std::uint16_t) : 0);

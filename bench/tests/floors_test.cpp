@@ -64,6 +64,13 @@ TEST(Floors, OnlyOrderedFramesSort) {
                                                             "composite", "resolve"}));
 }
 
+TEST(Floors, FramesOfToleranceZeroCollectNothingForTheCheck) {
+  FrameCounts counts = sums();
+  counts.is_collected = false;
+  EXPECT_EQ(stages_of(counts),
+            (std::vector<std::string>{"project", "bin", "composite", "resolve"}));
+}
+
 TEST(Floors, AParticleOutOfViewIsReadForItsPositionAlone) {
   EXPECT_EQ(floor_of("project", sums()).frame_bytes, 100 * 12 + 10 * 12);
 }
