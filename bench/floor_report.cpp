@@ -132,7 +132,8 @@ void FloorReport::add_to_csv(const FrameFloors& frame, const StageFloor& floor, 
 }
 
 std::string FloorReport::text() const {
-  return frames_ + note;
+  if (frames_.empty()) return "";
+  return "\nThe least that stages could take, and what forbids the goals\n\n" + frames_ + note;
 }
 
 }  // namespace splotchcl::bench

@@ -24,7 +24,8 @@ struct FrameFloors {
 class FloorReport {
  public:
   void add(const FrameFloors& frame);
-  std::string text() const;  // with a note on what a floor is and is not
+  // With a note on what a floor is and is not; empty without frames.
+  std::string text() const;
   // Throws DataError.
   void write_csv(const std::string& path) const { csv_.write_csv(path); }
 

@@ -252,8 +252,7 @@ class Report {
            "one then; their times scaled by it)\n\n" +
            targets_.text() +
            "\nStages, milliseconds of the device, medians; and what there was\n\n" +
-           stages_.text() + "\nThe least that stages could take, and what forbids the goals\n\n" +
-           floors_.text() +
+           stages_.text() + floors_.text() +
            "\nLargest error of |frame - reference| / max(1, |reference|) on parts of the frame "
            "timed\n\n" +
            errors_.text();
