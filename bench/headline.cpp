@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "arguments.h"
+#include "bandwidth.h"
+#include "floor_report.h"
+#include "frame_counts.h"
 #include "frame_error.h"
 #include "machine.h"
 #include "measure.h"
@@ -58,7 +61,7 @@ struct Options {
   std::string filter;
   int runs = 5;
   int part_side = 64;
-  bool with_error = true;
+  bool with_error = true, with_floors = true;
   std::vector<std::string> settings;
 };
 
@@ -77,6 +80,7 @@ Options read_options(const Arguments& arguments) {
   options.runs = arguments.number("runs", 5);
   options.part_side = arguments.number("part", 64);
   options.with_error = !arguments.has("no-error");
+  options.with_floors = !arguments.has("no-floors");
   if (arguments.has("tolerance")) {
     options.settings.push_back("tolerance=" + arguments.text("tolerance", ""));
   }
@@ -94,6 +98,12 @@ class StageMedians {
     const auto found = seconds_.find(stage);
     return found == seconds_.end() ? "-" : fixed(1e3 * median_of(found->second), 0);
   }
+  std::vector<StageTime> all() const {
+    std::vector<StageTime> medians;
+    for (const auto& [stage, seconds] : seconds_)
+      medians.push_back({stage, median_of(seconds)});
+    return medians;
+  }
 
  private:
   std::map<std::string, std::vector<double>> seconds_;
@@ -110,6 +120,8 @@ struct Measured {
   RenderStats stats;
   std::uint64_t heap_bytes = 0;  // of the loaded columns, without mapped files
   Yardstick yardstick;
+  std::optional<FrameCounts> counts;  // where floors are wanted
+  MachineRates rates;
   std::optional<WholeProcess> process;
   std::optional<FrameError> error;
   double tolerance = 0;
@@ -167,6 +179,15 @@ FrameError judge(const Image& image, const Frame& frame, int side) {
   return error;
 }
 
+// Far larger than any cache.
+constexpr std::uint64_t memory_bytes = 1ull << 30;
+
+MachineRates measure_rates(const FrameCounts& counts, int threads) {
+  return {measure_bandwidth(memory_bytes, threads),
+          measure_bandwidth(static_cast<std::uint64_t>(chunk_bytes(counts)), threads),
+          measure_yardstick_parts(threads)};
+}
+
 Measured measure_scene(const std::string& name, const Options& options, Renderer& renderer,
                        int threads) {
   const fs::path scene_file = options.scenes / (name + ".toml");
@@ -196,8 +217,23 @@ Measured measure_scene(const std::string& name, const Options& options, Renderer
   }
   measured.yardstick = mean_of(before_frames, measure_yardstick(threads));
   measured.stats = renderer.stats();
+  if (options.with_floors) {
+    measured.counts = frame_counts(frame, measured.stats, options.device);
+    measured.rates = measure_rates(*measured.counts, threads);
+  }
   if (options.with_error) measured.error = judge(image, frame, options.part_side);
   return measured;
+}
+
+const Target& target_of(const std::string& scene) {
+  return targets.at(scene.substr(0, scene.rfind('_')));
+}
+
+// This machine's yardstick over the one in the original's hour.
+double factor_of(const Measured& measured) {
+  const Yardstick& now = measured.yardstick;
+  return measured.ordered ? now.ordered_ns() / ordered_ns_then
+                          : now.additive_ns() / additive_ns_then;
 }
 
 class Report {
@@ -205,6 +241,7 @@ class Report {
   void add(const std::string& name, const Measured& measured) {
     add_times(name, measured);
     add_stages(name, measured);
+    add_floors(name, measured);
     add_error(name, measured);
   }
 
@@ -215,7 +252,7 @@ class Report {
            "one then; their times scaled by it)\n\n" +
            targets_.text() +
            "\nStages, milliseconds of the device, medians; and what there was\n\n" +
-           stages_.text() +
+           stages_.text() + floors_.text() +
            "\nLargest error of |frame - reference| / max(1, |reference|) on parts of the frame "
            "timed\n\n" +
            errors_.text();
@@ -225,6 +262,7 @@ class Report {
     times_.write_csv(folder + "/headline_times.csv");
     targets_.write_csv(folder + "/headline_targets.csv");
     stages_.write_csv(folder + "/headline_stages.csv");
+    floors_.write_csv(folder + "/headline_floors.csv");
     errors_.write_csv(folder + "/headline_errors.csv");
   }
 
@@ -246,12 +284,9 @@ class Report {
   }
 
   void add_target(const std::string& name, const Measured& measured) {
-    const auto found = targets.find(name.substr(0, name.rfind('_')));
-    if (found == targets.end()) return;
-    const Target& target = found->second;
+    const Target& target = target_of(name);
     const Yardstick& now = measured.yardstick;
-    const double factor = measured.ordered ? now.ordered_ns() / ordered_ns_then
-                                           : now.additive_ns() / additive_ns_then;
+    const double factor = factor_of(measured);
     const auto scaled = [factor](double value) { return fixed(factor * value, 2); };
     const auto& process = measured.process;
     targets_.add({name, fixed(factor, 2), scaled(target.original_total), scaled(target.goal_total),
@@ -265,7 +300,7 @@ class Report {
   void add_stages(const std::string& name, const Measured& measured) {
     const RenderStats& stats = measured.stats;
     std::vector<std::string> cells = {name};
-    for (const char* stage : {"project", "sort", "bin", "composite", "resolve"})
+    for (const char* stage : {"project", "sort", "bin", "certify", "composite", "resolve"})
       cells.push_back(measured.stages.milliseconds_of(stage));
     const auto particles = static_cast<double>(stats.particles);
     const double bytes = static_cast<double>(stats.device_bytes) / particles;
@@ -275,6 +310,19 @@ class Report {
     cells.push_back(fixed(bytes, 1));
     cells.push_back(fixed(heap, 1));
     stages_.add(cells);
+  }
+
+  void add_floors(const std::string& name, const Measured& measured) {
+    if (!measured.counts) return;
+    FrameFloors floors;
+    floors.scene = name;
+    floors.counts = *measured.counts;
+    floors.rates = measured.rates;
+    floors.measured = measured.stages.all();
+    floors.drawings = measured.stats.check.errors_of_promise.size();
+    floors.frame_seconds = measured.render.median().wall_seconds;
+    floors.goal_seconds = factor_of(measured) * target_of(name).goal_inner;
+    floors_.add(floors);
   }
 
   void add_error(const std::string& name, const Measured& measured) {
@@ -289,14 +337,17 @@ class Report {
   Table targets_{{"scene", "factor", "original total", "goal total", "ours, total",
                   "original inner", "goal inner", "ours, render", "yardstick + 5 px", "+ 20 px",
                   "ordered 5 px", "ordered 20 px"}};
-  Table stages_{{"scene", "project", "sort", "bin", "composite", "resolve", "particles", "drawn",
-                 "tile entries", "device B/particle", "heap B/particle"}};
+  Table stages_{{"scene", "project", "sort", "bin", "certify", "composite", "resolve", "particles",
+                 "drawn", "tile entries", "device B/particle", "heap B/particle"}};
+  FloorReport floors_;
   Table errors_{{"scene", "tolerance", "max error", "rms error", "brightest", "pixels"}};
 };
 
 void run(const Arguments& arguments) {
-  const Options options = read_options(arguments);
+  Options options = read_options(arguments);
   const Machine machine = describe_machine(options.device);
+  // What they are made of is measured on the processor.
+  options.with_floors = options.with_floors && !machine.device.is_gpu;
   std::printf("%s\n\n", describe(machine).c_str());
   Renderer renderer(RendererOptions{options.device, CompositeShape::automatic});
   Report report;
@@ -323,7 +374,8 @@ int main(int count, char** words) {
        "filter=TEXT: only scenes with this in their name",
        "tolerance=X: instead of the scenes' own", "runs=COUNT: how often each frame is timed (5)",
        "part=PIXELS: side of the squares on which the error is measured (64)",
-       "no-error: leaves the reference out", "device=NAME: part of a device's name",
-       "csv=FOLDER: where the tables go"},
+       "no-error: leaves the reference out",
+       "no-floors: leaves out what stages could take at least, as it is for a GPU",
+       "device=NAME: part of a device's name", "csv=FOLDER: where the tables go"},
       splotchcl::bench::run);
 }

@@ -104,9 +104,25 @@ double updates_of(const std::vector<Disc>& discs) {
 // A tile's three channels, the channels of eight pixels side by side.
 using Tile = std::array<Floats, tile_height * blocks * 3>;
 
+struct Corner {
+  float x, y;
+};
+
+Corner corner_of(std::size_t tile) {
+  return {static_cast<float>(static_cast<int>(tile) % tiles_x * tile_width),
+          static_cast<float>(static_cast<int>(tile) / tiles_x * tile_height)};
+}
+
+double row_parts_of(const Disc& disc, Corner tile) {
+  const Range columns = pixels_within(disc.x - tile.x, disc.radius, tile_width);
+  const Range rows = pixels_within(disc.y - tile.y, disc.radius, tile_height);
+  return static_cast<double>(rows.last - rows.first + 1) *
+         (columns.last / lanes - columns.first / lanes + 1);
+}
+
 template <bool ordered>
-void add_disc(Tile& tile, const Disc& disc, float tile_x, float tile_y) {
-  const float x = disc.x - tile_x, y = disc.y - tile_y;
+void add_disc(Tile& tile, const Disc& disc, Corner corner) {
+  const float x = disc.x - corner.x, y = disc.y - corner.y;
   const Range columns = pixels_within(x, disc.radius, tile_width);
   const Range rows = pixels_within(y, disc.radius, tile_height);
   const float scale = -disc.inverse_sigma2;
@@ -142,7 +158,7 @@ struct YardstickScene::Lists {
   std::vector<std::uint32_t> starts;  // tile_count + 1
   std::vector<Disc> discs;            // tile by tile
   std::vector<float> image;
-  double updates = 0;
+  double updates = 0, row_parts = 0;
 
   explicit Lists(const std::vector<Disc>& all_discs);
 
@@ -150,10 +166,9 @@ struct YardstickScene::Lists {
   void draw_tile(std::size_t index) {
     Tile tile;
     tile.fill(Floats{});
-    const auto corner_x = static_cast<float>(static_cast<int>(index) % tiles_x * tile_width);
-    const auto corner_y = static_cast<float>(static_cast<int>(index) / tiles_x * tile_height);
+    const Corner corner = corner_of(index);
     for (std::uint32_t i = starts[index]; i < starts[index + 1]; ++i)
-      add_disc<ordered>(tile, discs[i], corner_x, corner_y);
+      add_disc<ordered>(tile, discs[i], corner);
     std::memcpy(image.data() + index * tile.size() * lanes, tile.data(), sizeof(tile));
   }
 
@@ -189,6 +204,10 @@ YardstickScene::Lists::Lists(const std::vector<Disc>& all_discs)
   for (const Disc& disc : all_discs)
     for_each_tile(disc, [&](std::size_t tile) { discs[next[tile]++] = disc; });
   updates = updates_of(all_discs);
+  for (std::size_t t = 0; t < tile_count; ++t) {
+    for (std::uint32_t i = starts[t]; i < starts[t + 1]; ++i)
+      row_parts += row_parts_of(discs[i], corner_of(t));
+  }
 }
 
 YardstickScene::YardstickScene(float mean_radius_pixels, int splat_count)
@@ -198,6 +217,14 @@ YardstickScene::YardstickScene(YardstickScene&&) noexcept = default;
 
 double YardstickScene::updates() const {
   return lists_->updates;
+}
+
+double YardstickScene::entries() const {
+  return static_cast<double>(lists_->discs.size());
+}
+
+double YardstickScene::row_parts() const {
+  return lists_->row_parts;
 }
 
 void YardstickScene::draw(bool ordered, int threads) {
@@ -210,7 +237,7 @@ void YardstickScene::draw(bool ordered, int threads) {
 
 namespace {
 
-double best_ns_per_update(YardstickScene& scene, bool ordered, int threads) {
+double best_seconds(YardstickScene& scene, bool ordered, int threads) {
   constexpr int runs = 5;
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < runs; ++i) {
@@ -218,12 +245,26 @@ double best_ns_per_update(YardstickScene& scene, bool ordered, int threads) {
     scene.draw(ordered, threads);
     best = std::min(best, stopwatch.elapsed().wall_seconds);
   }
-  return 1e9 * best / scene.updates();
+  return best;
+}
+
+struct TimedLists {
+  double entries, row_parts, seconds;
+};
+
+// Two kinds of lists, two unknowns.
+SplatSeconds split(const TimedLists& small, const TimedLists& large) {
+  const double determinant = small.entries * large.row_parts - large.entries * small.row_parts;
+  return {
+      std::max(0.0,
+               (small.seconds * large.row_parts - large.seconds * small.row_parts) / determinant),
+      std::max(0.0, (small.entries * large.seconds - large.entries * small.seconds) / determinant)};
 }
 
 YardstickCost measure_size(float radius_pixels, int splat_count, int threads) {
   YardstickScene scene(radius_pixels, splat_count);
-  return {best_ns_per_update(scene, false, threads), best_ns_per_update(scene, true, threads)};
+  return {1e9 * best_seconds(scene, false, threads) / scene.updates(),
+          1e9 * best_seconds(scene, true, threads) / scene.updates()};
 }
 
 }  // namespace
@@ -245,6 +286,15 @@ Yardstick mean_of(const Yardstick& first, const Yardstick& second) {
     return {0.5 * (a.additive_ns + b.additive_ns), 0.5 * (a.ordered_ns + b.ordered_ns)};
   };
   return {mean(first.small, second.small), mean(first.large, second.large), first.threads};
+}
+
+YardstickParts measure_yardstick_parts(int threads) {
+  YardstickScene small(1.5f, 2000000), large(20, 200000);
+  const auto parts = [&](bool ordered) -> SplatSeconds {
+    return split({small.entries(), small.row_parts(), best_seconds(small, ordered, threads)},
+                 {large.entries(), large.row_parts(), best_seconds(large, ordered, threads)});
+  };
+  return {parts(false), parts(true)};
 }
 
 std::string describe(const Yardstick& yardstick) {

@@ -1,0 +1,134 @@
+#include "frame_counts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "device/opencl/device_context.h"
+#include "device/pipeline.h"
+#include "estimate/device_memory.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl::bench {
+namespace {
+
+// Pixels whose centers lie within `reach` of a place, of so many around the middle of a tile.
+double pixels_within(double place, double reach, double size) {
+  const double first = std::max(-size / 2, std::ceil(place - reach - 0.5));
+  const double last = std::min(size / 2 - 1, std::floor(place + reach - 0.5));
+  return std::max(0.0, last - first + 1);
+}
+
+// Makes the lists of a frame one after the other, and looks at what they hold.
+class ListReader {
+ public:
+  ListReader(DeviceContext& device, const Frame& frame, const FramePlan& plan)
+      : device_(device), plan_(plan), store_(device), pipeline_(device, store_, frame, plan) {}
+
+  void read(FrameCounts& counts) {
+    if (plan_.needs_sort()) {
+      read_ordered(counts);
+    } else {
+      read_sums(counts);
+    }
+    device_.queue.finish();
+    device_.timer.clear();
+  }
+
+ private:
+  const Specialization& specialization() const { return pipeline_.context().specialization; }
+
+  void read_sums(FrameCounts& counts) {
+    for (const ParticleChunk& chunk : pipeline_.particle_chunks()) {
+      SplatBlocks blocks = pipeline_.project(chunk);
+      read_lists(pipeline_.binner().count(blocks), counts);
+      ++counts.chunks;
+    }
+  }
+
+  void read_ordered(FrameCounts& counts) {
+    const SortedSplats sorted = pipeline_.sorter().sort(pipeline_.project_all());
+    for (const SplatChunk& chunk : splat_chunks(sorted.count, plan_.slabs, device_.traits)) {
+      read_lists(pipeline_.binner().count(sorted, chunk), counts);
+      ++counts.chunks;
+    }
+  }
+
+  void read_lists(const CountedSplats& counted, FrameCounts& counts) {
+    for (const TileBand& band : counted.bands) {
+      const TileLists lists = pipeline_.binner().make_lists(counted, band);
+      const std::size_t entry_bytes = specialization().tile_splat_bytes();
+      const std::vector<std::byte> entries =
+          device_.pool.download(lists.entries, lists.entry_count * entry_bytes);
+      const std::byte* entry = entries.data();
+      for (std::uint32_t tile = band.first; tile < band.end; ++tile) {
+        ListWork& work = is_layered(tile) ? counts.layered : counts.summed;
+        work.entries += counted.lengths[tile];
+        for (std::uint32_t i = 0; i < counted.lengths[tile]; ++i, entry += entry_bytes)
+          work.row_parts += row_parts_of(entry);
+      }
+    }
+  }
+
+  // In the picture's own pixels, of an ordered frame.
+  bool is_layered(std::uint32_t tile) const {
+    const std::vector<shared::Grid>& grids = pipeline_.context().layout.grids;
+    return plan_.needs_sort() && (grids.size() == 1 || tile < grids[1].first_tile);
+  }
+
+  double row_parts_of(const std::byte* entry) const {
+    if (plan_.is_extended()) return 0;
+    float shape[4];  // x, y, sigma, radius (bin.h)
+    std::memcpy(shape, entry, sizeof(shape));
+    return bench::row_parts_of({shape[0], shape[1], shape[3]}, specialization().tile_width(),
+                               specialization().tile_height());
+  }
+
+  DeviceContext& device_;
+  const FramePlan& plan_;
+  ParticleStore store_;
+  Pipeline pipeline_;
+};
+
+}  // namespace
+
+double row_parts_of(const Disc& disc, double tile_width, double tile_height) {
+  const auto x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
+  const auto radius = static_cast<double>(disc.radius);
+  if (radius < 0) return 0;
+  double parts = 0;
+  const double first = std::max(-tile_height / 2, std::ceil(y - radius - 0.5));
+  const double end = std::min(tile_height / 2, std::floor(y + radius + 0.5));
+  for (double row = first; row < end; ++row) {
+    const double along = row + 0.5 - y;
+    const double across = std::sqrt(std::max(0.0, radius * radius - along * along));
+    parts += std::ceil(pixels_within(x, across, tile_width) / 8);
+  }
+  return parts;
+}
+
+FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
+                         const std::string& device_name) {
+  DeviceContext device(choose_device(device_name));
+  const FramePlan plan = make_plan(frame);
+  const Specialization specialization(frame, plan, device.traits);
+  FrameCounts counts;
+  counts.is_ordered = plan.needs_sort();
+  counts.is_collected = !plan.is_extended();
+  counts.slabs = plan.slabs;
+  counts.particles = static_cast<double>(stats.particles);
+  counts.particle_bytes = static_cast<double>(particle_bytes(frame)) / counts.particles;
+  counts.splats = static_cast<double>(stats.drawn_particles);
+  counts.splat_bytes =
+      static_cast<double>(specialization.splat_bytes() + specialization.extended_splat_bytes());
+  counts.entry_bytes = static_cast<double>(specialization.tile_splat_bytes());
+  const bool by_depth = frame.sort.by == SortOrder::By::depth;
+  counts.key_bytes = sizeof(std::uint32_t) + (by_depth ? sizeof(std::uint16_t) : 0);
+  counts.pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
+  counts.planes = specialization.planes();
+  ListReader(device, frame, plan).read(counts);
+  return counts;
+}
+
+}  // namespace splotchcl::bench
