@@ -193,15 +193,20 @@ KernelCost blur(const Launches& l) {
   return {l.items * 8 * word * 2, l.items * 8 * word, l.items * 8 * 20, MOST_BLUR_WEIGHTS, 0};
 }
 
-KernelCost refine(const Launches& l) {
+KernelCost refine_columns(const Launches& l) {
   return {l.items * 8 * word * 2, l.items * 8 * word * 2, l.items * 8 * 25, 10, 0};
+}
+
+// Two rows of eight pixels, as lay_slab.
+KernelCost refine_rows(const Launches& l) {
+  return {2 * l.items * 8 * word * 2, 2 * l.items * 8 * word * 2, 2 * l.items * 8 * 25, 11, 0};
 }
 
 // Sums interpolated by ten weights, of which neighbors share the rows, and laid among what is
 // there.
 KernelCost lay_slab(const Launches& l) {
-  const double planes = l.items * 8 * word * 6;
-  return {planes * 2.5, planes * 2, l.items * 8 * 3 * 90, 3 * 10, 0};
+  const double planes = 2 * l.items * 8 * word * 6;
+  return {planes * 2.5, planes * 2, 2 * l.items * 8 * 3 * 90, 3 * 11, 0};
 }
 
 KernelCost resolve(const Launches& l) {
@@ -230,8 +235,8 @@ const std::map<std::string, Cost>& costs() {
                                                   {"collect_segments", collect_segments},
                                                   {"blur_columns", blur},
                                                   {"blur_rows", blur},
-                                                  {"refine_columns", refine},
-                                                  {"refine_rows", refine},
+                                                  {"refine_columns", refine_columns},
+                                                  {"refine_rows", refine_rows},
                                                   {"lay_slab", lay_slab},
                                                   {"resolve", resolve}};
   return all;

@@ -45,24 +45,51 @@ __kernel void refine_columns(const RefineParameters p, __global const Grid* grid
   vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
 }
 
-// Work-item (eight pixels, y, plane) of the part: interpolated along y and added to
+// Two neighboring rows, of which the first is even, lie on one coarse row and share those around
+// it.
+typedef struct RowPair {
+  float8 even, odd;
+} RowPair;
+
+// The first row of the pair that a work-item takes: the part may begin or end within a pair.
+inline int first_of_pair(const GridPart part, int pair) {
+  return (part.top & ~1) + 2 * pair;
+}
+
+// Eight pixels of both, from where `column` has those of their coarse row.
+INLINED RowPair rows_between(__global const float* column, size_t stride, const float* weights) {
+  RowPair pair = {(float8)(0.0f), (float8)(0.0f)};
+#pragma unroll
+  for (int k = -5; k <= 5; ++k) {
+    const float8 row = vload8(0, column + k * (int)stride);
+    if (k < 5) pair.even += weights[4 - k] * row;
+    if (k > -5) pair.odd += weights[4 + k] * row;
+  }
+  return pair;
+}
+
+// Where the temporary has eight pixels of plane c on the coarse row of row y.
+inline __global const float* column_of(__global const float* temporary, const GridPart part,
+                                       const Grid fine, const Grid coarse, uint c, int x, int y) {
+  const int row = coarse_place(y, fine, coarse) - first_coarse_row(part, fine, coarse);
+  return temporary + ((size_t)c * coarse_rows(part, fine, coarse) + row) * temporary_columns(part) +
+         (x - first_column(part));
+}
+
+// Work-item (eight pixels, pair of rows, plane) of the part: interpolated along y and added to
 // what the finer grid holds, if it does hold something.
 __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
                           __global float* planes, __global const float* temporary) {
   const Grid coarse = grids[p.coarse], fine = grids[p.fine];
-  const int x = p.part.left + (int)get_global_id(0) * 8, y = p.part.top + (int)get_global_id(1);
+  const int x = p.part.left + (int)get_global_id(0) * 8;
+  const int first = first_of_pair(p.part, (int)get_global_id(1));
   const uint c = (uint)get_global_id(2);
-  if (x >= p.part.right_end || y >= p.part.bottom) return;
-  const int side = (y & 1) ? 1 : -1;
-  const int row = coarse_place(y, fine, coarse) - first_coarse_row(p.part, fine, coarse);
-  const size_t stride = temporary_columns(p.part);
-  __global const float* column = temporary +
-                                 ((size_t)c * coarse_rows(p.part, fine, coarse) + row) * stride +
-                                 (x - first_column(p.part));
-  __global float* target = planes + pixel_at(fine, c, x, y);
-  float8 sum = p.add ? vload8(0, target) : (float8)(0.0f);
-  for (int k = 0; k < 10; ++k) {
-    sum += p.weights[k] * vload8(0, column + (k - 4) * side * (int)stride);
+  if (x >= p.part.right_end || first >= p.part.bottom) return;
+  const RowPair sums = rows_between(column_of(temporary, p.part, fine, coarse, c, x, first),
+                                    temporary_columns(p.part), p.weights);
+  for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+    __global float* target = planes + pixel_at(fine, c, x, y);
+    const float8 sum = y == first ? sums.even : sums.odd;
+    store_first(p.add ? vload8(0, target) + sum : sum, p.part.right_end - x, target);
   }
-  store_first(sum, p.part.right_end - x, target);
 }

@@ -9,7 +9,44 @@ INLINED float8 depth_of(float8 opacity) {
   return any(deep) ? select(series, -log(1.0f - x), deep) : series;
 }
 
-// Work-item (eight pixels, y) of the part: sums interpolated along y from `columns`
+// Most slabs are thin everywhere.
+INLINED float8 phi_of_depth(float8 depth) {
+  return any(depth >= 0.1f) ? phi_full(depth) : phi_series(depth);
+}
+
+// Lays depth and light of one channel among what eight pixels hold, and returns the most that any
+// order of the slab's splats could change of them.
+INLINED float8 lay_channel(float8 depth, float8 light, int count, __global float* source,
+                           __global float* opacity, __global float* source_before,
+                           __global float* opacity_before) {
+  // Coarse grids ring by a part of the tolerance.
+  depth = max(depth, (float8)(0.0f));
+  const float8 source0 = vload8(0, source_before), opacity0 = vload8(0, opacity_before);
+  const float8 opacity1 = vload8(0, opacity), passed0 = 1.0f - opacity0;
+  const float8 taken = min(opacity1 - opacity0, passed0) / max(passed0, 1e-30f);
+  const float8 narrow_depth = depth_of(taken);
+  const float8 narrow_phi = select((float8)(1.0f), taken / max(narrow_depth, 1e-30f), taken > 0.0f);
+  const float8 phi = phi_of_depth(depth);
+  const float8 narrow = vload8(0, source) - source0, wide = passed0 * light;
+  const float8 new_source = source0 + narrow * phi + wide * (phi * narrow_phi);
+  const float8 new_opacity = opacity1 + (1.0f - opacity1) * (depth * phi);
+  store_first(new_source, count, source);
+  store_first(new_opacity, count, opacity);
+  store_first(new_source, count, source_before);
+  store_first(new_opacity, count, opacity_before);
+  return 0.5f * (fabs(narrow) * depth + fabs(wide) * (narrow_depth + depth));
+}
+
+inline float largest_of_first(float8 values, int count) {
+  float lanes[8];
+  vstore8(values, 0, lanes);
+  float largest = 0.0f;
+  for (int k = 0; k < min(count, 8); ++k)
+    largest = max(largest, lanes[k]);
+  return largest;
+}
+
+// Work-item (eight pixels, pair of rows) of the part: sums interpolated along y from `columns`
 // (refine_columns), then laid. `before` has the planes as they were before the slab, and takes what
 // they are after it; `errors` the most that any order of the slab's splats could change of eight
 // pixels (docs/accuracy.md, "Slabs").
@@ -17,49 +54,30 @@ __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __g
                        __global const float* columns, __global float* before,
                        __global float* errors) {
   const Grid coarse = grids[p.coarse], fine = grids[p.fine];
-  const int x = p.part.left + (int)get_global_id(0) * 8, y = p.part.top + (int)get_global_id(1);
-  if (x >= p.part.right_end || y >= p.part.bottom) return;
-  const int side = (y & 1) ? 1 : -1;
-  const int rows = coarse_rows(p.part, fine, coarse);
-  const int row = coarse_place(y, fine, coarse) - first_coarse_row(p.part, fine, coarse);
-  const size_t stride = temporary_columns(p.part);
+  const int x = p.part.left + (int)get_global_id(0) * 8;
+  const int first = first_of_pair(p.part, (int)get_global_id(1));
+  if (x >= p.part.right_end || first >= p.part.bottom) return;
   const int count = p.part.right_end - x;
-  float8 largest = (float8)(0.0f);
+  const size_t stride = temporary_columns(p.part);
+  float8 largest[2] = {(float8)(0.0f), (float8)(0.0f)};
   for (uint c = 0; c < 3; ++c) {
-    __global const float* depths =
-        columns + ((size_t)c * rows + row) * stride + (x - first_column(p.part));
-    __global const float* lights = depths + (size_t)3 * rows * stride;
-    float8 depth = (float8)(0.0f), light = (float8)(0.0f);
-    for (int k = 0; k < 10; ++k) {
-      depth += p.weights[k] * vload8(0, depths + (k - 4) * side * (int)stride);
-      light += p.weights[k] * vload8(0, lights + (k - 4) * side * (int)stride);
+    const RowPair depth =
+        rows_between(column_of(columns, p.part, fine, coarse, c, x, first), stride, p.weights);
+    const RowPair light =
+        rows_between(column_of(columns, p.part, fine, coarse, c + 3, x, first), stride, p.weights);
+    for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+      const int r = y - first;
+      const size_t source = pixel_at(fine, c, x, y), opacity = pixel_at(fine, c + 3, x, y);
+      const size_t grid = first_float(fine);
+      const float8 changed = lay_channel(
+          r == 0 ? depth.even : depth.odd, r == 0 ? light.even : light.odd, count, planes + source,
+          planes + opacity, before + (source - grid), before + (opacity - grid));
+      largest[r] = max(largest[r], changed);
     }
-    // Coarse grids ring by a part of the tolerance.
-    depth = max(depth, (float8)(0.0f));
-    const size_t at_source = pixel_at(fine, c, x, y), at_opacity = pixel_at(fine, c + 3, x, y);
-    const size_t first = first_float(fine);
-    const float8 source = vload8(0, planes + at_source), opacity = vload8(0, planes + at_opacity);
-    const float8 source0 = vload8(0, before + (at_source - first));
-    const float8 opacity0 = vload8(0, before + (at_opacity - first));
-    const float8 passed0 = 1.0f - opacity0;
-    const float8 taken = min(opacity - opacity0, passed0) / max(passed0, 1e-30f);
-    const float8 narrow_depth = depth_of(taken);
-    const float8 narrow_phi =
-        select((float8)(1.0f), taken / max(narrow_depth, 1e-30f), taken > 0.0f);
-    const float8 phi = phi_full(depth);
-    const float8 narrow = source - source0, wide = passed0 * light;
-    const float8 new_source = source0 + narrow * phi + wide * (phi * narrow_phi);
-    const float8 new_opacity = opacity + (1.0f - opacity) * (depth * phi);
-    store_first(new_source, count, planes + at_source);
-    store_first(new_opacity, count, planes + at_opacity);
-    store_first(new_source, count, before + (at_source - first));
-    store_first(new_opacity, count, before + (at_opacity - first));
-    largest = max(largest, fabs(narrow) * depth + fabs(wide) * (narrow_depth + depth));
   }
-  for (int k = count; k < 8; ++k)
-    ((float*)&largest)[k] = 0.0f;
-  const float4 four = max(largest.lo, largest.hi);
-  const float2 two = max(four.lo, four.hi);
   const size_t strips = (size_t)(p.part.right_end - p.part.left + 7) / 8;
-  errors[(size_t)get_global_id(1) * strips + get_global_id(0)] += 0.5f * max(two.x, two.y);
+  for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+    const size_t strip = (size_t)(y - p.part.top) * strips + get_global_id(0);
+    errors[strip] += largest_of_first(largest[y - first], count);
+  }
 }

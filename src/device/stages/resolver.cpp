@@ -17,6 +17,11 @@ std::size_t strips(std::size_t pixels, std::size_t per_item) {
   return (pixels + per_item - 1) / per_item;
 }
 
+// Pairs of an even row and the next that a part touches.
+std::size_t row_pairs(const shared::GridPart& part) {
+  return strips(static_cast<std::size_t>(part.bottom - (part.top & ~1)), 2);
+}
+
 }  // namespace
 
 Resolver::Resolver(const StageContext& context)
@@ -142,13 +147,12 @@ void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t 
   parameters.add = add;
   const Buffer<float> columns = refine_columns(planes, parameters);
   const auto width = static_cast<std::size_t>(part.right_end - part.left);
-  const auto height = static_cast<std::size_t>(part.bottom - part.top);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(strips(width, 8), height, context_.specialization.planes());
+      .run_grid(strips(width, 8), row_pairs(part), context_.specialization.planes());
 }
 
 SlabLight Resolver::start_slabs() const {
@@ -181,8 +185,8 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
       .arg(columns)
       .arg(slab.before)
       .arg(slab.errors)
-      .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8),
-                static_cast<std::size_t>(part.bottom - part.top), 1);
+      .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8), row_pairs(part),
+                1);
   planes.used_grids = picture;
   return planes;
 }
