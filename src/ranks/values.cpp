@@ -33,6 +33,15 @@ std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own) {
   return *std::min_element(values.begin(), values.end());
 }
 
+void join_stretches(Communicator& ranks, std::vector<float>& values,
+                    const std::vector<std::size_t>& begins) {
+  for (std::size_t rank = 0; rank + 1 < begins.size(); ++rank) {
+    const std::size_t count = begins[rank + 1] - begins[rank];
+    if (count > 0)
+      ranks.broadcast(values.data() + begins[rank], count * sizeof(float), static_cast<int>(rank));
+  }
+}
+
 void add_up(Communicator& ranks, const std::vector<std::uint64_t*>& counts) {
   std::vector<std::uint64_t> sums;
   for (const std::uint64_t* const count : counts)
