@@ -13,11 +13,10 @@
 namespace splotchcl {
 namespace {
 
-// Of one rank to another, and of the first to those that follow it.
+// Of one rank to another.
 struct Request {
   std::uint64_t column, begin, end;
 };
-constexpr Request no_more = {~std::uint64_t{0}, 0, 0};
 
 // Overlapping stretches become one.
 std::vector<SpreadColumn::Stretch> joined(std::vector<SpreadColumn::Stretch> stretches) {
@@ -84,13 +83,11 @@ void SpreadParticles::read(const SpreadColumn& column, std::size_t begin, std::s
     read_together(column, begin, end, values);
     return;
   }
-  if (read_here(column, begin, end, values)) return;
-  if (mode_ != Mode::leading) {
+  if (!read_here(column, begin, end, values)) {
     throw DataError("values " + std::to_string(begin) + " to " + std::to_string(end) +
                     " of a column that is spread over processes were wanted for drawing and had "
                     "not been fetched; please report it");
   }
-  read_leading(column, begin, end, values);
 }
 
 void SpreadParticles::read_together(const SpreadColumn& column, std::size_t begin, std::size_t end,
@@ -132,44 +129,6 @@ bool SpreadParticles::read_here(const SpreadColumn& column, std::size_t begin, s
     next = last;
   }
   return true;
-}
-
-void SpreadParticles::read_leading(const SpreadColumn& column, std::size_t begin, std::size_t end,
-                                   float* values) const {
-  Request request = {column.number(), begin, end};
-  ranks_->broadcast(&request, sizeof(request), 0);
-  for (int rank = 0; rank < ranks_->size(); ++rank) {
-    const Stretch stretch = column.of_rank(rank, begin, end);
-    if (stretch.is_empty()) continue;
-    float* const first = values + (stretch.begin - begin);
-    if (rank == ranks_->rank()) {
-      column.copy_own(stretch, first);
-    } else {
-      ranks_->receive(first, stretch.count() * sizeof(float), rank);
-    }
-  }
-}
-
-void SpreadParticles::lead(const std::function<void()>& work) {
-  mode_ = Mode::leading;
-  work();
-  mode_ = Mode::drawing;
-  Request end = no_more;
-  ranks_->broadcast(&end, sizeof(end), 0);
-}
-
-void SpreadParticles::follow() {
-  for (;;) {
-    Request request = no_more;
-    ranks_->broadcast(&request, sizeof(request), 0);
-    if (request.column == no_more.column) return;
-    const SpreadColumn& column = *columns_.at(request.column);
-    const Stretch stretch = column.of_rank(ranks_->rank(), request.begin, request.end);
-    if (stretch.is_empty()) continue;
-    std::vector<float> values(stretch.count());
-    column.copy_own(stretch, values.data());
-    ranks_->send(values.data(), values.size() * sizeof(float), 0);
-  }
 }
 
 void SpreadParticles::fetch(const std::function<void()>& ask) {

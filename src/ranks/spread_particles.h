@@ -39,9 +39,6 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
   // Collective: `ask` asks for what this rank will ask for until forget(), and gets zeros.
   void fetch(const std::function<void()>& ask);
   void forget();
-  // After fetch, by all ranks: the work of the first may ask for any value; the others follow.
-  void lead(const std::function<void()>& work);
-  void follow();
 
  private:
   friend class SpreadColumn;
@@ -51,7 +48,6 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
     own,       // each asks for its own
     asking,    // what is asked for is noted
     drawing,   // it has been fetched
-    leading,   // or the other ranks wait to be asked
   };
   struct Fetched {
     std::size_t begin;
@@ -63,7 +59,7 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
 
   // For columns.
   bool is_asking() const { return mode_ == Mode::asking; }
-  bool reads_from_others() const { return mode_ == Mode::together || mode_ == Mode::leading; }
+  bool reads_from_others() const { return mode_ == Mode::together; }
   void ask(std::uint64_t column, std::size_t begin, std::size_t end);
   void read(const SpreadColumn& column, std::size_t begin, std::size_t end, float* values);
   void forget_column(std::uint64_t number) { columns_.erase(number); }
@@ -72,8 +68,6 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
                      float* values) const;
   bool read_here(const SpreadColumn& column, std::size_t begin, std::size_t end,
                  float* values) const;
-  void read_leading(const SpreadColumn& column, std::size_t begin, std::size_t end,
-                    float* values) const;
   const Fetched* find_fetched(std::uint64_t column, std::size_t value) const;
   Communicator::Bytes request_to(int rank) const;
   Communicator::Bytes answer(const Communicator::Bytes& request) const;

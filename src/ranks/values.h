@@ -15,6 +15,8 @@ namespace splotchcl {
 // One of each rank, by rank; known to all.
 std::vector<std::uint64_t> gather_values(Communicator& ranks, std::uint64_t own);
 std::vector<std::string> gather_texts(Communicator& ranks, const std::string& own);
+// What all ranks have, one after the other.
+std::vector<std::uint64_t> gather_lists(Communicator& ranks, const std::vector<std::uint64_t>& own);
 std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own);
 
 // Each of these becomes the sum of all ranks'.

@@ -33,6 +33,9 @@ std::vector<SmallScene> small_scenes() {
                        "[camera]\nprojection = \"equirectangular\"\n"
                        "position = [-90000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
                        both},
+      {"within",
+       head + "[camera]\nposition = [24000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
+           both},
       {"most_exact", "tolerance = 0\n" + head + both},
       {"two_eyes", head + "[stereo]\nlayout = \"side_by_side\"\n" + both},
   };
