@@ -188,33 +188,6 @@ TEST(SharedPasses, FindLengthsFromNeighbors) {
   expect_found_by_one(arrays, suggest_scene);
 }
 
-TEST(SharedPasses, LeaveNothingOpenToRanksWithoutParticles) {
-  expect_found_by_one(gas_and_stars(2, 1), suggest_scene);
-}
-
-// One line, whatever the others are at.
-TEST(SharedPasses, EndOnAllRanksWhereOneCannotRead) {
-  for (const std::string field : {"position", "internal_energy", "mass"}) {
-    std::vector<std::string> told;
-    std::mutex mutex;
-    ThreadRanks::run(3, [&](Communicator& ranks) {
-      CountedSnapshot snapshot(many());
-      share_passes(snapshot, borrowed(ranks));
-      if (ranks.rank() == 1) snapshot.fail_to_read(field);
-      std::vector<std::string> notes;
-      try {
-        agree(&ranks, [&] { load_frame(suggest_scene(snapshot), snapshot, notes); });
-        ADD_FAILURE() << "rank " << ranks.rank() << " has not failed";
-      } catch (const Error& error) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        told.push_back(error.what());
-      } catch (const FailedElsewhere&) {
-      }
-    });
-    EXPECT_THAT(told, ElementsAre("process 1 on host1: its disk is broken")) << field;
-  }
-}
-
 // Counts what this rank broadcasts.
 class CountedRanks final : public Communicator {
  public:
@@ -246,6 +219,51 @@ class CountedRanks final : public Communicator {
   Communicator& ranks_;
   std::size_t bytes_ = 0;
 };
+
+TEST(SharedPasses, TellTheLengthsThatEachHasFound) {
+  Arrays arrays = many();
+  arrays.at(gas).scalars.erase("smoothing_length");
+  arrays.at(gas).scalars.erase("density");
+  ThreadRanks::run(3, [&](Communicator& all) {
+    CountedRanks ranks(all);
+    const CountedSnapshot snapshot(arrays);
+    share_passes(snapshot, borrowed(ranks));
+    std::vector<std::string> notes;
+    load_frame(parse_scene(head + "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n" +
+                               gas_text + "reference_column = 1\n",
+                           "scene"),
+               snapshot, notes);
+    const auto share = static_cast<double>(gas_count * sizeof(float)) / 3;
+    EXPECT_NEAR(static_cast<double>(ranks.bytes_broadcast()), share, 0.25 * share);
+  });
+}
+
+TEST(SharedPasses, LeaveNothingOpenToRanksWithoutParticles) {
+  expect_found_by_one(gas_and_stars(2, 1), suggest_scene);
+}
+
+// One line, whatever the others are at.
+TEST(SharedPasses, EndOnAllRanksWhereOneCannotRead) {
+  for (const std::string field : {"position", "internal_energy", "mass"}) {
+    std::vector<std::string> told;
+    std::mutex mutex;
+    ThreadRanks::run(3, [&](Communicator& ranks) {
+      CountedSnapshot snapshot(many());
+      share_passes(snapshot, borrowed(ranks));
+      if (ranks.rank() == 1) snapshot.fail_to_read(field);
+      std::vector<std::string> notes;
+      try {
+        agree(&ranks, [&] { load_frame(suggest_scene(snapshot), snapshot, notes); });
+        ADD_FAILURE() << "rank " << ranks.rank() << " has not failed";
+      } catch (const Error& error) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        told.push_back(error.what());
+      } catch (const FailedElsewhere&) {
+      }
+    });
+    EXPECT_THAT(told, ElementsAre("process 1 on host1: its disk is broken")) << field;
+  }
+}
 
 // What all ranks of a simulation broadcast to decide the scene.
 std::size_t bytes_to_decide(const std::string& scene) {
