@@ -9,6 +9,7 @@
 
 namespace splotchcl {
 
+class Communicator;
 class Snapshot;
 
 // A scene and what it draws.
@@ -24,8 +25,11 @@ bool is_par_file(const std::filesystem::path& path);
 // What the command line takes for a scene: a scene file, a parameter file of the original program,
 // or a snapshot, for which a scene is chosen. `settings` are "key=value" strings of scene keys
 // that override it. Throws UsageError for a scene or a setting that is wrong, DataError for files
-// that cannot be read.
+// that cannot be read. Where all of `ranks` make the call, of the same files, they look at
+// particles together, each at its share: then, and whenever what the snapshot draws is decided or
+// loaded.
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
-                             const std::vector<std::string>& settings = {});
+                             const std::vector<std::string>& settings = {},
+                             const std::shared_ptr<Communicator>& ranks = nullptr);
 
 }  // namespace splotchcl

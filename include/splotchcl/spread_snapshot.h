@@ -16,11 +16,11 @@ namespace splotchcl {
 // on. decide, load_frame and FrameDrawer take it; the pictures have the bits that one process
 // draws from all arrays put together, however the particles are spread.
 //
-// What is decided (cameras, ranges, reference columns, plans) is decided from all particles, alike
-// on all ranks: they see the values that this needs, a stretch or a sample at a time. For drawing
-// each rank is given its part of the work, about a part in size() of the particles, whoever has
-// them. Where smoothing lengths have to be found from neighbours, each holds the positions of all
-// particles of the type while it searches, of at most 2^24 (docs/large.md).
+// What is decided (cameras, ranges, reference columns) is decided from all particles, alike on all
+// ranks: each looks at its own, and all are told what any has found. A plan follows from a sample,
+// which all see. For drawing each rank is given its part of the work, about a part in size() of the
+// particles, whoever has them. Where smoothing lengths have to be found from neighbours, each holds
+// the positions of all particles of the type while it searches, of at most 2^24 (docs/large.md).
 //
 // All ranks make the same calls with the same scene, which are collective. Where a call fails on
 // one of them before drawing begins, it fails on all: one throws what happened, the others

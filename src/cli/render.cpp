@@ -133,8 +133,9 @@ Image make_error_map(const FrameCheck& check, const Rectangle& crop) {
 
 // Everything up to the frame. Only one process looks at what is to be written.
 SceneWithSnapshot open_checked(const RenderOptions& options,
-                               const std::optional<std::filesystem::path>& output, bool writes,
-                               Console& console) {
+                               const std::optional<std::filesystem::path>& output,
+                               const std::shared_ptr<Communicator>& ranks, Console& console) {
+  const bool writes = writes_files(ranks);
   if (writes && output) check_image_path(*output);
   if (writes && options.stats) check_output_path(*options.stats);
   if (options.error_map) {
@@ -142,7 +143,7 @@ SceneWithSnapshot open_checked(const RenderOptions& options,
     if (writes) check_image_path(*options.error_map);
   }
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
-  SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  SceneWithSnapshot source = open_scene(options.scene, settings_of(options), ranks);
   for (const std::string& note : source.notes)
     console.note(note);
   if (!writes) return source;
@@ -208,7 +209,7 @@ int run_render(const RenderOptions& options, Console& console) {
   RenderReport report;
   agree(ranks.get(), [&] {
     if (options.reference) expect_one_process(ranks.get(), "--reference");
-    opened.emplace(open_checked(options, output, writes, console));
+    opened.emplace(open_checked(options, output, ranks, console));
   });
   const SceneWithSnapshot& source = *opened;
   if (output) {

@@ -105,9 +105,7 @@ std::vector<CloudAround> Pipeline::list_around(const std::vector<ParticleChunk>&
 }
 
 // Of an ordered frame.
-void Pipeline::take_around() {
-  if (counts_.around == 0) return;
-  std::vector<CloudAround> clouds = find_around();
+void Pipeline::take_around(std::vector<CloudAround> clouds) {
   if (CloudsInLists::can_hold(context_, clouds)) {
     surroundings_.end_nearer(clouds);
     in_lists_ = CloudsInLists(context_, clouds);
@@ -155,16 +153,20 @@ Planes Pipeline::draw_ordered(Planes planes) {
   return ranks_ != nullptr ? draw_slices(std::move(planes)) : draw_alone(std::move(planes));
 }
 
+void Pipeline::take_counts(const ParticleCounts& found, std::uint64_t left_out) {
+  counts_.blocks_left_out = left_out;
+  counts_.visible = found.visible;
+  counts_.bad = found.bad;
+  counts_.too_sharp = found.too_sharp;
+  counts_.around = found.around;
+}
+
 Planes Pipeline::draw_alone(Planes planes) {
   if (!has_room_for_all_splats()) return draw_windows(std::move(planes));
   KeyedSplats keyed = project_all();
-  counts_.blocks_left_out = keyed.left_out;
-  counts_.visible = keyed.particles.visible;
-  counts_.bad = keyed.particles.bad;
-  counts_.too_sharp = keyed.particles.too_sharp;
-  counts_.around = keyed.particles.around;
+  take_counts(keyed.particles, keyed.left_out);
   if (counts_.too_sharp > 0) return planes;
-  take_around();
+  if (counts_.around > 0) take_around(find_around());
   place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
@@ -179,15 +181,11 @@ Planes Pipeline::draw_alone(Planes planes) {
 Planes Pipeline::draw_windows(Planes planes) {
   WindowProjector windows(context_, projector_, sorter_, particles_);
   windows.count_keys();
-  counts_.blocks_left_out = windows.left_out();
-  counts_.visible = windows.particles().visible;
-  counts_.bad = windows.particles().bad;
-  counts_.too_sharp = windows.particles().too_sharp;
-  counts_.around = windows.particles().around;
+  take_counts(windows.particles(), windows.left_out());
   counts_.windows = windows.steps();
   if (counts_.too_sharp > 0) return planes;
   const std::uint64_t without_clouds = counts_.visible;
-  take_around();
+  if (counts_.around > 0) take_around(find_around());
   const std::uint64_t splats = without_clouds + in_lists_.count();
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);

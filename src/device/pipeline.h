@@ -12,6 +12,7 @@
 #include "device/frame/stage_context.h"
 #include "device/ranks/light_transfer.h"
 #include "device/ranks/rank_work.h"
+#include "device/ranks/slice_clouds.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
 #include "device/stages/clouds_in_lists.h"
@@ -75,6 +76,7 @@ class Pipeline {
   Planes draw_sums();
   Planes draw_ordered(Planes planes);
   Planes draw_alone(Planes planes);  // an ordered frame, by this rank
+  void take_counts(const ParticleCounts& found, std::uint64_t left_out);
   bool has_room_for_all_splats() const;
   Planes draw_windows(Planes planes);
   // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
@@ -89,9 +91,10 @@ class Pipeline {
   // Several ranks (pipeline_ranks.cpp).
   std::vector<CloudAround> gather_around(const std::vector<ParticleChunk>& own_chunks,
                                          std::uint64_t own);
+  void place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds);
+  std::vector<CloudRange> slice_around(const std::vector<KeySlice>& slices) const;
   void add_up_counts();
   Planes draw_slices(Planes planes);
-  Planes draw_by_first(Planes planes);
   SplatLight draw_slice(const SortedSplats& sorted, const SlicePart& part,
                         const std::vector<SplatChunk>& chunks, SplatLight light);
   SplatLight draw_slice_in_bands(const SortedSplats& sorted, const SlicePart& part,
@@ -100,7 +103,7 @@ class Pipeline {
                     Planes planes);
   void send_state(const SplatLight& light, int to);
   SplatLight receive_state(int from);
-  void take_around();
+  void take_around(std::vector<CloudAround> clouds);
   // Puts clouds around the camera with keys below `end_key` among splats, the nearest of which is
   // number `first`, or finds their places between them.
   void place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);

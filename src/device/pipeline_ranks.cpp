@@ -4,6 +4,7 @@
 #include "device/pipeline.h"
 #include "device/ranks/cloud_packets.h"
 #include "device/ranks/relay_bands.h"
+#include "device/ranks/slice_clouds.h"
 #include "device/ranks/slice_part.h"
 #include "device/ranks/splat_exchange.h"
 #include "device/stages/carry_splats.h"
@@ -81,17 +82,24 @@ SplatLight Pipeline::receive_state(int from) {
   return light;
 }
 
-// The others give it their particles where it has not all.
-Planes Pipeline::draw_by_first(Planes planes) {
-  if (ranks_->spread == nullptr) {
-    if (is_first()) planes = draw_alone(std::move(planes));
-  } else if (is_first()) {
-    ranks_->spread->lead([&] { planes = draw_alone(std::move(planes)); });
-  } else {
-    ranks_->spread->follow();
-  }
-  broadcast_value(ranks_->all, counts_);
-  return planes;
+// Which clouds around the camera lie in which slices.
+std::vector<CloudRange> Pipeline::slice_around(const std::vector<KeySlice>& slices) const {
+  std::vector<std::uint64_t> keys = in_lists_.keys();
+  for (const CloudAround& cloud : around_.clouds())
+    keys.push_back(cloud.key);
+  return clouds_of_slices(keys, slices);
+}
+
+// Of layers all ranks have to know all places of the round: clouds at the end of one slice may be
+// of one layer with those that begin the next.
+void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds) {
+  if (in_lists_.count() > 0) in_lists_.append(clouds.first, clouds.end, keyed);
+  if (around_.clouds().empty()) return;
+  std::vector<std::uint64_t> keys;
+  if (clouds.first < clouds.end) keys = sort_keys_of(context_, keyed);
+  around_.append_places(
+      gather_lists(ranks_->all, around_.places_among(keys, first, clouds.first, clouds.end)));
+  around_.skip_before(first);
 }
 
 // Each rank sorts a slice of the order, nearest first by ranks, and composites its chunks behind
@@ -101,16 +109,11 @@ Planes Pipeline::draw_by_first(Planes planes) {
 Planes Pipeline::draw_slices(Planes planes) {
   SplatExchange exchange(context_, projector_, particles_, *ranks_);
   exchange.count_keys();
-  const ParticleCounts& found = exchange.particles();
-  counts_.blocks_left_out = exchange.left_out();
-  counts_.visible = found.visible;
-  counts_.bad = found.bad;
-  counts_.too_sharp = found.too_sharp;
-  counts_.around = found.around;
+  take_counts(exchange.particles(), exchange.left_out());
   if (counts_.too_sharp > 0) return planes;
-  // Clouds around the camera reach all over the picture, in front of splats of every slice.
-  if (counts_.around > 0) return draw_by_first(std::move(planes));
-  const std::uint64_t splats = found.visible;
+  if (counts_.around > 0) take_around(gather_around(exchange.chunks(), exchange.own_around()));
+  const std::uint64_t splats = exchange.particles().visible + in_lists_.count();
+  const std::vector<CloudRange> clouds_of = slice_around(exchange.slices());
   const int rank = ranks_->rank(), last = ranks_->size() - 1;
   counts_.windows =
       exchange.rounds() > 1 ? exchange.rounds() * static_cast<std::uint64_t>(last + 1) : 0;
@@ -118,15 +121,19 @@ Planes Pipeline::draw_slices(Planes planes) {
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);
   if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
 
-  // Slabs are laid over the whole picture.
-  const bool in_bands = context_.plan.slabs == 0 && exchange.has_room_for_copies();
+  // Slabs and layers of clouds are laid over the whole picture.
+  const bool in_bands =
+      context_.plan.slabs == 0 && around_.clouds().empty() && exchange.has_room_for_copies();
 
   SplatLight light;
   light.planes = std::move(planes);
   PassedSplats passed;
   for (std::size_t round = 0; round < exchange.rounds(); ++round) {
-    const SlicePart part = part_of(exchange.slice(round, rank), chunks);
-    KeyedSplats keyed = exchange.take(round, part.carried);
+    const std::size_t number = exchange.number_of_slice(round, rank);
+    const CloudRange in_lists = in_lists_.count() > 0 ? clouds_of[number] : CloudRange();
+    const SlicePart part = part_of(with_clouds(exchange.slices()[number], in_lists), chunks);
+    KeyedSplats keyed = exchange.take(round, part.carried, in_lists.count());
+    place_around(keyed, part.first, clouds_of[number]);
     if (round > 0 && rank == last) {
       passed.send(*ranks_, 0);
       send_state(light, 0);
@@ -145,6 +152,7 @@ Planes Pipeline::draw_slices(Planes planes) {
     }
     if (rank > 0) light = receive_state(before);
     light = draw_slice(sorted, part, chunks, std::move(light));
+    if (number + 1 == clouds_of.size()) light.planes = end_order(splats, std::move(light.planes));
     if (rank < last) send_state(light, rank + 1);
   }
   if (rank == last && last > 0) send_state(light, 0);

@@ -261,7 +261,7 @@ bool Renderer::State::mend_in_order(const Frame& frame, const FramePlan& plan,
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
   std::optional<FrameRanks> of_frame;
-  if (ranks) of_frame.emplace(FrameRanks{*ranks, work, frame.spread.get()});
+  if (ranks) of_frame.emplace(FrameRanks{*ranks, work});
   Pipeline pipeline(device, particles, frame, plan, progress, of_frame ? &*of_frame : nullptr);
   Image image = pipeline.draw();
   splats.counts = pipeline.counts();

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "between/interpolated_column.h"
 #include "load/component_boxes.h"
+#include "load/passes.h"
 #include "parallel/available_memory.h"
+#include "ranks/rank_pass.h"
 #include "ranks/spread_particles.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
@@ -24,7 +27,7 @@ struct Part {
 };
 
 // One after the other, `width` values per particle.
-Column joined(const std::vector<Part>& parts, std::size_t width) {
+Column joined(const std::vector<Part>& parts, std::size_t width, bool is_shared) {
   if (parts.size() == 1) return parts.front().column;
   const Column& first = parts.front().column;
   const bool all_the_same = std::all_of(parts.begin(), parts.end(), [&first](const Part& part) {
@@ -34,7 +37,7 @@ Column joined(const std::vector<Part>& parts, std::size_t width) {
   std::size_t total = 0;
   for (const Part& part : parts)
     total += part.count;
-  const bool streams = is_too_large_to_copy(total * width * sizeof(float)) ||
+  const bool streams = is_shared || is_too_large_to_copy(total * width * sizeof(float)) ||
                        std::any_of(parts.begin(), parts.end(),
                                    [](const Part& part) { return is_streamed(part.column); });
   const auto make = [parts, width](std::size_t begin, std::size_t end, float* out) {
@@ -110,13 +113,33 @@ void ComponentFields::check(const SortOrder& sort) const {
 
 void ComponentFields::select() {
   counts_.clear();
+  own_begins_.clear();
   for (std::size_t t = 0; t < types_.size(); ++t) {
     selected_[t] = select_particles(component_, types_[t], snapshot_.own_part(), periodic_box_);
-    if (spread_) counts_.push_back(static_cast<std::size_t>(spread_->sum(own_count_of(t))));
+    if (spread_) add_up_counts(t);
   }
   if (count() > 0) return;
   note(fmt::format("select and exclude leave none of its {} particles; nothing of it is drawn",
                    count_before_selecting()));
+}
+
+void ComponentFields::add_up_counts(std::size_t type) {
+  const std::vector<std::uint64_t> counts = spread_->gather(own_count_of(type));
+  const auto own = counts.begin() + spread_->ranks().rank();
+  own_begins_.push_back(std::accumulate(counts.begin(), own, std::size_t{0}));
+  counts_.push_back(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+}
+
+ParticlePass ComponentFields::pass() const {
+  if (!spread_) return pass_over_made(snapshot_, count());
+  std::vector<ParticleRun> runs;
+  std::size_t first = 0;  // particle of the type
+  for (std::size_t t = 0; t < types_.size(); ++t) {
+    const std::size_t begin = first + own_begins_.at(t);
+    runs.push_back({begin, begin + own_count_of(t)});
+    first += count_of(t);
+  }
+  return ParticlePass(std::move(runs), std::make_shared<const RankPass>(spread_));
 }
 
 std::size_t ComponentFields::own_count_of(std::size_t type) const {
@@ -147,14 +170,16 @@ Column ComponentFields::collected(const std::string& what, const Read& read,
                                   std::size_t width) const {
   if (types_.size() == 1 && !selected_.front() && !spread_) return read(types_.front());
   const std::string key = fmt::format("{}: {}", particles_key(), what);
+  // Of what ranks share each makes what it asks for.
+  const bool is_shared = has_shared_passes(snapshot_);
   return snapshot_.memory().get<Column>(key, [&] {
     std::vector<Part> parts;
     for (std::size_t t = 0; t < types_.size(); ++t) {
-      Column column = gather(read(types_[t]), selected_[t].get(), width);
+      Column column = gather(read(types_[t]), selected_[t], width, is_shared);
       if (spread_) column = spread_->spread(column, own_count_of(t), width);
       parts.push_back({std::move(column), count_of(t)});
     }
-    return joined(parts, width);
+    return joined(parts, width, is_shared);
   });
 }
 
@@ -181,7 +206,8 @@ Column ComponentFields::positions() const {
                                       placement.axis.a[0], placement.axis.a[1], placement.axis.a[2],
                                       placement.angle_degrees, placement.scale);
   return snapshot_.memory().get<Column>(key, [&] {
-    return placed_positions(placement, component_.center, snapshot_.position_origin(), as_stored());
+    return placed_positions(placement, component_.center, snapshot_.position_origin(), as_stored(),
+                            has_shared_passes(snapshot_));
   });
 }
 

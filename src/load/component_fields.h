@@ -8,6 +8,7 @@
 #include "load/placement.h"
 #include "load/select_particles.h"
 #include "load/type_fields.h"
+#include "scene/particle_pass.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
@@ -33,6 +34,8 @@ class ComponentFields {
 
   const SnapshotInfo& snapshot_info() const { return snapshot_.info(); }
   std::size_t count() const;  // particles of all types together
+  // Over all of them.
+  ParticlePass pass() const;
   // As they are placed in the scene: origin() + positions().
   Vec3 origin() const;
   Column positions() const;
@@ -59,6 +62,7 @@ class ComponentFields {
  private:
   using Read = std::function<Column(const TypeFields&)>;
   Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
+  void add_up_counts(std::size_t type);
   std::size_t count_of(std::size_t type) const;
   std::size_t own_count_of(std::size_t type) const;
   std::size_t count_before_selecting() const;
@@ -72,7 +76,7 @@ class ComponentFields {
   std::vector<TypeFields> types_;
   std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
   std::shared_ptr<SpreadParticles> spread_;                       // null: all particles are here
-  std::vector<std::size_t> counts_;                               // of all ranks, by types
+  std::vector<std::size_t> counts_, own_begins_;  // of all ranks, and this one's first, by types
 };
 
 }  // namespace splotchcl

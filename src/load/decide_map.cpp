@@ -37,9 +37,10 @@ ValueRange range_from_data(const Column& column, const FieldMap& map,
                            const ComponentFields& fields) {
   std::optional<ValueRange> bulk;
   if (map.percentiles) {
-    bulk = percentile_range(column, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1]);
+    bulk = percentile_range(column, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1],
+                            fields.pass());
   } else {
-    bulk = bulk_range(column, map.scaling);
+    bulk = bulk_range(column, map.scaling, fields.pass());
   }
   if (!bulk && fields.count() == 0) return {0, 1};
   if (!bulk) {

@@ -40,7 +40,7 @@ std::optional<double> power_of(const std::string& word, const std::string& symbo
 
 // One value of each vector.
 template <class Value>
-Column of_vectors(const Column& vectors, Value value) {
+Column of_vectors(const Column& vectors, bool streams, Value value) {
   const auto make = [=](std::size_t begin, std::size_t end, float* out) {
     const ColumnStretch stretch(vectors, 3 * begin, 3 * end);
     for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
@@ -50,7 +50,7 @@ Column of_vectors(const Column& vectors, Value value) {
       *out++ = static_cast<float>(value(vector));
     }
   };
-  return make_column(vectors.size() / 3, is_streamed(vectors), make);
+  return make_column(vectors.size() / 3, streams || is_streamed(vectors), make);
 }
 
 bool begins_with(const std::string& text, const std::string& start) {
@@ -60,11 +60,10 @@ bool begins_with(const std::string& text, const std::string& start) {
 }  // namespace
 
 Column temperatures(const Column& internal_energy, const Column& electron_abundance,
-                    double energy_unit, std::size_t count) {
+                    double energy_unit, std::size_t count, bool streams) {
   constexpr double x = hydrogen_mass_fraction;
   const double per_energy_and_weight =
       (adiabatic_index - 1) * energy_unit * proton_mass_g / boltzmann_erg_per_kelvin;
-  const bool streams = is_streamed(internal_energy) || is_streamed(electron_abundance);
   const auto make = [=](std::size_t begin, std::size_t end, float* out) {
     const ColumnStretch energies(internal_energy, begin, end);
     const ColumnStretch abundances(electron_abundance, begin, end);
@@ -76,7 +75,8 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
           static_cast<float>(per_energy_and_weight * weight * static_cast<double>(energies[i]));
     }
   };
-  return make_column(count, streams, make);
+  return make_column(
+      count, streams || is_streamed(internal_energy) || is_streamed(electron_abundance), make);
 }
 
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field) {
@@ -97,18 +97,18 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
   return unit;
 }
 
-Column lengths_of_vectors(const Column& vectors) {
-  return of_vectors(vectors, [](const double* v) {
+Column lengths_of_vectors(const Column& vectors, bool streams) {
+  return of_vectors(vectors, streams, [](const double* v) {
     return std::hypot(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
   });
 }
 
-Column axis_of_vectors(const Column& vectors, std::size_t axis, double added) {
-  return of_vectors(vectors, [=](const double* v) { return added + v[axis]; });
+Column axis_of_vectors(const Column& vectors, std::size_t axis, double added, bool streams) {
+  return of_vectors(vectors, streams, [=](const double* v) { return added + v[axis]; });
 }
 
-Column distances(const Column& position, const Vec3& origin, const Vec3& center) {
-  return of_vectors(position, [=](const double* v) {
+Column distances(const Column& position, const Vec3& origin, const Vec3& center, bool streams) {
+  return of_vectors(position, streams, [=](const double* v) {
     double d[3];
     for (std::size_t axis = 0; axis < 3; ++axis)
       d[axis] = (origin.a[axis] - center.a[axis]) + v[axis];

@@ -17,20 +17,21 @@ constexpr double hydrogen_mass_fraction = 0.76;
 // T = (gamma - 1) u mu m_p / k_B in kelvin, with gamma = 5/3, u = `internal_energy` *
 // `energy_unit` in (cm/s)^2 and the mean molecular weight mu = 4 / (1 + 3 X + 4 X n_e),
 // n_e the electrons per hydrogen nucleus and X the mass fraction of hydrogen (the rest
-// being helium). Without n_e (an absent column) all is ionised: n_e = (1 + X) / (2 X).
+// being helium). Without n_e (an absent column) all is ionised: n_e = (1 + X) / (2 X). Here and
+// below values are held in memory unless `streams` says, or one of the columns is, otherwise.
 Column temperatures(const Column& internal_energy, const Column& electron_abundance,
-                    double energy_unit, std::size_t count);
+                    double energy_unit, std::size_t count, bool streams = false);
 
 // The field's unit of energy per mass in (cm/s)^2, from its name and the header. Nothing
 // when it is not known.
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field);
 
 // |v| of vectors, 3 values each.
-Column lengths_of_vectors(const Column& vectors);
+Column lengths_of_vectors(const Column& vectors, bool streams);
 // One axis of vectors, to which `added` is added in double precision.
-Column axis_of_vectors(const Column& vectors, std::size_t axis, double added = 0);
+Column axis_of_vectors(const Column& vectors, std::size_t axis, double added, bool streams);
 // |x - center| with x = origin + position, in double precision.
-Column distances(const Column& position, const Vec3& origin, const Vec3& center);
+Column distances(const Column& position, const Vec3& origin, const Vec3& center, bool streams);
 
 // {velocity, 2} of "velocity_z" where the type has such a vector field; no field otherwise.
 std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,

@@ -9,6 +9,7 @@
 #include "image/background_image.h"
 #include "load/check_particles.h"
 #include "load/decide_map.h"
+#include "load/passes.h"
 #include "load/periodic_wrap.h"
 #include "load/rounded_positions.h"
 #include "load/suggest_scene_camera.h"
@@ -100,13 +101,14 @@ const DrawnComponent& FrameLoader::read(Part& part, WeightModel weight, const Ve
   if (part.drawn) return *part.drawn;
   DrawnComponent drawn = part.reader.drawn(weight);
   if (periodic_box_ > 0 && is_in_the_box(part.reader.component())) {
-    wrap_around(look_at, periodic_box_, drawn.particles);
+    wrap_around(look_at, periodic_box_, drawn.particles, has_shared_passes(snapshot_));
   }
   if (drawn.particles.boxes) {
     for (const Column* const column : drawn.particles.columns())
       expect_few_values(*column);
   }
-  check_particles(drawn, part.reader.fields().snapshot_info().files.front().string());
+  const ComponentFields& fields = part.reader.fields();
+  check_particles(drawn, fields.snapshot_info().files.front().string(), fields.pass());
   return part.drawn.emplace(std::move(drawn));
 }
 
@@ -122,7 +124,8 @@ void FrameLoader::decide_reference(Part& part, const Camera& camera, const Frame
   DrawnComponent drawn = read(part, decided.weight, camera.look_at);
   drawn.color = decided.color;
   drawn.intensity = decided.intensity;
-  const std::optional<double> reference = find_reference_column(drawn, frame);
+  const std::optional<double> reference =
+      find_reference_column(drawn, frame, part.reader.fields().pass());
   if (!reference && drawn.particles.count > 0) {
     notes_.push_back(
         fmt::format("component {}: the camera sees none of its particles; check camera.position, "
@@ -174,10 +177,8 @@ Frame FrameLoader::load(const DecidedScene& decided) {
     drawn.color = numbers->color;
     drawn.intensity = numbers->intensity;
     drawn.reference_column = numbers->reference_column;
-    // It would take all values of all ranks for each frame.
-    if (!frame.spread) {
-      if (const auto note = tell_rounded_positions(drawn)) notes_.push_back(*note);
-    }
+    if (const auto note = tell_rounded_positions(drawn, part.reader.fields().pass()))
+      notes_.push_back(*note);
     frame.components.push_back(std::move(drawn));
     ++numbers;
   }

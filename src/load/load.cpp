@@ -4,22 +4,29 @@
 #include "load/frame_loader.h"
 #include "load/missing_sizes.h"
 #include "load/open_components.h"
+#include "load/passes.h"
 #include "load/same_scene.h"
+#include "ranks/agreement.h"
 #include "ranks/spread_particles.h"
 #include "snapshot/load_memory.h"
 
 namespace splotchcl {
 namespace {
 
-// Where particles are spread over ranks, all of them do it, or none.
+// Where ranks look at particles together, all of them do it, or none.
 template <class Work>
 auto together(const Scene& scene, const Snapshot& snapshot, const Work& work) -> decltype(work()) {
   const auto spread = snapshot.spread();
-  if (!spread) return work();
-  require_same_scene(scene, *spread);
+  if (!spread && !has_shared_passes(snapshot)) return work();
+  if (spread) require_same_scene(scene, *spread);
   decltype(work()) result;
+  const auto make = [&] { result = work(); };
   try {
-    spread->agree_on([&] { result = work(); });
+    if (spread) {
+      spread->agree_on(make);
+    } else {
+      agree(snapshot.memory().ranks().get(), make);
+    }
   } catch (...) {
     // Ranks ended at different places.
     snapshot.memory().forget_own();

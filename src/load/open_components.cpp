@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "load/choose_palette.h"
+#include "load/passes.h"
 #include "load/periodic_wrap.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
@@ -54,6 +55,7 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
       companions_.push_back(snapshot.memory().companion(
           component.snapshot, [](const std::string& path) { return open_snapshot(path); }));
       source = companions_.back().get();
+      share_passes(*source, snapshot.memory().ranks());
     }
     sources_.insert(source);
     fields_.emplace_back(component, *source, sizes, notes,

@@ -22,7 +22,7 @@ bool is_in_the_box(const Component& component) {
   return component.snapshot.empty() && !component.placement.moves();
 }
 
-void wrap_around(const Vec3& center, double box, Particles& particles) {
+void wrap_around(const Vec3& center, double box, Particles& particles, bool streams) {
   const Column& position = particles.position;
   if (!position.is_array()) return;
   const Vec3 shift = particles.origin - center;  // from stored positions to distances from it
@@ -33,7 +33,7 @@ void wrap_around(const Vec3& center, double box, Particles& particles) {
       *out++ = static_cast<float>(distance - box * std::nearbyint(distance / box));
     }
   };
-  if (is_streamed(position)) {
+  if (streams || is_streamed(position)) {
     particles.position = make_column(position.size(), true, wrap);
   } else {
     std::vector<float> wrapped(position.size());

@@ -15,7 +15,8 @@ bool is_in_the_box(const Component& component);
 
 // Moves each particle to its periodic image nearest to `center`, along each axis by itself:
 // d = x - center becomes d - box * round(d / box), in double precision. The center becomes
-// the particles' origin. Values that are not finite stay so.
-void wrap_around(const Vec3& center, double box, Particles& particles);
+// the particles' origin. Values that are not finite stay so. Positions are held in memory, or made
+// as they are wanted.
+void wrap_around(const Vec3& center, double box, Particles& particles, bool streams = false);
 
 }  // namespace splotchcl

@@ -46,17 +46,18 @@ Vec3 placed_origin(const Placement& placement, const Vec3& center, const Vec3& o
 }
 
 Column placed_positions(const Placement& placement, const Vec3& center, const Vec3& origin,
-                        const Column& position) {
+                        const Column& position, bool streams) {
   if (only_moves(placement)) return position;
   const std::array<Vec3, 3> axes = turned_axes(placement);
   const Vec3 from_center = origin - center;
-  return make_vectors(position, [axes, from_center](const double* stored, double* placed) {
+  const auto place = [axes, from_center](const double* stored, double* placed) {
     double d[3];
     for (std::size_t axis = 0; axis < 3; ++axis)
       d[axis] = from_center.a[axis] + stored[axis];
     for (std::size_t axis = 0; axis < 3; ++axis)
       placed[axis] = d[0] * axes[0].a[axis] + d[1] * axes[1].a[axis] + d[2] * axes[2].a[axis];
-  });
+  };
+  return make_vectors(position, streams || is_streamed(position), place);
 }
 
 }  // namespace splotchcl

@@ -9,10 +9,10 @@ namespace splotchcl {
 // sum in double precision (selection.h, Placement). `origin` is that of the positions.
 Vec3 placed_origin(const Placement& placement, const Vec3& center, const Vec3& origin);
 
-// Positions relative to placed_origin(). A placement that neither turns nor scales moves
-// the origin alone, and this is the column itself.
+// Positions relative to placed_origin(), held in memory or made as they are wanted. A placement
+// that neither turns nor scales moves the origin alone, and this is the column itself.
 Column placed_positions(const Placement& placement, const Vec3& center, const Vec3& origin,
-                        const Column& position);
+                        const Column& position, bool streams = false);
 
 // Whether the column stays as it is.
 bool only_moves(const Placement& placement);

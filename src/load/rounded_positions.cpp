@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "scene/streamed_column.h"
+
 namespace splotchcl {
 namespace {
 
@@ -21,15 +23,15 @@ double spacing_at(const float* offset) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::max()) - largest);
 }
 
-}  // namespace
-
-std::optional<std::string> tell_rounded_positions(const DrawnComponent& component) {
-  const Particles& particles = component.particles;
-  const auto& origin = particles.origin.a;
-  if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return std::nullopt;
+struct Rounded {
   std::uint64_t count = 0;
-  double worst = 0;
-  for_stretches(particles.count, [&](std::size_t begin, std::size_t end) {
+  double worst = 0;  // of h
+};
+
+Rounded find_rounded(const DrawnComponent& component, const ParticleRun& run) {
+  const Particles& particles = component.particles;
+  Rounded found;
+  for_stretches(run, [&](std::size_t begin, std::size_t end) {
     const ColumnStretch position(particles.position, 3 * begin, 3 * end);
     const ColumnStretch lengths(particles.smoothing_length, begin, end);
     for (std::size_t i = begin; i < end; ++i) {
@@ -38,16 +40,34 @@ std::optional<std::string> tell_rounded_positions(const DrawnComponent& componen
       if (!(h > 0)) continue;
       const double part = spacing_at(offset) / h;
       if (!(part > too_coarse)) continue;
-      ++count;
-      worst = std::max(worst, part);
+      ++found.count;
+      found.worst = std::max(found.worst, part);
     }
   });
-  if (count == 0) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::string> tell_rounded_positions(const DrawnComponent& component,
+                                                  const ParticlePass& pass) {
+  const Particles& particles = component.particles;
+  const auto& origin = particles.origin.a;
+  if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return std::nullopt;
+  Rounded all;
+  for (const Rounded& some :
+       pass.collect<Rounded>([&](const ParticleRun&run, std::vector<Rounded>&found) {
+         found.push_back(find_rounded(component, run));
+       })) {
+    all.count += some.count;
+    all.worst = std::max(all.worst, some.worst);
+  }
+  if (all.count == 0) return std::nullopt;
   return fmt::format(
       "component {}: {} of {} particles lie so far from the others that single precision rounds "
       "their positions to more than {} of their smoothing length, at worst {:.2g}; objects far "
       "apart keep their shapes in snapshots of their own",
-      component.name, count, particles.count, too_coarse, worst);
+      component.name, all.count, particles.count, too_coarse, all.worst);
 }
 
 }  // namespace splotchcl

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "scene/particle_pass.h"
 #include "splotchcl/frame.h"
 
 namespace splotchcl {
@@ -11,6 +12,7 @@ namespace splotchcl {
 // spacing of single precision there is more than a tenth of the size h that is drawn: how many
 // particles, and how much of h at worst. Nothing where all lie as they should, or as the file has
 // them.
-std::optional<std::string> tell_rounded_positions(const DrawnComponent& component);
+std::optional<std::string> tell_rounded_positions(const DrawnComponent& component,
+                                                  const ParticlePass& pass);
 
 }  // namespace splotchcl

@@ -10,6 +10,7 @@
 
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_integers.h"
+#include "load/passes.h"
 #include "scene/streamed_column.h"
 #include "select/condition.h"
 #include "select/id_list.h"
@@ -53,15 +54,17 @@ std::optional<std::filesystem::path> catalog_of(const ParticleSet& set, const st
       key, *set.halo, fields.info().type, file.string(), key));
 }
 
-// Which particles of a type still belong to a set, while its conditions are applied one after the
-// other.
+// Which particles of a run of a type still belong to a set, while its conditions are applied one
+// after the other.
 class Membership {
  public:
-  Membership(const TypeFields& fields, const Snapshot& snapshot, double periodic_box)
+  Membership(const TypeFields& fields, const Snapshot& snapshot, double periodic_box,
+             const ParticleRun& run)
       : fields_(fields),
         snapshot_(snapshot),
         periodic_box_(periodic_box),
-        is_member_(fields.count(), true) {}
+        run_(run),
+        is_member_(run.end - run.begin, true) {}
 
   void keep(const ParticleSet& set, const std::string& key) {
     for (const std::string& text : set.where)
@@ -74,13 +77,13 @@ class Membership {
     if (set.halo) keep_halo(set, key);
   }
 
-  const std::vector<bool>& flags() const { return is_member_; }
+  bool has(std::size_t particle) const { return is_member_[particle - run_.begin]; }
 
  private:
   template <class Holds>
   void keep_if(Holds&& holds) {
     for (std::size_t i = 0; i < is_member_.size(); ++i) {
-      if (is_member_[i] && !holds(i)) is_member_[i] = false;
+      if (is_member_[i] && !holds(run_.begin + i)) is_member_[i] = false;
     }
   }
 
@@ -95,14 +98,14 @@ class Membership {
       for (const Comparison& comparison : conjunction) {
         const Column values = fields_.scalars(comparison.field, key);
         for (std::size_t i = 0; i < all.size(); ++i) {
-          if (all[i]) all[i] = comparison.holds(static_cast<double>(values[i]));
+          if (all[i]) all[i] = comparison.holds(static_cast<double>(values[run_.begin + i]));
         }
       }
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i]) any[i] = true;
       }
     }
-    keep_if([&any](std::size_t i) { return any[i]; });
+    keep_if([&](std::size_t i) { return any[i - run_.begin]; });
   }
 
   void keep_box(const Vec3& minimum, const Vec3& maximum) {
@@ -182,21 +185,25 @@ class Membership {
   const TypeFields& fields_;
   const Snapshot& snapshot_;
   double periodic_box_;
+  ParticleRun run_;
   std::vector<bool> is_member_;
 };
 
-ParticleIndices find_indices(const Component& component, const TypeFields& fields,
-                             const Snapshot& snapshot, double periodic_box) {
-  Membership selected(fields, snapshot, periodic_box);
+void find_indices(const Component& component, const TypeFields& fields, const Snapshot& snapshot,
+                  double periodic_box, const ParticleRun& run, ParticleIndices& indices) {
+  Membership selected(fields, snapshot, periodic_box, run);
   selected.keep(component.select, "select");
-  Membership excluded(fields, snapshot, periodic_box);
+  Membership excluded(fields, snapshot, periodic_box, run);
   if (component.exclude.is_given()) excluded.keep(component.exclude, "exclude");
-  ParticleIndices indices;
-  for (std::size_t i = 0; i < fields.count(); ++i) {
-    const bool is_left_out = component.exclude.is_given() && excluded.flags()[i];
-    if (selected.flags()[i] && !is_left_out) indices.push_back(i);
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    const bool is_left_out = component.exclude.is_given() && excluded.has(i);
+    if (selected.has(i) && !is_left_out) indices.push_back(i);
   }
-  return indices;
+}
+
+// Of particles that are spread over ranks each selects its own.
+ParticlePass pass_to_select(const Snapshot& snapshot, std::size_t count) {
+  return snapshot.spread() ? ParticlePass(count) : pass_over_made(snapshot, count);
 }
 
 std::string text_of(const std::optional<Vec3>& v) {
@@ -248,7 +255,10 @@ std::shared_ptr<const ParticleIndices> select_particles(const Component& compone
       fmt::format("type {}: {}", fields.info().type, selection_key(component, periodic_box)),
       [&]() -> Selected {
         return std::make_shared<ParticleIndices>(
-            find_indices(component, fields, snapshot, periodic_box));
+            pass_to_select(snapshot, fields.count())
+                .collect<std::size_t>([&](const ParticleRun& run, ParticleIndices& indices) {
+                  find_indices(component, fields, snapshot, periodic_box, run, indices);
+                }));
       });
 }
 
@@ -275,10 +285,20 @@ std::string selection_key(const Component& component, double periodic_box) {
                      periodic_box);
 }
 
-Column gather(const Column& column, const ParticleIndices* selected, std::size_t width) {
+Column gather(const Column& column, const std::shared_ptr<const ParticleIndices>& selected,
+              std::size_t width, bool streams) {
   if (selected == nullptr || !column.is_array()) return column;
-  return gather_in_order(column, width, selected->size(),
-                         [&](std::size_t i) { return (*selected)[i]; });
+  const auto gathered = [column, selected, width](std::size_t first, std::size_t end) {
+    return gather_in_order(column, width, end - first,
+                           [&](std::size_t i) { return (*selected)[first + i]; });
+  };
+  if (!streams) return gathered(0, selected->size());
+  return make_column(selected->size() * width, true,
+                     [gathered, width](std::size_t begin, std::size_t end, float* values) {
+                       const std::size_t first = begin / width;
+                       const Column some = gathered(first, (end + width - 1) / width);
+                       std::copy_n(some.data() + (begin - first * width), end - begin, values);
+                     });
 }
 
 }  // namespace splotchcl

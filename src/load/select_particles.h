@@ -34,8 +34,9 @@ std::string tell_found_catalog(const Component& component, const TypeFields& fie
 // The text that stands for the component's selection where it is remembered.
 std::string selection_key(const Component& component, double periodic_box);
 
-// What is selected of a column with `width` values per particle; the column itself where
-// `selected` is null or it is the same for all.
-Column gather(const Column& column, const ParticleIndices* selected, std::size_t width = 1);
+// What is selected of a column with `width` values per particle, held in memory or made as it is
+// wanted; the column itself where `selected` is null or it is the same for all.
+Column gather(const Column& column, const std::shared_ptr<const ParticleIndices>& selected,
+              std::size_t width, bool streams);
 
 }  // namespace splotchcl

@@ -20,22 +20,25 @@ constexpr std::size_t header_bytes = mark.size() + 2 * sizeof(std::uint64_t);
 
 }  // namespace
 
-SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type,
-                                           const Column& position,
-                                           std::optional<double> periodic_box, int neighbors)
-    : path_(info.files.front()), count_(position.size() / 3) {
+SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type, std::size_t count,
+                                           std::uint64_t key)
+    : path_(info.files.front()), key_(key), count_(count) {
   path_ += fmt::format(".type{}.smoothing_lengths", type);
+}
+
+std::uint64_t SmoothingLengthCache::key_of(const Column& position,
+                                           std::optional<double> periodic_box, int neighbors) {
   WordHash hash;
   hash.add(static_cast<std::uint64_t>(neighbors));
   hash.add(periodic_box.value_or(0));
-  hash.add(count_);
+  hash.add(std::uint64_t{position.size() / 3});
   for (std::size_t i = 0; i < position.size(); ++i) {
     std::uint32_t bits = 0;
     const float coordinate = position[i];
     std::memcpy(&bits, &coordinate, sizeof bits);
     hash.add(std::uint64_t{bits});
   }
-  key_ = hash.value();
+  return hash.value();
 }
 
 std::optional<Column> SmoothingLengthCache::read() const {

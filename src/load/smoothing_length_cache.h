@@ -14,8 +14,10 @@ namespace splotchcl {
 // from is the same: positions, box and number of neighbours.
 class SmoothingLengthCache {
  public:
-  SmoothingLengthCache(const SnapshotInfo& info, int type, const Column& position,
-                       std::optional<double> periodic_box, int neighbors);
+  // `key` stands for all that lengths of `count` particles follow from.
+  SmoothingLengthCache(const SnapshotInfo& info, int type, std::size_t count, std::uint64_t key);
+  static std::uint64_t key_of(const Column& position, std::optional<double> periodic_box,
+                              int neighbors);
 
   const std::filesystem::path& path() const { return path_; }
 

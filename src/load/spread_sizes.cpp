@@ -26,7 +26,7 @@ Column held(const Column& column) {
 
 Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_position,
                          std::uint64_t first, const MissingSizes& how,
-                         const std::function<std::optional<double>(const Column&)>& box_of) {
+                         std::optional<double> periodic_box) {
   const std::size_t own_count = own_position.size() / 3;
   const Column of_all = spread.spread(own_position, own_count, 3);
   const std::size_t count = of_all.size() / 3;
@@ -38,14 +38,8 @@ Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_po
         count, type, most_spread_neighbors));
   }
   const Column position = held(of_all);
-  SearchShare share;
-  share.rank = spread.ranks().rank();
-  share.ranks = spread.ranks().size();
-  share.join = [&](std::vector<float>& values, const std::vector<std::size_t>& begins) {
-    spread.join(values, begins);
-  };
-  const Column lengths =
-      find_smoothing_lengths(position, count, box_of(position), how.neighbors, {}, share);
+  const Column lengths = find_smoothing_lengths(position, count, periodic_box, how.neighbors, {},
+                                                search_share(&spread.ranks()));
   const auto begin = static_cast<std::size_t>(first);
   std::vector<float> own(own_count);
   for (std::size_t i = 0; i < own_count; ++i)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "load/missing_sizes.h"
@@ -14,10 +13,10 @@ namespace splotchcl {
 constexpr std::uint64_t most_spread_neighbors = std::uint64_t{1} << 24;
 
 // Collective: the smoothing lengths of this rank's particles, [first, first + count) of those of
-// all ranks, from neighbours among all of them. `box_of` says the periodic box from all positions.
-// Throws DataError, on all ranks, where there are more than most_spread_neighbors.
+// all ranks, from neighbours among all of them. Throws DataError, on all ranks, where there are
+// more than most_spread_neighbors.
 Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_position,
                          std::uint64_t first, const MissingSizes& how,
-                         const std::function<std::optional<double>(const Column&)>& box_of);
+                         std::optional<double> periodic_box);
 
 }  // namespace splotchcl

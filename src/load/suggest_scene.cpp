@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "common/decimals.h"
+#include "load/passes.h"
 #include "load/suggest_scene_camera.h"
 #include "scene/statistics.h"
 #include "scene/streamed_column.h"
@@ -34,13 +35,14 @@ double rounded(double value) {
 
 // Where the bulk of the values lies. Of a logarithm that reaches down to what are almost zeros, the
 // lower end is cut at as many per cent as it takes.
-std::optional<ValueRange> robust_range(const Column& column, Scaling scaling) {
+std::optional<ValueRange> robust_range(const Column& column, Scaling scaling,
+                                       const ParticlePass& pass) {
   constexpr double largest_span = 8;  // powers of ten
-  std::optional<ValueRange> range = bulk_range(column, scaling);
+  std::optional<ValueRange> range = bulk_range(column, scaling, pass);
   if (!range || scaling != Scaling::log) return range;
   for (const double low : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
     if (range->maximum - range->minimum <= largest_span) break;
-    range = percentile_range(column, scaling, low, 99.5);
+    range = percentile_range(column, scaling, low, 99.5, pass);
   }
   range->minimum = std::max(range->minimum, range->maximum - largest_span);
   return range;
@@ -51,7 +53,8 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
                                       const std::string& field, Scaling scaling) {
   const FieldInfo* const info = find_field(type, field);
   if (info == nullptr || info->values_per_particle != 1) return std::nullopt;
-  const auto range = robust_range(snapshot.read(type.type, field), scaling);
+  const auto range =
+      robust_range(snapshot.read(type.type, field), scaling, pass_over(snapshot, type.type));
   if (!range) return std::nullopt;
   const double scale = scaling == Scaling::log ? 1.0 : std::abs(range->maximum);
   if (!(range->maximum - range->minimum > smallest_span * scale)) return std::nullopt;
@@ -62,6 +65,19 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
   return map;
 }
 
+bool are_light(const Column& colors, const ParticlePass& pass) {
+  const auto find_others = [&](const ParticleRun& run, std::vector<std::size_t>& others) {
+    for_stretches(run, [&](std::size_t begin, std::size_t end) {
+      if (!others.empty()) return;
+      const ColumnStretch stretch(colors, 3 * begin, 3 * end);
+      for (std::size_t i = 3 * begin; i < 3 * end && others.empty(); ++i) {
+        if (!std::isfinite(stretch[i]) || stretch[i] < 0) others.push_back(i);
+      }
+    });
+  };
+  return pass.collect<std::size_t>(find_others).empty();
+}
+
 // A field of one of these names: three values, none below 0. Empty where there is none.
 std::string field_of_colors(const Snapshot& snapshot, const ParticleTypeInfo& type,
                             std::initializer_list<const char*> names) {
@@ -70,10 +86,8 @@ std::string field_of_colors(const Snapshot& snapshot, const ParticleTypeInfo& ty
       return equal_ignoring_case(field.name, name);
     });
     if (!is_named_so || field.values_per_particle != 3) continue;
-    const Column values = snapshot.read(type.type, field.name);
-    const bool are_light = std::all_of(values.data(), values.data() + values.size(),
-                                       [](float v) { return std::isfinite(v) && v >= 0; });
-    if (are_light) return field.name;
+    if (are_light(snapshot.read(type.type, field.name), pass_over(snapshot, type.type)))
+      return field.name;
   }
   return {};
 }
@@ -154,15 +168,19 @@ bool has_one_size(const Snapshot& snapshot, int type) {
   if (find_field(*snapshot.info().find_type(type), "smoothing_length") == nullptr) return false;
   const Column lengths = snapshot.read(type, "smoothing_length");
   if (lengths.is_uniform()) return true;
-  const float first = lengths[0];
-  for (std::size_t begin = 0; begin < lengths.size(); begin += streamed_particles) {
-    const std::size_t end = std::min(begin + streamed_particles, lengths.size());
-    const ColumnStretch stretch(lengths, begin, end);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (stretch[i] != first) return false;
-    }
-  }
-  return true;
+  // Of each run the first one, and the first that differs from it.
+  const auto find_two = [&](const ParticleRun& run, std::vector<float>& some) {
+    for_stretches(run, [&](std::size_t begin, std::size_t end) {
+      if (some.size() == 2) return;
+      const ColumnStretch stretch(lengths, begin, end);
+      for (std::size_t i = begin; i < end && some.size() < 2; ++i) {
+        if (some.empty() || stretch[i] != some.front()) some.push_back(stretch[i]);
+      }
+    });
+  };
+  const std::vector<float> some = pass_over(snapshot, type).collect<float>(find_two);
+  return std::all_of(some.begin(), some.end(),
+                     [&some](float length) { return length == some.front(); });
 }
 
 void give_own_colors(Component& component, const std::string& field) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "load/passes.h"
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "scene/statistics.h"
@@ -35,14 +36,18 @@ constexpr Viewpoint object_viewpoint = {-60, 42};
 using Sample = std::array<std::vector<double>, 3>;
 
 void sample_type(const Snapshot& snapshot, int type, std::size_t stride, Sample& sample) {
+  using Place = std::array<float, 3>;
   const Column position = snapshot.read(type, "position");
   const Vec3 origin = snapshot.position_origin();
-  for (std::size_t i = 0; i + 2 < position.size(); i += 3 * stride) {
-    const float place[3] = {position[i], position[i + 1], position[i + 2]};
-    if (!is_finite_position(place)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sample[axis].push_back(origin.a[axis] + static_cast<double>(place[axis]));
+  const auto look = [&](const ParticleRun& run, std::vector<Place>& places) {
+    for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride) {
+      const Place place = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
+      if (is_finite_position(place.data())) places.push_back(place);
     }
+  };
+  for (const Place& place : pass_over(snapshot, type).collect<Place>(look)) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sample[axis].push_back(origin.a[axis] + static_cast<double>(place[axis]));
   }
 }
 

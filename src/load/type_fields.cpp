@@ -9,6 +9,7 @@
 
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
+#include "load/passes.h"
 #include "load/spread_sizes.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_rules.h"
@@ -21,14 +22,51 @@
 namespace splotchcl {
 namespace {
 
-bool all_are_sizes(const Column& column) {
-  bool all_are = true;
-  for_stretches(column.size(), [&](std::size_t begin, std::size_t end) {
-    const ColumnStretch stretch(column, begin, end);
-    for (std::size_t i = begin; i < end && all_are; ++i)
-      all_are = is_smoothing_length(stretch[i]);
+bool all_are_sizes(const Column& column, const ParticlePass& pass) {
+  const auto find_others = [&](const ParticleRun& run, std::vector<std::size_t>& others) {
+    for_stretches(run, [&](std::size_t begin, std::size_t end) {
+      if (!others.empty()) return;
+      const ColumnStretch stretch(column, begin, end);
+      for (std::size_t i = begin; i < end && others.empty(); ++i) {
+        if (!is_smoothing_length(stretch[i])) others.push_back(i);
+      }
+    });
+  };
+  return pass.collect<std::size_t>(find_others).empty();
+}
+
+struct Extent {
+  float lowest[3], highest[3];
+};
+
+// Of positions that are finite.
+Extent extent_of(const Column& position, const ParticleRun& run) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Extent extent = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for_stretches(run, [&](std::size_t begin, std::size_t end) {
+    const ColumnStretch stretch(position, 3 * begin, 3 * end);
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      if (!std::isfinite(stretch[i])) continue;
+      extent.lowest[i % 3] = std::min(extent.lowest[i % 3], stretch[i]);
+      extent.highest[i % 3] = std::max(extent.highest[i % 3], stretch[i]);
+    }
   });
-  return all_are;
+  return extent;
+}
+
+Extent extent_of(const Column& position, const ParticlePass& pass) {
+  const std::vector<Extent> extents =
+      pass.collect<Extent>([&](const ParticleRun& run, std::vector<Extent>& found) {
+        found.push_back(extent_of(position, run));
+      });
+  Extent all = extents.front();
+  for (const Extent& extent : extents) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.lowest[axis] = std::min(all.lowest[axis], extent.lowest[axis]);
+      all.highest[axis] = std::max(all.highest[axis], extent.highest[axis]);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -56,7 +94,7 @@ Column TypeFields::scalars(const std::string& field, const std::string& key) con
     if (info->values_per_particle == 1) return snapshot_->read(type_->type, field);
     if (info->values_per_particle != 3) refuse_width(*info, field, key, "1 or 3");
     return remembered("length of " + field,
-                      [&] { return lengths_of_vectors(field_column(*info)); });
+                      [&] { return lengths_of_vectors(field_column(*info), streams()); });
   }
   if (const auto derive = find_derived(field, key)) return (*derive)();
   refuse_field(field, key);
@@ -105,7 +143,7 @@ std::optional<std::function<Column()>> TypeFields::find_derived(const std::strin
     return [this] {
       const auto& c = center_.a;
       return remembered(fmt::format("radius from {} {} {}", c[0], c[1], c[2]), [&] {
-        return distances(positions(), snapshot_->position_origin(), center_);
+        return distances(positions(), snapshot_->position_origin(), center_, streams());
       });
     };
   }
@@ -113,7 +151,7 @@ std::optional<std::function<Column()>> TypeFields::find_derived(const std::strin
     return [this, info = vector, a = axis] {
       const double added = info->name == "position" ? snapshot_->position_origin().a[a] : 0;
       return remembered(fmt::format("axis {} of {}", a, info->name),
-                        [&] { return axis_of_vectors(field_column(*info), a, added); });
+                        [&] { return axis_of_vectors(field_column(*info), a, added, streams()); });
     };
   }
   return std::nullopt;
@@ -137,7 +175,8 @@ Column TypeFields::derived_temperatures(const std::string& key) const {
   say(fmt::format("type {} has no temperature in the file; it follows from internal_energy{}{}",
                   type_->type, assumed.empty() ? "" : ", with ", assumed));
   return temperatures(field_column(energy),
-                      electrons != nullptr ? field_column(*electrons) : Column(), *unit, count());
+                      electrons != nullptr ? field_column(*electrons) : Column(), *unit, count(),
+                      streams());
 }
 
 Column TypeFields::masses() const {
@@ -155,7 +194,7 @@ Column TypeFields::densities() const {
     const Column h = smoothing_lengths();
     say(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                     type_->type));
-    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbors);
+    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbors, streams());
   });
 }
 
@@ -174,11 +213,10 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
   const Column lengths =
       has_density
           ? smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"),
-                                           count(), sizes_.neighbors)
+                                           count(), sizes_.neighbors, streams())
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
-                                          sizes_.neighbors);
-  const auto spread = snapshot_->spread();
-  if (spread ? spread->all(all_are_sizes(lengths)) : all_are_sizes(lengths)) {
+                                          sizes_.neighbors, streams());
+  if (all_are_sizes(lengths, pass_over(*snapshot_, type_->type))) {
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
                     type_->type, has_density ? "density and mass" : "the volumes of its cells"));
     return lengths;
@@ -199,27 +237,28 @@ Column TypeFields::find_lengths() const {
   if (const auto spread = snapshot_->spread()) {
     return find_spread_sizes(*spread, type_->type, position,
                              snapshot_->place_in_file(type_->type, 0), sizes_,
-                             [this](const Column& all) { return periodic_box(all); });
+                             periodic_box(position));
   }
-  return find_sizes_by_neighbors(snapshot_->info(), type_->type, position, periodic_box(position),
-                                 sizes_, [this](const std::string& text) { say(text); });
+  return find_sizes_by_neighbors(*snapshot_, type_->type, position, periodic_box(position), sizes_,
+                                 [this](const std::string& text) { say(text); });
 }
 
 // The box of the header, unless particles lie outside of one period of it.
 std::optional<double> TypeFields::periodic_box(const Column& position) const {
   const std::optional<double> box = snapshot_->info().box_size;
   if (!box || !(*box > 0)) return std::nullopt;
+  const Extent extent = extent_of(position, pass_over(*snapshot_, type_->type));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    float lowest = std::numeric_limits<float>::infinity();
-    float highest = -lowest;
-    for (std::size_t i = axis; i < position.size(); i += 3) {
-      if (!std::isfinite(position[i])) continue;
-      lowest = std::min(lowest, position[i]);
-      highest = std::max(highest, position[i]);
-    }
-    if (static_cast<double>(highest) - static_cast<double>(lowest) > *box) return std::nullopt;
+    const double side =
+        static_cast<double>(extent.highest[axis]) - static_cast<double>(extent.lowest[axis]);
+    if (side > *box) return std::nullopt;
   }
   return box;
+}
+
+// Of what ranks share each makes what it asks for.
+bool TypeFields::streams() const {
+  return has_shared_passes(*snapshot_);
 }
 
 // Notes go with what they are about: whoever finds it in the memory hears them, too.

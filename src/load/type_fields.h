@@ -53,6 +53,7 @@ class TypeFields {
   Column find_lengths() const;
   std::optional<Column> lengths_from_volumes(const char*& reason) const;
   std::optional<double> periodic_box(const Column& position) const;
+  bool streams() const;
   void say(const std::string& text) const;
   [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;
   [[noreturn]] void refuse_width(const FieldInfo& info, const std::string& field,

@@ -7,6 +7,8 @@
 
 #include "common/words.h"
 #include "formats/snapshot_format.h"
+#include "load/passes.h"
+#include "ranks/agreement.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
@@ -66,14 +68,9 @@ bool begins_like_text(const std::filesystem::path& path) {
          });
 }
 
-}  // namespace
-
-bool is_par_file(const std::filesystem::path& path) {
-  return lower_ending(path) == ".par";
-}
-
-SceneWithSnapshot open_scene(const std::filesystem::path& path,
-                             const std::vector<std::string>& settings) {
+SceneWithSnapshot open_together(const std::filesystem::path& path,
+                                const std::vector<std::string>& settings,
+                                const std::shared_ptr<Communicator>& ranks) {
   SceneWithSnapshot result;
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
@@ -84,12 +81,28 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
     result.snapshot = SnapshotSource().at(result.scene);
   } else {
     result.snapshot = open_snapshot_for(path, read_settings_in(settings));
+    share_passes(*result.snapshot, ranks);
     const Scene suggested =
         with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
     result.scene = apply_settings(suggested, settings);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }
+  share_passes(*result.snapshot, ranks);
+  return result;
+}
+
+}  // namespace
+
+bool is_par_file(const std::filesystem::path& path) {
+  return lower_ending(path) == ".par";
+}
+
+SceneWithSnapshot open_scene(const std::filesystem::path& path,
+                             const std::vector<std::string>& settings,
+                             const std::shared_ptr<Communicator>& ranks) {
+  SceneWithSnapshot result;
+  agree(ranks.get(), [&] { result = open_together(path, settings, ranks); });
   return result;
 }
 

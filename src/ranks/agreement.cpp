@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <new>
 #include <vector>
 
@@ -17,6 +19,16 @@ class Agreed : public Kind, public AgreedFailure {
   using Kind::Kind;
 };
 
+// Another rank has failed: what it says is asked for where the work began. No Error, so that nobody
+// on the way takes it for one.
+struct Interrupted {};
+
+bool have_failed(Communicator& ranks, bool own) {
+  std::vector<std::uint64_t> failed = {own ? 1u : 0u};
+  ranks.add_up(failed);
+  return failed.front() > 0;
+}
+
 [[noreturn]] void fail(char kind, const std::string& message) {
   if (kind == 'U') throw Agreed<UsageError>(message);
   if (kind == 'V') throw Agreed<DeviceError>(message);
@@ -30,6 +42,8 @@ std::string told(const std::function<void()>& work) {
   try {
     work();
     return "";
+  } catch (const AgreedFailure&) {
+    throw;
   } catch (const UsageError& error) {
     return std::string("U") + error.what();
   } catch (const DeviceError& error) {
@@ -39,8 +53,8 @@ std::string told(const std::function<void()>& work) {
   } catch (const std::bad_alloc&) {
     return "Dout of memory; fewer particles, a smaller picture or fewer processes on one machine "
            "need less";
-  } catch (const FailedElsewhere& elsewhere) {
-    return elsewhere.is_usage() ? "u" : "d";
+  } catch (const std::exception& failure) {
+    return std::string("D") + failure.what();
   }
 }
 
@@ -49,7 +63,17 @@ void agree(Communicator* ranks, const std::function<void()>& work) {
     work();
     return;
   }
-  settle(*ranks, told(work));
+  std::string own;
+  try {
+    own = told(work);
+    if (!have_failed(*ranks, !own.empty())) return;
+  } catch (const Interrupted&) {
+  }
+  settle(*ranks, own);
+}
+
+void wait_for_all(Communicator& ranks) {
+  if (have_failed(ranks, false)) throw Interrupted();
 }
 
 void settle(Communicator& ranks, const std::string& own) {
@@ -58,7 +82,7 @@ void settle(Communicator& ranks, const std::string& own) {
       std::find_if(all.begin(), all.end(), [](const std::string& text) { return !text.empty(); });
   if (first == all.end()) return;
   const bool is_own = first - all.begin() == ranks.rank();
-  if (!is_own || first->size() == 1) throw FailedElsewhere(first->front() == 'U' || *first == "u");
+  if (!is_own) throw FailedElsewhere(first->front() == 'U');
   const bool all_alike =
       std::all_of(all.begin(), all.end(), [&](const std::string& text) { return text == *first; });
   const std::string where =

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -14,15 +13,10 @@
 namespace splotchcl {
 namespace {
 
-// Another rank has failed: what it says is asked for where the work began. No Error, so that
-// nobody on the way takes it for one.
-struct Interrupted {};
-
-// Of one rank to another, and of the first to those that follow it.
+// Of one rank to another.
 struct Request {
   std::uint64_t column, begin, end;
 };
-constexpr Request no_more = {~std::uint64_t{0}, 0, 0};
 
 // Overlapping stretches become one.
 std::vector<SpreadColumn::Stretch> joined(std::vector<SpreadColumn::Stretch> stretches) {
@@ -53,9 +47,8 @@ SpreadParticles::SpreadParticles(std::shared_ptr<Communicator> ranks) : ranks_(s
 Column SpreadParticles::spread(const Column& own, std::uint64_t own_particles,
                                std::size_t values_per_particle) {
   if (!own.is_array()) return own;
-  wait_for_all();
   std::vector<std::size_t> begins = {0};
-  for (const std::uint64_t particles : gather_values(*ranks_, own_particles))
+  for (const std::uint64_t particles : gather(own_particles))
     begins.push_back(begins.back() + static_cast<std::size_t>(particles) * values_per_particle);
   auto column = std::make_shared<const SpreadColumn>(shared_from_this(), next_number_, own,
                                                      std::move(begins));
@@ -63,54 +56,20 @@ Column SpreadParticles::spread(const Column& own, std::uint64_t own_particles,
   return Column::made_by(std::move(column));
 }
 
-std::uint64_t SpreadParticles::sum(std::uint64_t own) {
-  wait_for_all();
-  std::vector<std::uint64_t> sums = {own};
-  ranks_->add_up(sums);
-  return sums.front();
-}
-
-bool SpreadParticles::all(bool own) {
-  return sum(own ? 0 : 1) == 0;
-}
-
-void SpreadParticles::join(std::vector<float>& values, const std::vector<std::size_t>& begins) {
-  wait_for_all();
-  for (std::size_t rank = 0; rank + 1 < begins.size(); ++rank) {
-    const std::size_t count = begins[rank + 1] - begins[rank];
-    if (count > 0) {
-      ranks_->broadcast(values.data() + begins[rank], count * sizeof(float),
-                        static_cast<int>(rank));
-    }
-  }
-}
-
-// Before each step that all make: a rank that has failed tells so instead.
-void SpreadParticles::wait_for_all() {
-  std::vector<std::uint64_t> failed = {0};
-  ranks_->add_up(failed);
-  if (failed.front() > 0) throw Interrupted();
+std::vector<std::uint64_t> SpreadParticles::gather(std::uint64_t own) {
+  wait_for_all(*ranks_);
+  return gather_values(*ranks_, own);
 }
 
 void SpreadParticles::agree_on(const std::function<void()>& work) {
-  std::string own;
-  bool is_interrupted = false;
   try {
-    own = told(work);
-  } catch (const Interrupted&) {
-    is_interrupted = true;
-  } catch (const std::exception& failure) {
-    own = std::string("D") + failure.what();
+    agree(ranks_.get(), work);
+  } catch (const AgreedFailure&) {
+    // Ranks that were interrupted may have fewer columns.
+    const std::vector<std::uint64_t> numbers = gather_values(*ranks_, next_number_);
+    next_number_ = *std::max_element(numbers.begin(), numbers.end());
+    throw;
   }
-  if (!is_interrupted) {
-    std::vector<std::uint64_t> failed = {own.empty() ? 0u : 1u};
-    ranks_->add_up(failed);
-    if (failed.front() == 0) return;
-  }
-  // Ranks that were interrupted may have fewer columns.
-  const std::vector<std::uint64_t> numbers = gather_values(*ranks_, next_number_);
-  next_number_ = *std::max_element(numbers.begin(), numbers.end());
-  settle(*ranks_, own);
 }
 
 void SpreadParticles::ask(std::uint64_t column, std::size_t begin, std::size_t end) {
@@ -120,17 +79,15 @@ void SpreadParticles::ask(std::uint64_t column, std::size_t begin, std::size_t e
 void SpreadParticles::read(const SpreadColumn& column, std::size_t begin, std::size_t end,
                            float* values) {
   if (mode_ == Mode::together) {
-    wait_for_all();
+    wait_for_all(*ranks_);
     read_together(column, begin, end, values);
     return;
   }
-  if (read_here(column, begin, end, values)) return;
-  if (mode_ != Mode::leading) {
+  if (!read_here(column, begin, end, values)) {
     throw DataError("values " + std::to_string(begin) + " to " + std::to_string(end) +
                     " of a column that is spread over processes were wanted for drawing and had "
                     "not been fetched; please report it");
   }
-  read_leading(column, begin, end, values);
 }
 
 void SpreadParticles::read_together(const SpreadColumn& column, std::size_t begin, std::size_t end,
@@ -172,44 +129,6 @@ bool SpreadParticles::read_here(const SpreadColumn& column, std::size_t begin, s
     next = last;
   }
   return true;
-}
-
-void SpreadParticles::read_leading(const SpreadColumn& column, std::size_t begin, std::size_t end,
-                                   float* values) const {
-  Request request = {column.number(), begin, end};
-  ranks_->broadcast(&request, sizeof(request), 0);
-  for (int rank = 0; rank < ranks_->size(); ++rank) {
-    const Stretch stretch = column.of_rank(rank, begin, end);
-    if (stretch.is_empty()) continue;
-    float* const first = values + (stretch.begin - begin);
-    if (rank == ranks_->rank()) {
-      column.copy_own(stretch, first);
-    } else {
-      ranks_->receive(first, stretch.count() * sizeof(float), rank);
-    }
-  }
-}
-
-void SpreadParticles::lead(const std::function<void()>& work) {
-  mode_ = Mode::leading;
-  work();
-  mode_ = Mode::drawing;
-  Request end = no_more;
-  ranks_->broadcast(&end, sizeof(end), 0);
-}
-
-void SpreadParticles::follow() {
-  for (;;) {
-    Request request = no_more;
-    ranks_->broadcast(&request, sizeof(request), 0);
-    if (request.column == no_more.column) return;
-    const SpreadColumn& column = *columns_.at(request.column);
-    const Stretch stretch = column.of_rank(ranks_->rank(), request.begin, request.end);
-    if (stretch.is_empty()) continue;
-    std::vector<float> values(stretch.count());
-    column.copy_own(stretch, values.data());
-    ranks_->send(values.data(), values.size() * sizeof(float), 0);
-  }
 }
 
 void SpreadParticles::fetch(const std::function<void()>& ask) {

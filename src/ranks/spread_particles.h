@@ -25,31 +25,29 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
   // Collective: the columns of all ranks, one after the other; each has so many particles in its
   // own. One value for all stays so.
   Column spread(const Column& own, std::uint64_t own_particles, std::size_t values_per_particle);
-  // Collective: of all ranks.
-  std::uint64_t sum(std::uint64_t own);
-  bool all(bool own);
-  // Collective: rank r has set values [begins[r], begins[r + 1]), and all have all afterwards.
-  void join(std::vector<float>& values, const std::vector<std::size_t>& begins);
+  // Collective: of each rank, by rank.
+  std::vector<std::uint64_t> gather(std::uint64_t own);
 
   // Collective: does the work, in which all ranks ask for the same values. Where it throws on one
   // of them, the others do not wait for it: it throws on all, as agree() does.
   void agree_on(const std::function<void()>& work);
 
+  // Between them each rank asks for values of its own.
+  void begin_own() { mode_ = Mode::own; }
+  void end_own() { mode_ = Mode::together; }
+
   // Collective: `ask` asks for what this rank will ask for until forget(), and gets zeros.
   void fetch(const std::function<void()>& ask);
   void forget();
-  // After fetch, by all ranks: the work of the first may ask for any value; the others follow.
-  void lead(const std::function<void()>& work);
-  void follow();
 
  private:
   friend class SpreadColumn;
 
   enum class Mode {
     together,  // all ranks ask for the same
+    own,       // each asks for its own
     asking,    // what is asked for is noted
     drawing,   // it has been fetched
-    leading,   // or the other ranks wait to be asked
   };
   struct Fetched {
     std::size_t begin;
@@ -61,18 +59,15 @@ class SpreadParticles : public std::enable_shared_from_this<SpreadParticles> {
 
   // For columns.
   bool is_asking() const { return mode_ == Mode::asking; }
-  bool reads_from_others() const { return mode_ == Mode::together || mode_ == Mode::leading; }
+  bool reads_from_others() const { return mode_ == Mode::together; }
   void ask(std::uint64_t column, std::size_t begin, std::size_t end);
   void read(const SpreadColumn& column, std::size_t begin, std::size_t end, float* values);
   void forget_column(std::uint64_t number) { columns_.erase(number); }
 
-  void wait_for_all();
   void read_together(const SpreadColumn& column, std::size_t begin, std::size_t end,
                      float* values) const;
   bool read_here(const SpreadColumn& column, std::size_t begin, std::size_t end,
                  float* values) const;
-  void read_leading(const SpreadColumn& column, std::size_t begin, std::size_t end,
-                    float* values) const;
   const Fetched* find_fetched(std::uint64_t column, std::size_t value) const;
   Communicator::Bytes request_to(int rank) const;
   Communicator::Bytes answer(const Communicator::Bytes& request) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -14,10 +15,16 @@ namespace splotchcl {
 // One of each rank, by rank; known to all.
 std::vector<std::uint64_t> gather_values(Communicator& ranks, std::uint64_t own);
 std::vector<std::string> gather_texts(Communicator& ranks, const std::string& own);
+// What all ranks have, one after the other.
+std::vector<std::uint64_t> gather_lists(Communicator& ranks, const std::vector<std::uint64_t>& own);
 std::uint64_t smallest_of(Communicator& ranks, std::uint64_t own);
 
 // Each of these becomes the sum of all ranks'.
 void add_up(Communicator& ranks, const std::vector<std::uint64_t*>& counts);
+
+// Rank r has set values [begins[r], begins[r + 1]), and all have all afterwards.
+void join_stretches(Communicator& ranks, std::vector<float>& values,
+                    const std::vector<std::size_t>& begins);
 
 // The root's, at every rank; of any length.
 template <class T>

@@ -152,22 +152,30 @@ std::vector<double> lit_pixels(std::vector<double> pixels) {
 
 }  // namespace
 
-std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame) {
+std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame,
+                                            const ParticlePass& pass) {
   const auto coarse = [&frame](int pixels) {
     return std::max(1, static_cast<int>(std::lround(coarse_scale(frame) * pixels)));
   };
   ColumnPyramid pyramid(coarse(frame.width), coarse(frame.height));
-  const std::size_t count = component.particles.count;
-  const std::size_t stride = sample_stride(count, particle_limit);
-  for (std::size_t i = 0; i < count; i += stride) {
-    if (std::optional<Cloud> cloud = cloud_of(component, frame, i)) {
+  const std::size_t stride = sample_stride(component.particles.count, particle_limit);
+  const auto look = [&](const ParticleRun& run, std::vector<Cloud>& clouds) {
+    for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride) {
+      std::optional<Cloud> cloud = cloud_of(component, frame, i);
+      if (!cloud) continue;
       cloud->column *= static_cast<double>(stride);  // for those that are passed over
-      pyramid.add(*cloud);
+      clouds.push_back(*cloud);
     }
-  }
+  };
+  for (const Cloud& cloud : pass.collect<Cloud>(look))
+    pyramid.add(cloud);
   std::vector<double> lit = lit_pixels(pyramid.pixels());
   if (lit.empty()) return std::nullopt;
   return percentile(lit, exposed_percentile);
+}
+
+std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame) {
+  return find_reference_column(component, frame, ParticlePass(component.particles.count));
 }
 
 }  // namespace splotchcl

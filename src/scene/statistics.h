@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/particle_pass.h"
 #include "splotchcl/particles.h"
 #include "splotchcl/scene.h"
 
@@ -20,6 +21,11 @@ inline std::size_t sample_stride(std::size_t count, std::size_t limit) {
   return count <= limit ? 1 : (count + limit - 1) / limit;
 }
 
+// The first of every `stride`-th particle that lies in the run, or one behind it.
+inline std::size_t first_sampled(const ParticleRun& run, std::size_t stride) {
+  return (run.begin + stride - 1) / stride * stride;
+}
+
 // Which of the `stride` things from `first` on is looked at, below `count`: any of them, but the
 // same in every run. A pattern that repeats in a file cannot keep step with it.
 std::size_t sampled_index(std::size_t first, std::size_t stride, std::size_t count);
@@ -28,16 +34,21 @@ std::size_t sampled_index(std::size_t first, std::size_t stride, std::size_t cou
 // `values` must not be empty; their order is lost.
 double percentile(std::vector<double>& values, double fraction);
 
-// The scaled values that are finite, of at most 2 million evenly spaced in the column.
+// The scaled values that are finite, of at most 2 million evenly spaced in the column. Here and
+// below ranks share the pass over the column's particles, each of which has one value; without it
+// this process looks at all.
+std::vector<double> sample_scaled(const Column& column, Scaling scaling, const ParticlePass& pass);
 std::vector<double> sample_scaled(const Column& column, Scaling scaling);
 
 // Where the bulk of the scaled values lies: 0.5 % to 99.5 %, so that a few outliers do
 // not squeeze all others into one colour. Nothing when no value is finite.
+std::optional<ValueRange> bulk_range(const Column& column, Scaling scaling,
+                                     const ParticlePass& pass);
 std::optional<ValueRange> bulk_range(const Column& column, Scaling scaling);
 
 // Between two percentiles of the scaled values, given in per cent. 0 and 100 are the
 // smallest and largest of all of them, others of those that are sampled.
 std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling, double low,
-                                           double high);
+                                           double high, const ParticlePass& pass);
 
 }  // namespace splotchcl

@@ -48,7 +48,7 @@ Column make_column(std::size_t size, bool is_streamed, MakeValues make) {
   return Column::owning(std::move(values));
 }
 
-Column make_vectors(const Column& vectors,
+Column make_vectors(const Column& vectors, bool is_streamed,
                     const std::function<void(const double* from, double* to)>& make) {
   // Sources are asked for whole vectors and for single values.
   const auto make_values = [=](std::size_t begin, std::size_t end, float* out) {
@@ -64,18 +64,18 @@ Column make_vectors(const Column& vectors,
       }
     }
   };
-  return make_column(vectors.size(), is_streamed(vectors), make_values);
+  return make_column(vectors.size(), is_streamed, make_values);
 }
 
 Column gather_in_order(const Column& column, std::size_t width, std::size_t count,
                        const std::function<std::size_t(std::size_t)>& place) {
   std::vector<float> values(count * width);
   float* out = values.data();
-  const std::size_t all = column.size() / width;
+  const std::size_t behind = count == 0 ? 0 : place(count - 1) + 1;
   std::size_t next = 0;
   while (next < count) {
     const std::size_t first = place(next);
-    const std::size_t end = std::min(all, first + streamed_particles);
+    const std::size_t end = std::min(behind, first + streamed_particles);
     const ColumnStretch stretch(column, first * width, end * width);
     for (; next < count && place(next) < end; ++next) {
       for (std::size_t k = 0; k < width; ++k)

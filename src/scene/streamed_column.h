@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "scene/particle_pass.h"
 #include "splotchcl/particles.h"
 
 // Columns that are too large to be held in memory are made as they are wanted, stretch by stretch.
@@ -33,11 +34,15 @@ bool is_streamed(const Column& column);
 // So many particles at a time.
 constexpr std::size_t streamed_particles = std::size_t{1} << 18;
 
-// Calls use(begin, end) for stretches of `count` particles, one after the other.
+// Calls use(begin, end) for stretches of a run of particles, one after the other.
+template <class Use>
+void for_stretches(const ParticleRun& run, Use&& use) {
+  for (std::size_t begin = run.begin; begin < run.end; begin += streamed_particles)
+    use(begin, begin + streamed_particles < run.end ? begin + streamed_particles : run.end);
+}
 template <class Use>
 void for_stretches(std::size_t count, Use&& use) {
-  for (std::size_t begin = 0; begin < count; begin += streamed_particles)
-    use(begin, begin + streamed_particles < count ? begin + streamed_particles : count);
+  for_stretches(ParticleRun{0, count}, use);
 }
 
 // Writes values [begin, end) of a column.
@@ -46,8 +51,8 @@ using MakeValues = std::function<void(std::size_t begin, std::size_t end, float*
 // A column of `size` values: held in memory, or streamed.
 Column make_column(std::size_t size, bool is_streamed, MakeValues make);
 
-// A vector of each vector: held in memory, or streamed as those that they are made from.
-Column make_vectors(const Column& vectors,
+// A vector of each vector: held in memory, or streamed.
+Column make_vectors(const Column& vectors, bool is_streamed,
                     const std::function<void(const double* from, double* to)>& make);
 
 // Those of particles place(0) < place(1) < ... of an array with `width` values for each: `count` of

@@ -10,6 +10,7 @@
 
 #include "parallel/for_blocks.h"
 #include "scene/particle_rules.h"
+#include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -305,30 +306,35 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
   return Column::owning(std::move(lengths));
 }
 
-Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbors) {
-  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors);
+Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbors,
+                                     bool streams) {
+  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors, streams);
 }
 
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbors) {
-  std::vector<float> lengths(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double volume =
-        neighbors * static_cast<double>(mass[i]) / static_cast<double>(density[i]);
-    lengths[i] = static_cast<float>(std::cbrt(volume / unit_sphere));
-  }
-  return Column::owning(std::move(lengths));
+                                      int neighbors, bool streams) {
+  const auto make = [=](std::size_t begin, std::size_t end, float* lengths) {
+    const ColumnStretch masses(mass, begin, end), densities(density, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double volume =
+          neighbors * static_cast<double>(masses[i]) / static_cast<double>(densities[i]);
+      *lengths++ = static_cast<float>(std::cbrt(volume / unit_sphere));
+    }
+  };
+  return make_column(count, streams, make);
 }
 
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbors) {
-  std::vector<float> densities(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double h = static_cast<double>(smoothing_length[i]);
-    densities[i] =
-        static_cast<float>(neighbors * static_cast<double>(mass[i]) / (unit_sphere * h * h * h));
-  }
-  return Column::owning(std::move(densities));
+                                        std::size_t count, int neighbors, bool streams) {
+  const auto make = [=](std::size_t begin, std::size_t end, float* densities) {
+    const ColumnStretch masses(mass, begin, end), lengths(smoothing_length, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double h = static_cast<double>(lengths[i]);
+      *densities++ = static_cast<float>(neighbors * static_cast<double>(masses[i]) /
+                                        (unit_sphere * h * h * h));
+    }
+  };
+  return make_column(count, streams, make);
 }
 
 }  // namespace splotchcl

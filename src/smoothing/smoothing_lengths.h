@@ -42,16 +42,17 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
 
 // The length whose sphere holds the mass of `neighbours` particles at the particle's density:
 // h = (3 * neighbours m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
-// are.
+// are. Here and below values are held in memory, or made as they are wanted.
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbors = particles_in_sphere);
+                                      int neighbors = particles_in_sphere, bool streams = false);
 
 // The same for cells of a mesh: m / rho is a cell's volume.
 Column smoothing_lengths_from_volume(const Column& volume, std::size_t count,
-                                     int neighbors = particles_in_sphere);
+                                     int neighbors = particles_in_sphere, bool streams = false);
 
 // The inverse: rho = neighbours m / (4 pi h^3 / 3).
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbors = particles_in_sphere);
+                                        std::size_t count, int neighbors = particles_in_sphere,
+                                        bool streams = false);
 
 }  // namespace splotchcl

@@ -10,6 +10,7 @@
 
 namespace splotchcl {
 
+class Communicator;
 class Snapshot;
 
 // What decide and load have made from one snapshot and will want again for the next frame of a
@@ -36,6 +37,12 @@ class LoadMemory {
     shared_->companions[path] = std::move(snapshot);
   }
   void share_with(const LoadMemory& other) { shared_ = other.shared_; }
+
+  // Ranks that all have this snapshot, and look at its particles together (load/passes.h). Null:
+  // this process looks at all.
+  const std::shared_ptr<Communicator>& ranks() const { return shared_->ranks; }
+  void set_ranks(std::shared_ptr<Communicator> ranks) { shared_->ranks = std::move(ranks); }
+
   // All that was made from this snapshot; what does not depend on it is kept.
   void forget_own() { own_ = {}; }
 
@@ -67,6 +74,7 @@ class LoadMemory {
   struct Shared {
     std::map<std::string, std::shared_ptr<const Snapshot>> companions;
     Values values;
+    std::shared_ptr<Communicator> ranks;
   };
 
   Values own_;

@@ -33,6 +33,9 @@ std::vector<SmallScene> small_scenes() {
                        "[camera]\nprojection = \"equirectangular\"\n"
                        "position = [-90000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
                        both},
+      {"within",
+       head + "[camera]\nposition = [24000, 25000, 25000]\nlook_at = [25000, 25000, 25000]\n" +
+           both},
       {"most_exact", "tolerance = 0\n" + head + both},
       {"two_eyes", head + "[stereo]\nlayout = \"side_by_side\"\n" + both},
   };
@@ -66,6 +69,15 @@ TEST_P(MpiRun, DrawsTheBitsOfOneProcess) {
   }
 }
 
+// Each process looks at its part of what is decided from all particles.
+TEST_P(MpiRun, DecidesWhatOneProcessDoesForASnapshotAlone) {
+  const ProgramResult one = run("\"$splotchcl\" render u -o one.exr --size 160x80");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const ProgramResult many = run(mpirun(3) + "\"$splotchcl\" render u -o many.exr --size 160x80");
+  ASSERT_EQ(many.exit_code, 0) << many.err;
+  EXPECT_EQ(read_text(*folder_ / "many.exr"), read_text(*folder_ / "one.exr"));
+}
+
 TEST_P(MpiRun, MakesTheFramesOfOneProcess) {
   write("film.toml", small_scenes()[2].text + "[path.orbit]\ndegrees = 20\n[movie]\nframes = 3\n");
   ASSERT_EQ(run("\"$splotchcl\" movie film.toml -o one_%d.png").exit_code, 0);
@@ -93,6 +105,17 @@ TEST_P(MpiRun, NamesTheProcessForWhichAFileIsMissing) {
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(own_line(result.err), HasSubstr("process 1 on "));
   EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));
+}
+
+// One process fails while the others look at particles with it.
+TEST_P(MpiRun, NamesTheProcessForWhichASnapshotIsMissing) {
+  write("in_its_folder",
+        "#!/bin/sh\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\nmkdir -p $rank; cd $rank\n"
+        "[ $rank = 1 ] || ln -sf ../u .\nexec \"$splotchcl\" render u -o ../a.png\n");
+  const ProgramResult result = run("chmod +x in_its_folder; " + mpirun(3) + "./in_its_folder");
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
+  EXPECT_THAT(own_line(result.err), HasSubstr("process 1 on "));
 }
 
 TEST_P(MpiRun, EndsWhereThePictureCannotBeWritten) {

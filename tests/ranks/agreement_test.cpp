@@ -52,6 +52,58 @@ TEST(Agreement, TellsWhatFailsEverywhereAsOneProcessWould) {
   EXPECT_EQ(told_by(3, [](int) { throw DataError("there is no file"); }), "there is no file");
 }
 
+TEST(Agreement, EndsTheWorkOfOthersWhereTheyWait) {
+  std::atomic<int> went_on{0};
+  ThreadRanks::run(3, [&](Communicator& all) {
+    EXPECT_ANY_THROW(agree(&all, [&] {
+      if (all.rank() == 1) throw DataError("there is no file");
+      wait_for_all(all);
+      ++went_on;
+    }));
+  });
+  EXPECT_EQ(went_on, 0);
+}
+
+TEST(Agreement, TellsOnceWhatHasBeenAgreedUponInside) {
+  std::mutex mutex;
+  std::string told;
+  ThreadRanks::run(3, [&](Communicator& all) {
+    try {
+      agree(&all, [&] {
+        agree(&all, [&] {
+          if (all.rank() == 1) throw DataError("there is no file");
+        });
+      });
+      ADD_FAILURE();
+    } catch (const DataError& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      told += error.what();
+    } catch (const FailedElsewhere&) {
+    }
+  });
+  EXPECT_EQ(told, "process 1 on host1: there is no file");
+}
+
+// One rank has failed before, while the others agree upon something else.
+TEST(Agreement, IsEndedByARankThatDoesNotReachIt) {
+  std::mutex mutex;
+  std::string told;
+  ThreadRanks::run(3, [&](Communicator& all) {
+    try {
+      agree(&all, [&] {
+        if (all.rank() == 0) throw DataError("there is no folder");
+        agree(&all, [&] { wait_for_all(all); });
+      });
+      ADD_FAILURE();
+    } catch (const DataError& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      told += error.what();
+    } catch (const FailedElsewhere&) {
+    }
+  });
+  EXPECT_EQ(told, "process 0 on host0: there is no folder");
+}
+
 TEST(Agreement, KeepsWrongCallsApart) {
   ThreadRanks::run(2, [](Communicator& all) {
     try {

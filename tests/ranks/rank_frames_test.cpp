@@ -117,7 +117,7 @@ class RankFrames : public testing::TestWithParam<bool> {
     } else {
       ThreadRanks::run(ranks, [&](Communicator& all) {
         const Frame own = holds == Holds::own ? spread_over(all, frame) : frame;
-        FrameRanks with = {all, {}, own.spread.get()};
+        FrameRanks with = {all, {}};
         draw_with(own, device_of_rank(all.rank()), &with);
       });
     }
@@ -246,7 +246,6 @@ TEST_P(RankFrames, HoldTheCopiesOfPanoramas) {
   expect_same_bits(panorama_of_clouds(500), 2);
 }
 
-// The first rank draws such ordered frames alone, and all of them sums.
 TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
   Frame frame = within_clouds();
   frame.tolerance = 1e-2;
@@ -257,6 +256,72 @@ TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
     }
   }
   expect_same_bits(without_absorption(frame), 3);
+}
+
+// The camera stands in some of many. Lists hold them, or they are laid between the splats.
+Frame within_many_clouds(bool are_in_lists) {
+  Frame frame = many_clouds(are_in_lists ? 2000 : 1000);
+  if (are_in_lists) {
+    frame.width = 240;
+    frame.height = 100;
+  } else {
+    frame.kernel.cut = 2.5;
+  }
+  frame.through_clouds = true;
+  return looked_at_from(std::move(frame), 20);
+}
+
+TEST_P(RankFrames, ShareOutSplatsAmongCloudsAroundTheCamera) {
+  for (const bool are_in_lists : {false, true}) {
+    const Drawn drawn = draw(within_many_clouds(are_in_lists), 3);
+    ASSERT_GT(drawn.counts.around, 20u);
+    ASSERT_EQ(drawn.counts.in_lists > 0, are_in_lists);
+    const double share = static_cast<double>(drawn.counts.visible) / 3;
+    ASSERT_GT(share, 60);
+    for (const RankWork& work : drawn.work)
+      EXPECT_NEAR(static_cast<double>(work.splats), share, 0.4 * share) << are_in_lists;
+  }
+}
+
+TEST_P(RankFrames, DrawAmongCloudsAroundTheCameraInSlices) {
+  for (const bool are_in_lists : {false, true}) {
+    const Frame frame = within_many_clouds(are_in_lists);
+    for (const int ranks : {2, 3, 4})
+      expect_same_bits(frame, ranks, 0);
+    expect_same_bits(frame, 3, 3);
+  }
+}
+
+TEST_P(RankFrames, DrawAmongCloudsAroundTheCameraInRounds) {
+  for (const bool are_in_lists : {false, true}) {
+    const Frame frame = within_many_clouds(are_in_lists);
+    const Drawn one = draw(frame, 0);
+    for (const int ranks : {2, 3}) {
+      make_room_for(40, frame);
+      for (const Holds holds : {Holds::all, Holds::own}) {
+        const Drawn many = draw(frame, ranks, -1, holds);
+        expect_same(many, one, ranks);
+        EXPECT_GE(many.counts.windows, 2 * static_cast<std::uint64_t>(ranks));
+      }
+    }
+  }
+}
+
+TEST_P(RankFrames, KeepTheOrderOfSplatsAndCloudsAroundTheCameraOfOneKey) {
+  for (const bool are_in_lists : {false, true}) {
+    Frame frame = within_many_clouds(are_in_lists);
+    frame.sort.by = SortOrder::By::field;
+    for (const std::size_t period : {3, 200}) {
+      give_few_fields(frame, period);
+      expect_same_bits(frame, 3);
+    }
+  }
+}
+
+TEST_P(RankFrames, HoldCloudsAroundTheCameraMostExactly) {
+  Frame frame = within_clouds();
+  frame.tolerance = 0;
+  expect_same_bits(frame, 2);
 }
 
 TEST_P(RankFrames, HoldFramesWithFewerSplatsThanRanks) {

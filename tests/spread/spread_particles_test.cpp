@@ -84,20 +84,5 @@ TEST(SpreadParticles, RefuseWhatHasNotBeenFetched) {
   });
 }
 
-TEST(SpreadParticles, GiveTheFirstRankWhateverItAsksForWhenItLeads) {
-  with_ranks(3, [](SpreadParticles& spread) {
-    const Column column = numbers(spread);
-    spread.fetch([] {});
-    if (spread.ranks().rank() > 0) {
-      spread.follow();
-      return;
-    }
-    spread.lead([&] {
-      EXPECT_EQ(made(column, 0, 3000), counted(0, 3000));
-      EXPECT_EQ(column[1234], 1234);
-    });
-  });
-}
-
 }  // namespace
 }  // namespace splotchcl::test

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "ranks/spread_particles.h"
 #include "splotchcl/communicator.h"
 
 namespace splotchcl {
@@ -18,7 +17,6 @@ struct RankWork {
 struct FrameRanks {
   Communicator& all;
   RankWork work;
-  SpreadParticles* spread = nullptr;  // null: each rank has all particles
 
   int rank() const { return all.rank(); }
   int size() const { return all.size(); }

@@ -30,6 +30,7 @@ SplatExchange::SplatExchange(const StageContext& context, const Projector& proje
 void SplatExchange::count_keys() {
   const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
   counts_ = counter_.particles();
+  own_around_ = counts_.around;
   left_out_ = counter_.left_out();
   add_up(ranks_.all,
          {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});
@@ -62,8 +63,12 @@ bool SplatExchange::has_room_for_copies() const {
          });
 }
 
+std::size_t SplatExchange::number_of_slice(std::size_t round, int rank) const {
+  return round * static_cast<std::size_t>(ranks_.size()) + static_cast<std::size_t>(rank);
+}
+
 const KeySlice& SplatExchange::slice(std::size_t round, int rank) const {
-  return slices_[round * static_cast<std::size_t>(ranks_.size()) + static_cast<std::size_t>(rank)];
+  return slices_[number_of_slice(round, rank)];
 }
 
 KeyWindow SplatExchange::window(std::size_t round) const {
@@ -90,7 +95,7 @@ std::vector<Communicator::Bytes> SplatExchange::share_out(std::size_t round, std
   return pack(context_, splats, places, ranks);
 }
 
-KeyedSplats SplatExchange::take(std::size_t round, std::uint32_t carried) {
+KeyedSplats SplatExchange::take(std::size_t round, std::uint32_t carried, std::uint32_t more) {
   const auto ranks = static_cast<std::size_t>(ranks_.size());
   const std::uint64_t steps = *std::max_element(chunks_of_ranks_.begin(), chunks_of_ranks_.end());
   std::vector<std::vector<Communicator::Bytes>> received(ranks);
@@ -104,7 +109,9 @@ KeyedSplats SplatExchange::take(std::size_t round, std::uint32_t carried) {
       received[r].push_back(std::move(packets[r]));
   }
   const KeySlice& own = slice(round, ranks_.rank());
-  KeyedSplats keyed = projector_.keyed_memory(carried + static_cast<std::uint32_t>(own.splats));
+  const std::uint32_t count = carried + static_cast<std::uint32_t>(own.splats);
+  KeyedSplats keyed = projector_.keyed_memory(count + more);
+  keyed.count = count;
   put_together(received, keyed, carried);
   return keyed;
 }

@@ -11,10 +11,19 @@ bool CloudLayers::has_open_before(std::uint64_t end) const {
 
 void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first,
                               std::uint64_t end) {
-  const auto begin = clouds_.begin() + static_cast<std::ptrdiff_t>(splats_before_.size());
+  const std::size_t placed = splats_before_.size();
   const auto open_end =
-      std::lower_bound(begin, clouds_.end(), end,
+      std::lower_bound(clouds_.begin() + static_cast<std::ptrdiff_t>(placed), clouds_.end(), end,
                        [](const CloudAround& cloud, std::uint64_t key) { return cloud.key < key; });
+  append_places(
+      places_among(keys, first, placed, static_cast<std::size_t>(open_end - clouds_.begin())));
+}
+
+std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint64_t>& keys,
+                                                     std::uint64_t first, std::size_t begin_cloud,
+                                                     std::size_t end_cloud) const {
+  const auto begin = clouds_.begin() + static_cast<std::ptrdiff_t>(begin_cloud);
+  const auto open_end = clouds_.begin() + static_cast<std::ptrdiff_t>(end_cloud);
   // Of each of these clouds the splats between it and the one before.
   std::vector<std::uint64_t> between(static_cast<std::size_t>(open_end - begin) + 1);
   for (const std::uint64_t key : keys) {
@@ -23,10 +32,21 @@ void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint6
         [](const CloudAround& cloud, std::uint64_t splat) { return cloud.key < splat; });
     ++between[static_cast<std::size_t>(behind - begin)];
   }
+  std::vector<std::uint64_t> places;
   for (auto cloud = begin; cloud != open_end; ++cloud) {
     first += between[static_cast<std::size_t>(cloud - begin)];
-    splats_before_.push_back(first);
+    places.push_back(first);
   }
+  return places;
+}
+
+void CloudLayers::append_places(const std::vector<std::uint64_t>& splats_before) {
+  splats_before_.insert(splats_before_.end(), splats_before.begin(), splats_before.end());
+}
+
+void CloudLayers::skip_before(std::uint64_t first) {
+  while (taken_ < splats_before_.size() && splats_before_[taken_] < first)
+    ++taken_;
 }
 
 std::optional<CloudLayer> CloudLayers::take_before(std::uint64_t end) {

@@ -29,6 +29,16 @@ class CloudLayers {
   // The keys of splats, the nearest of which is number `first` of the order: all splats with keys
   // below `end` are among them or before them.
   void place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first, std::uint64_t end);
+  // Several ranks: how many splats lie before each of clouds [begin, end), told the keys of the
+  // splats of a slice that has these clouds and that begins with splat number `first`.
+  std::vector<std::uint64_t> places_among(const std::vector<std::uint64_t>& keys,
+                                          std::uint64_t first, std::size_t begin,
+                                          std::size_t end) const;
+  // Those of the next clouds.
+  void append_places(const std::vector<std::uint64_t>& splats_before);
+  // Layers in front of splat number `first` are others'.
+  void skip_before(std::uint64_t first);
+
   // The next layer that lies in front of splat number `end` - 1, once.
   std::optional<CloudLayer> take_before(std::uint64_t end);
 

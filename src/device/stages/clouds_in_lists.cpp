@@ -193,17 +193,22 @@ std::uint32_t CloudsInLists::open_before(std::uint64_t end) const {
 }
 
 void CloudsInLists::append_before(std::uint64_t end, KeyedSplats& keyed) {
-  const std::uint32_t count = open_before(end);
-  if (count == 0) return;
+  const std::size_t first = appended_;
+  appended_ += open_before(end);
+  append(first, appended_, keyed);
+}
+
+void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keyed) const {
+  if (begin == end) return;
   const Specialization& specialization = context_->specialization;
   std::vector<std::uint32_t> splats, keys, order;
   std::vector<std::uint16_t> ends;
-  for (std::size_t cloud = appended_; cloud < appended_ + count; ++cloud) {
+  for (std::size_t cloud = begin; cloud < end; ++cloud) {
     const std::vector<std::uint32_t> words = splat_words(specialization, cloud);
     splats.insert(splats.end(), words.begin(), words.end());
     keys.push_back(static_cast<std::uint32_t>(keys_[cloud] >> 16));
     ends.push_back(static_cast<std::uint16_t>(keys_[cloud] & 0xffff));
-    order.push_back(keyed.count + static_cast<std::uint32_t>(cloud - appended_));
+    order.push_back(keyed.count + static_cast<std::uint32_t>(cloud - begin));
   }
   const std::size_t first = keyed.count;
   write(*context_, splats, first * specialization.splat_bytes(), keyed.splats.splats.memory());
@@ -211,8 +216,7 @@ void CloudsInLists::append_before(std::uint64_t end, KeyedSplats& keyed) {
   write(*context_, order, first * sizeof(std::uint32_t), keyed.order.memory());
   if (keyed.key_ends.size() > 0)
     write(*context_, ends, first * sizeof(std::uint16_t), keyed.key_ends.memory());
-  keyed.count += count;
-  appended_ += count;
+  keyed.count += static_cast<std::uint32_t>(end - begin);
 }
 
 }  // namespace splotchcl

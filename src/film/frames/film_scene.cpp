@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "load/passes.h"
 #include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
@@ -33,8 +34,10 @@ Camera upright(Camera camera, const ImageSettings& image) {
 
 }  // namespace
 
-FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  SceneWithSnapshot opened = open_scene(path, settings);
+FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
+                     const std::shared_ptr<Communicator>& ranks)
+    : ranks_(ranks) {
+  SceneWithSnapshot opened = open_scene(path, settings, ranks);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
   if (!scene_.camera && !path_has_camera(scene_)) {
@@ -43,6 +46,12 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   path_.emplace(scene_, notes_);
   path_->check(scene_);
   check_moments();
+}
+
+std::shared_ptr<const Snapshot> FilmScene::snapshot_at(const Scene& scene) {
+  auto snapshot = snapshots_.at(scene);
+  share_passes(*snapshot, ranks_);
+  return snapshot;
 }
 
 // Every frame lies within the sequence.

@@ -9,6 +9,7 @@
 #include "film/path/film_path.h"
 #include "pictures/other_scenes.h"
 #include "sequence/film_snapshots.h"
+#include "splotchcl/communicator.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
@@ -18,8 +19,9 @@ namespace splotchcl {
 class FilmScene {
  public:
   // Checks every frame of the path. Reads particles only to choose a camera for a scene that has
-  // none.
-  FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings);
+  // none. All of `ranks`, where there are some, make the same calls, within agree().
+  FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
+            const std::shared_ptr<Communicator>& ranks = nullptr);
 
   // First checks what frames name: fields, palettes, files, texts. Then decides whatever the scene
   // leaves to the data, from the first frame, or from a later one for a component of which the
@@ -29,7 +31,7 @@ class FilmScene {
   const Scene& scene() const { return scene_; }
   const FilmPath& path() const { return *path_; }
   Scene scene_at(int frame) const { return path_->scene_at(scene_, frame); }
-  std::shared_ptr<const Snapshot> snapshot_at(const Scene& scene) { return snapshots_.at(scene); }
+  std::shared_ptr<const Snapshot> snapshot_at(const Scene& scene);
   OtherScenes& other_scenes() { return other_scenes_; }
   // What the user should know of scene, path and data.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -39,6 +41,7 @@ class FilmScene {
   void check_words();
   void decide_components();
 
+  std::shared_ptr<Communicator> ranks_;  // null: this process alone
   Scene scene_;
   FilmSnapshots snapshots_;
   OtherScenes other_scenes_;

@@ -72,7 +72,7 @@ class Film {
   Film(const FilmOptions& options, const FilmReport& report)
       : options_(options),
         report_(report),
-        scene_(options.scene, options.settings),
+        scene_(options.scene, options.settings, options.ranks),
         start_(scene_.scene_at(0)),
         files_(options.output, suffixes_of(start_)) {
     if (has_files()) check_pictures(files_, start_);
@@ -88,18 +88,18 @@ class Film {
     std::vector<int> frames;
     agree(options_.ranks.get(), [&] {
       is_complete = has_files() && options_.only_join && !files_.is_begun();
-      if (is_complete) return require_complete();
+      if (is_complete) require_complete();
+    });
+    if (options_.ranks) broadcast_value(*options_.ranks, is_complete);
+    if (is_complete) return result(FilmState::complete_before);
+    agree(options_.ranks.get(), [&] {
       status("reading");
       scene_.decide();
       if (!has_files()) return;
       files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference));
       if (!options_.only_join) frames = missing(part_);
     });
-    if (options_.ranks) {
-      broadcast_value(*options_.ranks, is_complete);
-      broadcast_values(*options_.ranks, frames);
-    }
-    if (is_complete) return result(FilmState::complete_before);
+    if (options_.ranks) broadcast_values(*options_.ranks, frames);
     draw(frames);
     FilmResult made = result(FilmState::part_is_drawn);
     agree(options_.ranks.get(), [&] {
