@@ -63,6 +63,12 @@ TEST_P(ShapeFunctions, ErrorFunctionErrsByWhatPlansCountOn) {
   EXPECT_LE(largest(x, evaluate("error_function", "#define FULL_PRECISION\n", x), error), 2.3e-7);
 }
 
+TEST_P(ShapeFunctions, ErrorFunctionLosesNoLightOfAGrain) {
+  const std::vector<float> far = evenly(4, 100, 64);
+  const auto error = [](double found, double) { return found - 1; };
+  EXPECT_LE(largest(far, evaluate("error_function", "", far), error), 2.3e-7);
+}
+
 TEST_P(ShapeFunctions, ComplementOfTheErrorFunctionErrsByPartsOfItself) {
   const std::vector<float> x = evenly(0, 9.1, 1 << 16);
   const auto error = [](double found, double at) { return found / std::erfc(at) - 1; };
