@@ -10,12 +10,12 @@
 #include <cstring>
 #include <functional>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "load/passes.h"
 #include "ranks/agreement.h"
+#include "ranks/forwarding_ranks.h"
 #include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
@@ -189,34 +189,17 @@ TEST(SharedPasses, FindLengthsFromNeighbors) {
 }
 
 // Counts what this rank broadcasts.
-class CountedRanks final : public Communicator {
+class CountedRanks final : public ForwardingRanks {
  public:
-  explicit CountedRanks(Communicator& ranks) : ranks_(ranks) {}
+  using ForwardingRanks::ForwardingRanks;
 
-  int rank() const override { return ranks_.rank(); }
-  int size() const override { return ranks_.size(); }
-  int rank_on_host() const override { return ranks_.rank_on_host(); }
-  int size_on_host() const override { return ranks_.size_on_host(); }
-  std::string host() const override { return ranks_.host(); }
   void broadcast(void* data, std::size_t bytes, int root) override {
     if (root == rank()) bytes_ += bytes;
-    ranks_.broadcast(data, bytes, root);
+    ForwardingRanks::broadcast(data, bytes, root);
   }
-  std::vector<Bytes> gather(const Bytes& own) override { return ranks_.gather(own); }
-  void add_up(std::vector<std::uint64_t>& values) override { ranks_.add_up(values); }
-  std::vector<Bytes> exchange(std::vector<Bytes> parts) override {
-    return ranks_.exchange(std::move(parts));
-  }
-  void send(const void* data, std::size_t bytes, int to) override { ranks_.send(data, bytes, to); }
-  void receive(void* data, std::size_t bytes, int from) override {
-    ranks_.receive(data, bytes, from);
-  }
-  [[noreturn]] void abort(int) override { throw std::runtime_error("aborted"); }
-
   std::size_t bytes_broadcast() const { return bytes_; }
 
  private:
-  Communicator& ranks_;
   std::size_t bytes_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ranks/forwarding_ranks.h"
 #include "ranks/spread_particles.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
@@ -111,37 +112,20 @@ TEST(SpreadFailures, AreDevicesThatOneRankHasNot) {
 }
 
 // What one rank is given fails while all draw; nobody expects to be told.
-class FailsToExchange : public Communicator {
+class FailsToExchange : public ForwardingRanks {
  public:
-  explicit FailsToExchange(Communicator& ranks) : ranks_(ranks) {}
+  using ForwardingRanks::ForwardingRanks;
 
-  int rank() const override { return ranks_.rank(); }
-  int size() const override { return ranks_.size(); }
-  int rank_on_host() const override { return ranks_.rank_on_host(); }
-  int size_on_host() const override { return ranks_.size_on_host(); }
-  std::string host() const override { return ranks_.host(); }
-  void broadcast(void* data, std::size_t bytes, int root) override {
-    ranks_.broadcast(data, bytes, root);
-  }
-  std::vector<Bytes> gather(const Bytes& own) override { return ranks_.gather(own); }
-  void add_up(std::vector<std::uint64_t>& values) override { ranks_.add_up(values); }
   std::vector<Bytes> exchange(std::vector<Bytes> parts) override {
     if (rank() == 1) throw DeviceError("its memory is full");
-    return ranks_.exchange(std::move(parts));
-  }
-  void send(const void* data, std::size_t bytes, int to) override { ranks_.send(data, bytes, to); }
-  void receive(void* data, std::size_t bytes, int from) override {
-    ranks_.receive(data, bytes, from);
+    return ForwardingRanks::exchange(std::move(parts));
   }
   [[noreturn]] void abort(int code) override {
     aborted_with = code;
-    throw std::runtime_error("aborted");
+    ForwardingRanks::abort(code);
   }
 
   int aborted_with = 0;
-
- private:
-  Communicator& ranks_;
 };
 
 TEST(SpreadFailures, WhileAllDrawEndAllProcesses) {
