@@ -1,22 +1,31 @@
 // The colors of splats: what they emit and absorb at the center.
 
-inline void sample_knots(__global const float* knots, uint first, uint count, float position,
-                         float* color) {
+// Vectors, since what a loop writes to an array goes through memory in pieces, which a processor
+// cannot forward to the copy of the whole entry.
+INLINED float3 knot_at(__global const float* knot) {
+  return (float3)(knot[0], knot[1], knot[2]);
+}
+
+INLINED float3 sample_knots(__global const float* knots, uint first, uint count, float position) {
   const float place = position * (float)(count - 1u);
   const uint below = min((uint)place, count - 1u);
   const uint above = min(below + 1u, count - 1u);
-  const float fraction = place - (float)below;
-  __global const float* a = knots + (size_t)(first + below) * 3;
-  __global const float* b = knots + (size_t)(first + above) * 3;
-  for (int c = 0; c < 3; ++c)
-    color[c] = a[c] + fraction * (b[c] - a[c]);
+  const float3 color = knot_at(knots + (size_t)(first + below) * 3);
+  return color +
+         (place - (float)below) * (knot_at(knots + (size_t)(first + above) * 3) - color);
 }
+
+#ifdef VECTOR_COLORS
+INLINED float3 own_color_of(const Splat splat) {
+  return (float3)(splat.own_color.rgb[0], splat.own_color.rgb[1], splat.own_color.rgb[2]);
+}
+#endif
 
 #ifndef LIGHT_ORDERED
 // E w, or A w in the proportional plan, at the cloud's centre (scene.h, Absorption). A
 // component that only emits has no place in the proportional plan, and a gray one in neither.
-inline void sum_amplitude(const Splat splat, const ComponentColors colors,
-                          __global const float* knots, float* summed) {
+INLINED float3 summed_amplitude(const Splat splat, const ComponentColors colors,
+                                __global const float* knots) {
 #ifdef LIGHT_EMISSION
   const int own = 0;
   const float scale = splat.weight * colors.brightness;
@@ -26,15 +35,14 @@ inline void sum_amplitude(const Splat splat, const ComponentColors colors,
       splat.weight *
       (colors.absorption_kind == ABSORPTION_FACTOR ? colors.absorption_factor : colors.brightness);
 #endif
-  sample_knots(knots, own ? colors.first_absorption_knot : colors.first_knot,
-               own ? colors.absorption_knot_count : colors.knot_count, splat.color, summed);
-  for (int c = 0; c < 3; ++c)
-    summed[c] *= scale;
+  float3 summed =
+      scale * sample_knots(knots, own ? colors.first_absorption_knot : colors.first_knot,
+                           own ? colors.absorption_knot_count : colors.knot_count, splat.color);
 #ifdef VECTOR_COLORS
   // An absorption palette of its own is not the particles' colour.
-  for (int c = 0; c < 3 && !own; ++c)
-    summed[c] *= splat.own_color.rgb[c];
+  if (!own) summed *= own_color_of(splat);
 #endif
+  return summed;
 }
 #else
 // A cloud's own amplitude over that of its splat, which is widened where center values are taken,
@@ -59,34 +67,35 @@ INLINED float own_part(const Splat splat, const BinParameters p) {
 #endif
 }
 
-// E w and A w at the cloud's centre (scene.h, Absorption). As a call it would leave its results
-// in memory in pieces, which a processor cannot forward to the copy of the whole entry.
-INLINED void amplitudes(const Splat splat, const ComponentColors colors,
-                        __global const float* knots, const BinParameters p, float* emission,
-                        float* absorption) {
-  float e[3], a[3];
-  sample_knots(knots, colors.first_knot, colors.knot_count, splat.color, e);
+typedef struct Amplitudes {
+  float3 emission, absorption;
+} Amplitudes;
+
+// E w and A w at the cloud's centre (scene.h, Absorption).
+INLINED Amplitudes amplitudes_of(const Splat splat, const ComponentColors colors,
+                                 __global const float* knots, const BinParameters p) {
+  float3 emitted = sample_knots(knots, colors.first_knot, colors.knot_count, splat.color);
 #ifdef VECTOR_COLORS
-  for (int c = 0; c < 3; ++c)
-    e[c] *= splat.own_color.rgb[c];
+  emitted *= own_color_of(splat);
 #endif
-  for (int c = 0; c < 3; ++c)
-    a[c] = e[c];
+  float3 absorbed = emitted;
   if (colors.absorption_knot_count > 0) {
-    sample_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count, splat.color, a);
+    absorbed = sample_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count,
+                            splat.color);
   }
-  for (int c = 0; c < 3; ++c) {
-    emission[c] = splat.weight * colors.brightness * e[c];
-    absorption[c] = splat.weight * colors.brightness * a[c];
-    if (colors.absorption_kind == ABSORPTION_NONE) absorption[c] = 0.0f;
-    if (colors.absorption_kind == ABSORPTION_FACTOR) {
-      absorption[c] = splat.weight * colors.absorption_factor * a[c];
-    }
-    if (colors.absorption_kind == ABSORPTION_GRAY) {
-      const float own = emission[c] * own_part(splat, p);
-      absorption[c] = emission[c];
-      emission[c] *= own > 0.0f ? own / (own + colors.absorption_factor) : 0.0f;
-    }
+  Amplitudes found;
+  found.emission = splat.weight * colors.brightness * emitted;
+  found.absorption = splat.weight * colors.brightness * absorbed;
+  if (colors.absorption_kind == ABSORPTION_NONE) found.absorption = (float3)(0.0f);
+  if (colors.absorption_kind == ABSORPTION_FACTOR) {
+    found.absorption = splat.weight * colors.absorption_factor * absorbed;
   }
+  if (colors.absorption_kind == ABSORPTION_GRAY) {
+    const float3 own = found.emission * own_part(splat, p);
+    found.absorption = found.emission;
+    found.emission = select((float3)(0.0f), found.emission * (own / (own + colors.absorption_factor)),
+                            own > 0.0f);
+  }
+  return found;
 }
 #endif

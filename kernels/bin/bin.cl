@@ -32,14 +32,20 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
     ask_for(splats + order[min(slot + SPLATS_AHEAD, end - 1)]);
     const Splat splat = splats[order[slot]];
     in_order[slot - p.first] = splat;
-    const Grid grid = grids[grid_of(splat)];
+    __global const Grid* grid = grids + grid_of(splat);
 #ifdef TILES_IN_SPLAT
-    const uint touched = tiles_with_memory(splat.tiles, splat, grid);
+    if (is_in_one_tile(splat.tiles) && !grid->is_part) {
+      // Most splats of a large snapshot.
+      tiles[slot - p.first] = splat.tiles;
+      ++count[number_of_tile(splat.tiles, grid->corner_tile, grid->tiles_x)];
+      continue;
+    }
+    const uint touched = tiles_with_memory(splat.tiles, splat, *grid);
 #else
-    const uint touched = tiles_of(splat, grid);
+    const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, splat, grid, count);
+    count_in_tiles(touched, splat, *grid, count);
   }
 }
 #endif
@@ -97,7 +103,12 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     const Splat splat = in_order[slot - p.first];
 #endif
     const Grid grid = grids[grid_of(splat)];
-    const int4 range = unpack_tiles(tiles[slot - p.first], splat, grid);
+#if defined(BLOCKS_OF_PROJECTION) && defined(TILES_IN_SPLAT)
+    const uint touched = tiles_with_memory(splat.tiles, splat, grid);
+#else
+    const uint touched = tiles[slot - p.first];
+#endif
+    const int4 range = unpack_tiles(touched, splat, grid);
 #ifdef EXTENDED_NUMBERS
     TileSplat entry;
 #ifdef LIGHT_ORDERED
@@ -120,7 +131,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                   ty * TILE_HEIGHT + TILE_HEIGHT / 2, bits, unit);
 #endif
         __global TileSplat* to = entries + (size_t)starts[tile] + count[tile]++;
-        *to = entry;
+        store_entry(entry, to);
         ask_to_write(to + ENTRIES_AHEAD);
       }
     }

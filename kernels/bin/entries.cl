@@ -13,9 +13,18 @@ INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors c
   entry.tilt = splat.tilt;
 #endif
 #ifdef LIGHT_ORDERED
-  amplitudes(splat, colors, knots, p, entry.emission, entry.absorption);
+  const Amplitudes found = amplitudes_of(splat, colors, knots, p);
+  entry.emission[0] = found.emission.x;
+  entry.emission[1] = found.emission.y;
+  entry.emission[2] = found.emission.z;
+  entry.absorption[0] = found.absorption.x;
+  entry.absorption[1] = found.absorption.y;
+  entry.absorption[2] = found.absorption.z;
 #else
-  sum_amplitude(splat, colors, knots, entry.summed);
+  const float3 summed = summed_amplitude(splat, colors, knots);
+  entry.summed[0] = summed.x;
+  entry.summed[1] = summed.y;
+  entry.summed[2] = summed.z;
 #endif
   return entry;
 }
@@ -33,3 +42,14 @@ INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int
 #endif
 }
 #endif
+
+INLINED void store_entry(const TileSplat entry, __global TileSplat* to) {
+#if !defined(EXTENDED_NUMBERS) && !defined(LIGHT_ORDERED) && SUMMED == 3 && !defined(ELLIPSES) && \
+    !defined(FINE_PLACES)
+  __global float* words = (__global float*)to;
+  vstore4((float4)(entry.x, entry.y, entry.sigma, entry.radius), 0, words);
+  vstore4((float4)(entry.radius, entry.summed[0], entry.summed[1], entry.summed[2]), 0, words + 3);
+#else
+  *to = entry;
+#endif
+}

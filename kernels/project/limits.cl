@@ -44,7 +44,9 @@ inline VALUE limited_weight(VALUE weight, VALUE peak) {
 // How many sigma a splat is drawn: at least so far that the light outside the square does
 // not show in a sum of many, and for a bright one so far that its own edge does not show.
 inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameters p) {
-  const VALUE excess = log2_positive(max(peak * p.inverse_edge, (VALUE)(1.0f)));
+  const VALUE over_edge = peak * p.inverse_edge;
+  if (!ANY((over_edge > 1.0f) | (farther > 0.0f))) return (VALUE)(p.least_extent);
+  const VALUE excess = log2_positive(max(over_edge, (VALUE)(1.0f)));
   return sqrt(max((VALUE)(p.least_extent * p.least_extent), 0.693147181f * excess) + farther);
 }
 
@@ -73,7 +75,8 @@ inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
 // Wide splats go to the coarsest grid that still shows their shape, bright ones finer. Two
 // blurred grids make an octave.
 inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
-  const VALUE amplified = p.coarse_sigma * sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
+  VALUE amplified = (VALUE)(p.coarse_sigma);
+  if (ANY(peak > 1.0f)) amplified *= sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
   const VALUE ratio = sigma / amplified;
   if (p.blurred) return grid_of_octave(power_of_two(ratio * ratio) - 1, peak, p);
   return grid_of_octave(power_of_two(ratio), peak, p);

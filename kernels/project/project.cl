@@ -59,9 +59,10 @@ __attribute__((noinline)) void project_block(uint block, const ProjectParameters
     if (ANY(lanes.too_sharp)) too_sharp_count += count_true(lanes.too_sharp);
     if (!ANY(lanes.visible)) continue;
     SplatArrays found;
-    spread(lanes, &found);
 #ifdef TILES_OF_LANES
-    STORE(tiles_of_lanes(lanes, p), found.tiles);
+    spread(lanes, tiles_of_lanes(lanes, p), &found);
+#else
+    spread(lanes, (INTEGER)(0), &found);
 #endif
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
@@ -99,7 +100,7 @@ __attribute__((noinline)) void project_block(uint block, const ProjectParameters
 #else
         const Splat listed = splat;
 #endif
-        splats[slot] = listed;
+        STORE_SPLAT(found, k, listed, slot);
 #ifdef EXTENDED_NUMBERS
 #ifdef COPIES
         extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
@@ -120,14 +121,18 @@ __attribute__((noinline)) void project_block(uint block, const ProjectParameters
         bins.most = max(bins.most, bin);
 #endif
 #ifdef COUNT_TILES
-        const Grid grid = grids[grid_of(listed)];
-#ifdef TILES_OF_LANES
-        const uint touched = tiles_with_memory((uint)found.tiles[k], listed, grid);
+        __global const Grid* grid = grids + grid_of(listed);
+#ifdef TILES_IN_SPLAT
+        if (is_in_one_tile(listed.tiles) && !grid->is_part) {
+          // Most splats of a large snapshot.
+          ++count[number_of_tile(listed.tiles, grid->corner_tile, grid->tiles_x)];
+        } else {
+          count_in_tiles(tiles_with_memory(listed.tiles, listed, *grid), listed, *grid, count);
+        }
 #else
-        const uint touched = tiles_of(listed, grid);
+        tiles[slot] = tiles_of(listed, *grid);
+        count_in_tiles(tiles[slot], listed, *grid, count);
 #endif
-        tiles[slot] = touched;
-        count_in_tiles(touched, listed, grid, count);
 #endif
         ++slot;
 #ifdef COPIES

@@ -64,7 +64,7 @@ __kernel OF_GROUPS void project(
   count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
 #elif defined(OUTPUT_SPLATS) || defined(COPIES)
   SplatArrays found;
-  if (count) spread(lanes, &found);
+  if (count) spread(lanes, (INTEGER)(0), &found);
 #ifdef OUTPUT_SPLATS
   Splat splat;
   if (count) splat = splat_of(&found, 0);

@@ -1,13 +1,18 @@
 // LANES splats, to be written one by one, and what kernels that write them take.
 
-#if (defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)) || \
-    (defined(COUNT_TILES) && !defined(ELLIPSES) && !defined(EXTENDED_NUMBERS))
+#if defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)
 #define TILES_OF_LANES
+#if defined(LANES_8) && !defined(ELLIPSES) && !defined(VECTOR_COLORS) && !defined(FINE_PLACES)
+#define SPLATS_OF_EIGHT_WORDS  // as many as lanes
+#endif
 #endif
 
 // SplatLanes as arrays, to be written one by one.
 typedef struct SplatArrays {
   int visible[LANES];
+#ifdef SPLATS_OF_EIGHT_WORDS
+  Splat splats[LANES];
+#else
   int x[LANES], y[LANES], component_and_grid[LANES];
   float sigma[LANES], radius[LANES], weight[LANES], color[LANES];
 #ifdef ELLIPSES
@@ -22,13 +27,51 @@ typedef struct SplatArrays {
 #ifdef FINE_PLACES
   int place_fractions[LANES];
 #endif
-  float sort_field[LANES];
 #ifdef TILES_OF_LANES
   int tiles[LANES];
 #endif
+#endif
+  float sort_field[LANES];
 } SplatArrays;
 
-INLINED void spread(const SplatLanes s, SplatArrays* a) {
+#ifdef SPLATS_OF_EIGHT_WORDS
+// Of two rows of words every other pair, or quad, side by side.
+INLINED float8 first_words(float8 a, float8 b) {
+  return (float8)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5);
+}
+INLINED float8 last_words(float8 a, float8 b) {
+  return (float8)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7);
+}
+INLINED float8 first_pairs(float8 a, float8 b) {
+  return (float8)(a.s01, b.s01, a.s45, b.s45);
+}
+INLINED float8 last_pairs(float8 a, float8 b) {
+  return (float8)(a.s23, b.s23, a.s67, b.s67);
+}
+
+// Word by word of eight splats to splat by splat, in three steps of neighbors.
+INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
+  const float8 x = AS_VALUE(s.place.x), y = AS_VALUE(s.place.y);
+  const float8 grid = AS_VALUE(s.component_and_grid), touched = AS_VALUE(tiles);
+  const float8 xy0 = first_words(x, y), xy2 = last_words(x, y);
+  const float8 widths0 = first_words(s.sigma, s.radius), widths2 = last_words(s.sigma, s.radius);
+  const float8 light0 = first_words(s.weight, s.color), light2 = last_words(s.weight, s.color);
+  const float8 lists0 = first_words(grid, touched), lists2 = last_words(grid, touched);
+  // Of splats 0 and 4, 1 and 5 ...: their first four words, and their last.
+  const float8 first[4] = {first_pairs(xy0, widths0), last_pairs(xy0, widths0),
+                           first_pairs(xy2, widths2), last_pairs(xy2, widths2)};
+  const float8 last[4] = {first_pairs(light0, lists0), last_pairs(light0, lists0),
+                          first_pairs(light2, lists2), last_pairs(light2, lists2)};
+  float* words = (float*)splats;
+  for (uint k = 0; k < 4; ++k) {
+    vstore8((float8)(first[k].lo, last[k].lo), k, words);
+    vstore8((float8)(first[k].hi, last[k].hi), k + 4, words);
+  }
+}
+#endif
+
+// `tiles` are those of TILES_OF_LANES.
+INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
   STORE(s.visible, a->visible);
 #ifdef SORT_KEYS
   STORE(s.sort_field, a->sort_field);
@@ -40,7 +83,12 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
   STORE(s.radius, a->radius);
   STORE(s.radius_x, a->radius_x);
 #endif
-#ifdef OUTPUT_SPLATS
+#ifdef SPLATS_OF_EIGHT_WORDS
+  store_splats(s, tiles, a->splats);
+#elif defined(OUTPUT_SPLATS)
+#ifdef TILES_OF_LANES
+  STORE(tiles, a->tiles);
+#endif
   STORE(s.place.x, a->x);
   STORE(s.place.y, a->y);
   STORE(s.component_and_grid, a->component_and_grid);
@@ -69,8 +117,19 @@ INLINED void spread(const SplatLanes s, SplatArrays* a) {
 #endif
 }
 
+#ifdef SPLATS_OF_EIGHT_WORDS
+// In one piece: a structure is copied in pieces.
+#define STORE_SPLAT(found, k, splat, slot) \
+  vstore8(vload8(k, (const float*)(found).splats), 0, (__global float*)(splats + slot))
+#else
+#define STORE_SPLAT(found, k, splat, slot) splats[slot] = splat
+#endif
+
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
 INLINED Splat splat_of(const SplatArrays* a, uint k) {
+#ifdef SPLATS_OF_EIGHT_WORDS
+  return a->splats[k];
+#else
   Splat splat;
   splat.x = a->x[k];
   splat.y = a->y[k];
@@ -102,6 +161,7 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
   splat.tiles = (uint)a->tiles[k];
 #endif
   return splat;
+#endif
 }
 #endif
 

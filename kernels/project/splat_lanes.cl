@@ -211,8 +211,11 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
                                      VALUE weight, const ProjectParameters p) {
   SampledLanes s;
   const VALUE sigma = DRAWN_SIGMA(widths);
-  const VALUE mean_limit =
-      choose((VALUE)(p.mean_sigma), bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
+  VALUE mean_limit = (VALUE)(p.mean_sigma);
+  if (ANY(brightness.bright)) {
+    mean_limit =
+        choose(mean_limit, bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
+  }
   s.by_mean = sigma < mean_limit;
   s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
   const VALUE narrowing = sigma / s.sigma;

@@ -65,10 +65,10 @@ std::size_t Specialization::splat_bytes() const {
          (has_whole_sectors() ? sizeof(cl_uint) : 0) + (has_own_tiles() ? sizeof(cl_uint) : 0);
 }
 
-// The lanes that project a splat know its tiles. Sorted splats are gathered one by one, and with
-// that word most of them lie in one line of the cache.
+// The lanes that project a splat know its tiles. With that word a splat is as many words as there
+// are lanes, and most of those that are gathered in sorted order lie in one line of the cache.
 bool Specialization::has_own_tiles() const {
-  return rows_ && is_ordered() && !ellipses_ && !extended_;
+  return rows_ && !ellipses_ && !extended_;
 }
 
 // Splats of seven words are gathered in one sector of a GPU's memory with one more.

@@ -52,6 +52,8 @@ class Specialization {
   std::size_t splat_bytes() const;
   std::size_t extended_splat_bytes() const;  // 0 where there are none
   std::size_t tile_splat_bytes() const;
+  // Whether a splat in memory has its tiles with it.
+  bool has_own_tiles() const;
 
   ProgramSource project(ProjectOutput output) const;
   ProgramSource bin() const;
@@ -84,7 +86,6 @@ class Specialization {
 
  private:
   bool has_whole_sectors() const;
-  bool has_own_tiles() const;
   bool finds_tiles(ProjectOutput output) const;
   std::string splat_defines() const;
   std::string wide_angle_defines() const;

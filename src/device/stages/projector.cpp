@@ -199,7 +199,8 @@ SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
   blocks.counts = pool.get<shared::BlockCounts>(blocks.block_count, "block counts");
   const std::uint64_t slots = std::uint64_t{blocks.block_count} * blocks.stride;
   blocks.splats = splat_memory(slots);
-  blocks.tiles = pool.get<std::uint32_t>(slots, "tiles of splats");
+  blocks.tiles = pool.get<std::uint32_t>(context_.specialization.has_own_tiles() ? 0 : slots,
+                                         "tiles of splats");
   blocks.tile_counts = pool.get<std::uint32_t>(
       std::uint64_t{blocks.block_count} * parameters.tile_count, "tile counts");
   std::vector<std::uint32_t> offsets(blocks.block_count);
