@@ -118,6 +118,10 @@ EACH_VECTOR(DECLARE, double)
   CONVERSION(FROM, int, ) \
   CONVERSION(FROM, int, 4) \
   CONVERSION(FROM, int, 8) \
+  CONVERSION(FROM, long, ) \
+  CONVERSION(FROM, long, 8) \
+  CONVERSION(FROM, ulong, ) \
+  CONVERSION(FROM, ulong, 8) \
   int BUILTIN_CONST convert_int_sat(FROM);
 EACH_SCALAR(DECLARE)
 #undef DECLARE

@@ -6,8 +6,13 @@
 #define INTEGER int8
 #define AS_VALUE as_float8
 #define AS_INTEGER as_int8
+#define AS_WIDE as_long8
+#define WIDE long8
+#define UNSIGNED_WIDE ulong8
 #define TO_VALUE convert_float8
 #define TO_INTEGER convert_int8
+#define TO_WIDE convert_long8
+#define TO_UNSIGNED_WIDE convert_ulong8
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
 #define ANY(mask) any(mask)
@@ -17,8 +22,13 @@
 #define INTEGER int
 #define AS_VALUE as_float
 #define AS_INTEGER as_int
+#define AS_WIDE as_long
+#define WIDE long
+#define UNSIGNED_WIDE ulong
 #define TO_VALUE convert_float
 #define TO_INTEGER convert_int
+#define TO_WIDE convert_long
+#define TO_UNSIGNED_WIDE convert_ulong
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
 // A scalar comparison gives 1 where a vector's gives -1; select() wants the top bit of

@@ -15,13 +15,17 @@ inline void clear_planes(float* tile) {
     store_eight((float8)(0.0f), tile + i);
 }
 
+// Where a row of a tile with this corner begins.
+inline size_t row_of_tile(const Grid grid, size_t corner, int plane, int y) {
+  return corner + (size_t)plane * grid.plane_size + (size_t)y * grid.stride;
+}
+
 #ifdef LIGHT_ORDERED
 inline void load_opacities(float* tile, __global const float* planes, const Grid grid,
                            size_t corner) {
   for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
-      __global const float* row =
-          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      __global const float* row = planes + row_of_tile(grid, corner, c, y);
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         store_eight(load_eight_of_planes(row + x), tile + c * TILE_PIXELS + y * ROW + x);
       }
@@ -30,24 +34,25 @@ inline void load_opacities(float* tile, __global const float* planes, const Grid
 }
 #endif
 
-// A tile's rows lie all over the planes: what is stored at the end is asked for before the splats
-// are drawn.
-inline void ask_for_tile(__global float* planes, const Grid grid, size_t corner) {
+// A tile's rows lie all over the planes: what is stored at the end is asked for while its splats
+// are drawn, so many rows with each of them that no more are under way at a time than a processor
+// keeps track of.
+#define ROWS_OF_TILE (PLANES * TILE_HEIGHT)
+inline void ask_for_rows(__global float* planes, const Grid grid, size_t corner, int first,
+                         int count) {
   const int floats_of_line = 16;
-  for (int c = 0; c < PLANES; ++c) {
-    for (int y = 0; y < TILE_HEIGHT; ++y) {
-      __global const float* row =
-          planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
-      for (int x = 0; x < TILE_WIDTH; x += floats_of_line)
-        ask_to_write(row + x);
-    }
+  for (int row = first; row < min(first + count, ROWS_OF_TILE); ++row) {
+    __global const float* begin =
+        planes + row_of_tile(grid, corner, row / TILE_HEIGHT, row % TILE_HEIGHT);
+    for (int x = 0; x < TILE_WIDTH; x += floats_of_line)
+      ask_to_write(begin + x);
   }
 }
 
 inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
-      __global float* row = planes + corner + (size_t)c * grid.plane_size + (size_t)y * grid.stride;
+      __global float* row = planes + row_of_tile(grid, corner, c, y);
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         const float8 drawn = load_eight(tile + c * TILE_PIXELS + y * ROW + x);
         store_eight_of_planes(c < SUMS ? load_eight_of_planes(row + x) + drawn : drawn, row + x);
@@ -68,6 +73,26 @@ inline void add_block(const float* block, float* front) {
     const float8 t = transmittance_of(opacity);
     store_eight(load_eight(front + i) + t * load_eight(block + i), front + i);
     store_eight(carry_behind(opacity, t, behind), front + SUMS * TILE_PIXELS + i);
+  }
+}
+
+// The same of a list's only block, whose front is what is in the planes.
+inline void add_block_to_planes(const float* block, __global float* planes, const Grid grid,
+                                size_t corner) {
+  for (int c = 0; c < SUMS; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      __global float* light = planes + row_of_tile(grid, corner, c, y);
+      __global float* opacities = planes + row_of_tile(grid, corner, SUMS + c, y);
+      const float* drawn = block + c * TILE_PIXELS + y * ROW;
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        const float8 opacity = load_eight_of_planes(opacities + x);
+        const float8 behind = load_eight(drawn + SUMS * TILE_PIXELS + x);
+        const float8 t = transmittance_of(opacity);
+        store_eight_of_planes(load_eight_of_planes(light + x) + t * load_eight(drawn + x),
+                              light + x);
+        store_eight_of_planes(carry_behind(opacity, t, behind), opacities + x);
+      }
+    }
   }
 }
 #else
@@ -122,22 +147,44 @@ __attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* 
 #endif
 
 #ifdef LIGHT_ORDERED
-// Nothing behind shows any more: every channel of every pixel of the block behind the front is
-// opaque enough.
-inline int is_opaque(const float* front, const float* block, float stop) {
+// Whether no pixel of a row lets through more than `stop`; `front` and `block` are its opacities.
+inline int is_opaque_row(const float8 front[TILE_WIDTH / 8], const float* block, float stop) {
   float8 most = (float8)(0.0f);
-  for (int c = SUMS; c < PLANES; ++c) {
-    for (int y = 0; y < TILE_HEIGHT; ++y) {
-      for (int x = 0; x < TILE_WIDTH; x += 8) {
-        const int i = c * TILE_PIXELS + y * ROW + x;
-        most = max(most, transmittance_of(load_eight(front + i)) *
-                             transmittance_of(load_eight(block + i)));
-      }
-    }
-  }
+  for (int k = 0; k < TILE_WIDTH / 8; ++k)
+    most = max(most, transmittance_of(front[k]) * transmittance_of(load_eight(block + 8 * k)));
   const float4 four = max(most.lo, most.hi);
   const float2 two = max(four.lo, four.hi);
   return max(two.x, two.y) <= stop;
+}
+
+// Nothing behind shows any more: every channel of every pixel of the block behind the front is
+// opaque enough. The first row that is not says so of the tile.
+inline int is_opaque(const float* front, const float* block, float stop) {
+  for (int c = SUMS; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      const int row = c * TILE_PIXELS + y * ROW;
+      float8 opacities[TILE_WIDTH / 8];
+      for (int k = 0; k < TILE_WIDTH / 8; ++k)
+        opacities[k] = load_eight(front + row + 8 * k);
+      if (!is_opaque_row(opacities, block + row, stop)) return 0;
+    }
+  }
+  return 1;
+}
+
+// The same where the front is what is in the planes.
+inline int is_opaque_in_planes(__global const float* planes, const Grid grid, size_t corner,
+                               const float* block, float stop) {
+  for (int c = SUMS; c < PLANES; ++c) {
+    for (int y = 0; y < TILE_HEIGHT; ++y) {
+      __global const float* row = planes + row_of_tile(grid, corner, c, y);
+      float8 opacities[TILE_WIDTH / 8];
+      for (int k = 0; k < TILE_WIDTH / 8; ++k)
+        opacities[k] = load_eight_of_planes(row + 8 * k);
+      if (!is_opaque_row(opacities, block + c * TILE_PIXELS + y * ROW, stop)) return 0;
+    }
+  }
+  return 1;
 }
 #endif
 
@@ -156,21 +203,36 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   clear_planes(tile);
 #ifdef SPLATS_OF_BLOCK
   float front[PLANES * TILE_PIXELS];
+#endif
+#ifdef LIGHT_ORDERED
+  // Most lists of a large frame's many chunks: they need no front of their own.
+  const int is_one_block =
+      segment.partial == NO_PARTIAL && segment.end - segment.begin < SPLATS_OF_BLOCK;
+  if (!is_one_block) clear_planes(front);
+#elif defined(SPLATS_OF_BLOCK)
   clear_planes(front);
 #endif
 #ifdef CLOUDS_IN_LISTS
   const TileClouds of_tile =
       clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
 #endif
-  if (segment.partial == NO_PARTIAL) ask_for_tile(planes, grid, corner);
+  const int rows_at_a_time = ROWS_OF_TILE / (int)(segment.end - segment.begin) + 1;
+  int asked = segment.partial == NO_PARTIAL ? 0 : ROWS_OF_TILE;
   const SplatTile tile_of_splats = splat_tile(grid, segment.tile, &p);
   uint drawn = 0, end = segment.end;
   float depth_of_block = 0.0f;
 #ifdef LIGHT_ORDERED
-  if (segment.partial == NO_PARTIAL) load_opacities(front, planes, grid, corner);
-  if (is_opaque(front, tile, p.stop)) end = segment.begin;
+  if (segment.partial == NO_PARTIAL && !is_one_block) load_opacities(front, planes, grid, corner);
+  if (is_one_block ? is_opaque_in_planes(planes, grid, corner, tile, p.stop)
+                   : is_opaque(front, tile, p.stop)) {
+    end = segment.begin;
+  }
 #endif
   for (uint k = segment.begin; k < end; ++k) {
+    if (asked < ROWS_OF_TILE) {
+      ask_for_rows(planes, grid, corner, asked, rows_at_a_time);
+      asked += rows_at_a_time;
+    }
 #ifdef CLOUDS_IN_LISTS
     const float sigma = entries[k].sigma;
     if (is_cloud(sigma)) {
@@ -181,7 +243,11 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
       continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
-    if (drawn % 256u == 0u && is_opaque(front, tile, p.stop)) break;
+    if (drawn % 256u == 0u &&
+        (is_one_block ? is_opaque_in_planes(planes, grid, corner, tile, p.stop)
+                      : is_opaque(front, tile, p.stop))) {
+      break;
+    }
 #endif
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
@@ -191,6 +257,12 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
     }
 #endif
   }
+#ifdef LIGHT_ORDERED
+  if (is_one_block) {
+    add_block_to_planes(tile, planes, grid, corner);
+    return;
+  }
+#endif
 #ifdef SPLATS_OF_BLOCK
   add_block(tile, front);
   const float* const all = front;

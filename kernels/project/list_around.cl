@@ -19,11 +19,13 @@ __kernel void list_around(const ProjectParameters p, __global const float* posit
     if (!ANY(around)) continue;
     int is_around[LANES];
     STORE(around, is_around);
+    long keys[LANES];
+    STORE(AS_WIDE(depth_of(particles.position, p.depth_key).key), keys);
     for (uint k = 0; k < LANES; ++k) {
       if (!is_around[k]) continue;
       const uint place = atomic_inc(&listed[0]) + 1;
       if (place > capacity) continue;
-      const ulong key = depth_of(positions + (size_t)(i + k) * 3, p.depth_key).key;
+      const ulong key = (ulong)keys[k];
       listed[3 * place] = i + k;
       listed[3 * place + 1] = (uint)key;
       listed[3 * place + 2] = (uint)(key >> 32);

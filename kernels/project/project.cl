@@ -64,10 +64,13 @@ __attribute__((noinline)) void project_block(uint block, const ProjectParameters
 #else
     spread(lanes, (INTEGER)(0), &found);
 #endif
+#ifdef SORT_KEYS
+    STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, p)), found.sort_keys);
+#endif
     for (uint k = 0; k < LANES; ++k) {
       if (!found.visible[k]) continue;
 #ifdef SORT_KEYS
-      const ulong key = sort_key_of(positions, i + k, found.sort_field[k], p);
+      const ulong key = (ulong)found.sort_keys[k];
 #endif
 #ifdef KEY_WINDOW
       if (!is_in_window(key, p)) continue;

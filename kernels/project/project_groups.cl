@@ -53,7 +53,7 @@ __kernel OF_GROUPS void project(
   uint count = lanes.visible != 0;
 #ifdef SORT_KEYS
   ulong key = 0;
-  if (count) key = sort_key_of(positions, i, lanes.sort_field, p);
+  if (count) key = sort_keys_of(columns, i, p.end_particle, lanes.sort_field, p);
 #endif
 #ifdef KEY_WINDOW
   count = count && is_in_window(key, p);

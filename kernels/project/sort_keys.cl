@@ -4,19 +4,19 @@
 #define SORT_KEYS
 
 // Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
-inline uint field_key(float value) {
-  const uint bits = as_uint(value == 0.0f ? 0.0f : value);
-  return bits ^ ((bits >> 31) ? 0xffffffffu : 0x80000000u);
+inline INTEGER field_key(VALUE value) {
+  const INTEGER bits = AS_INTEGER(choose(value, (VALUE)(0.0f), value == 0.0f));
+  return bits ^ ((bits >> 31) | (INTEGER)(int)0x80000000u);
 }
 
-// Of particle i, whose sort field is `value`: 48 bits, ascending with the order.
-INLINED ulong sort_key_of(__global const float* positions, uint i, float value,
-                          const ProjectParameters p) {
+// Of particles from i on, whose sort fields are `values`: 48 bits, ascending with the order.
+INLINED UNSIGNED_WIDE sort_keys_of(const Columns columns, uint i, uint end, VALUE values,
+                                   const ProjectParameters p) {
   if (p.sort_by_field) {
-    const uint key = field_key(value);
-    return (ulong)(p.sort_descending ? ~key : key) << 16;
+    const INTEGER key = field_key(values);
+    return (TO_UNSIGNED_WIDE(p.sort_descending ? ~key : key) & 0xffffffffUL) << 16;
   }
-  const ulong key = depth_of(positions + (size_t)i * 3, p.depth_key).key;
+  const UNSIGNED_WIDE key = depth_of(load_vectors(columns.positions, i, end), p.depth_key).key;
   return p.sort_descending ? key ^ 0xffffffffffffUL : key;
 }
 #endif

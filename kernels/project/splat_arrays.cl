@@ -31,7 +31,9 @@ typedef struct SplatArrays {
   int tiles[LANES];
 #endif
 #endif
-  float sort_field[LANES];
+#ifdef SORT_KEYS
+  long sort_keys[LANES];
+#endif
 } SplatArrays;
 
 #ifdef SPLATS_OF_EIGHT_WORDS
@@ -73,9 +75,6 @@ INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
 // `tiles` are those of TILES_OF_LANES.
 INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
   STORE(s.visible, a->visible);
-#ifdef SORT_KEYS
-  STORE(s.sort_field, a->sort_field);
-#endif
 #ifndef EXTENDED_NUMBERS
 #ifdef ELLIPSES
   STORE(s.x, a->pixel_x);

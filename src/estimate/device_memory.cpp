@@ -58,6 +58,11 @@ class FrameBuffers {
                                   : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
   }
 
+  // The same of a chunk's, where they are not with the splats.
+  std::uint64_t tiles_of_chunk() const {
+    return specialization_.has_own_tiles() ? 0 : tiles(chunk_splats());
+  }
+
   // Splats that were put in order for their lists; only by the shape for processors.
   std::uint64_t splats_in_order(std::uint64_t count) const {
     return (traits_.rows ? count * specialization_.splat_bytes() : 0) + tiles(count);
@@ -114,8 +119,7 @@ class FrameBuffers {
 };
 
 std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
-  const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) +
-                                buffers.tiles(buffers.chunk_splats()) +
+  const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) + buffers.tiles_of_chunk() +
                                 buffers.lists(buffers.blocks_of_chunk());
   return buffers.held_leaves() * buffers.light() + std::max(drawing, buffers.blurred_columns());
 }
