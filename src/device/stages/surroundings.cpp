@@ -324,13 +324,16 @@ void Surroundings::put_behind(const std::vector<double>& layer, const Planes& pl
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
   const Buffer<float> behind = device.pool.upload(planes_of(layer), "clouds around");
+  const std::size_t pixels_of_item = context_.plan.is_extended() ? 8 : 1;
+  const std::size_t items =
+      (static_cast<std::size_t>(crop.width) + pixels_of_item - 1) / pixels_of_item;
   Launch(device, "surroundings",
          device.programs.get(context_.specialization.behind()).create_kernel("put_behind"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(behind)
-      .run_grid(static_cast<std::size_t>(crop.width), static_cast<std::size_t>(crop.height), 1);
+      .run_grid(items, static_cast<std::size_t>(crop.height), 1);
 }
 
 }  // namespace splotchcl
