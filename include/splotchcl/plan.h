@@ -143,7 +143,7 @@ struct FramePlan {
   // picture's own light; a guess that is too low costs another drawing.
   double light_behind = 1;
   SplatLimits splats;
-  double erf_error = 0;        // absolute
+  double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   PlaceLimits places;
   GridPyramid pyramid;

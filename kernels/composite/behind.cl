@@ -1,15 +1,6 @@
 // A layer that was worked out pixel by pixel, put behind what the planes of the picture's own grid
 // hold: of clouds around the camera, which are no splats. In sums it is added.
 
-#ifdef EXTENDED_NUMBERS
-inline Extended pair_in_planes(float high, float low) {
-  FloatPair pair;
-  pair.high = high;
-  pair.low = low;
-  return extended_pair(pair);
-}
-#endif
-
 // Work-item (pixel of the crop, row). `layer` has the planes of a pixel one after the other, each
 // p.width * p.height floats.
 __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
@@ -21,25 +12,7 @@ __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
   __global const float* behind = layer + (size_t)y * p.width + x;
   const size_t plane = grid.plane_size, layer_plane = (size_t)p.width * p.height;
   for (int c = 0; c < 3; ++c) {
-#ifdef EXTENDED_NUMBERS
-    // The two parts of light, then those of depths (extended_pixels.cl).
-    __global float* light = own + 2 * c * plane;
-    const float high = behind[2 * c * layer_plane], low = behind[(2 * c + 1) * layer_plane];
-    float seen = 1.0f;
 #ifdef LIGHT_ORDERED
-    __global float* depth = own + (2 * c + 6) * plane;
-    seen = precise_exp_negative(depth[0], depth[plane]);
-    const Extended deeper = extended_sum(
-        pair_in_planes(depth[0], depth[plane]),
-        pair_in_planes(behind[(2 * c + 6) * layer_plane], behind[(2 * c + 7) * layer_plane]));
-    depth[0] = high_part(deeper);
-    depth[plane] = low_part(deeper);
-#endif
-    const Extended sum = extended_sum(pair_in_planes(light[0], light[plane]),
-                                      pair_in_planes(high * seen, low * seen));
-    light[0] = high_part(sum);
-    light[plane] = low_part(sum);
-#elif defined(LIGHT_ORDERED)
     __global float* opacity = own + (c + 3) * plane;
     const float transmittance = transmittance_of(*opacity);
     own[c * plane] += transmittance * behind[c * layer_plane];

@@ -21,6 +21,8 @@ constexpr double least_of_peaks = 0.3;
 constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
+// Where ends and peaks both break it, peaks are left a part of it.
+constexpr double others = 4;
 
 // Errors of one octave of splats in one block of pixels, over what is promised there.
 struct Part {
@@ -86,8 +88,9 @@ class FrameErrors {
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
       const double peaks = octaves_[i].of_peaks(pixels, negligible_part / response);
-      parts[i].peaks = response * peaks;
       parts[i].peak_light = peaks > 0 ? peaks / octaves_[i].peak_error() : 0;
+      parts[i].peaks = std::min(response * peaks, octaves_[i].part_of_itself(parts[i].peak_light) *
+                                                      light.relative / promise_);
       if (is_bound_) sums.rest += response * octaves_[i].of_places(pixels);
       sums.ends += parts[i].ends;
       sums.even += parts[i].even;
@@ -114,6 +117,8 @@ class FrameErrors {
         need.farther = std::max(need.farther, std::log(margin * error));
     }
     if (peaks <= least_of_peaks) return;
+    // So many times smaller errors of peaks leave what is promised to the others.
+    const double less = margin * std::min(error, others * peaks);
     // All coarse grids are made for what lies on any of them.
     needs.grid_light = std::max(needs.grid_light, margin * on_grids);
     // Edges of cut splats have no coarse grid that is good enough (make_plan.cpp).
@@ -121,16 +126,19 @@ class FrameErrors {
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
-        need.light = std::max(need.light, more_light(octaves_[i].octave(), parts[i].peak_light));
+        need.light = std::max(need.light, more_light(octaves_[i], parts[i].peak_light, less));
     }
   }
 
  private:
-  // What splats of an octave are to count as: their light, or twice what they counted as where that
-  // was not enough, since several octaves share the promise.
-  double more_light(int octave, double peak_light) const {
-    const double found = margin * peak_light, had = lights_[static_cast<std::size_t>(octave)];
-    return found > 1.01 * had ? found : 2 * had;
+  // What splats of an octave are to count as, for errors of their peaks to become so many times
+  // smaller: their light, and as many times what they counted as, since the picture may amplify
+  // errors and several octaves share the promise. Once all are means that keep their digits, more
+  // gives nothing.
+  double more_light(const OctaveErrors& octave, double peak_light, double times) const {
+    const double had = lights_[static_cast<std::size_t>(octave.octave())];
+    const double in_proportion = std::min(times * std::max(1.0, had), octave.light_of_means());
+    return std::max({margin * peak_light, had, in_proportion});
   }
 
   // The block's even light, shared out among the octaves by how much light they have there.

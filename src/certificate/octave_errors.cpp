@@ -44,6 +44,29 @@ double without_widening(double sigma, const FramePlan& plan) {
   return std::sqrt(std::max(0.0, sigma * sigma - static_cast<double>(plan.splats.widening)));
 }
 
+double light_of(int octave, const FramePlan& plan) {
+  return plan.needs.widths[static_cast<std::size_t>(octave)].light;
+}
+
+// The width below which splats of an octave are taken as means.
+double widest_mean(int octave, const FramePlan& plan) {
+  const auto mean_sigma = static_cast<double>(plan.splats.mean_sigma);
+  const double light = light_of(octave, plan);
+  return light > 0 ? std::max(mean_sigma, widest_bright_mean(plan.splats, light)) : mean_sigma;
+}
+
+// An octave tells nothing of the axes of an ellipse, of which each has its own width.
+bool are_bright_means(int octave, int level, const Frame& frame, const FramePlan& plan) {
+  return level == 0 && light_of(octave, plan) > 0 && takes_pixel_means(frame) &&
+         !plan.has_ellipses &&
+         without_widening(widest_sigma(octave), plan) <= widest_mean(octave, plan);
+}
+
+// Means of bright splats keep their digits.
+double error_of_means_in(int octave, double widest, const FramePlan& plan) {
+  return light_of(octave, plan) > 0 ? bright_mean_error(widest) : widest * plan.mean_error;
+}
+
 // Errors of erf over both axes; and of the widened center value.
 double error_of_peak(int octave, int level, const Frame& frame, const FramePlan& plan) {
   if (level > 0) {
@@ -53,16 +76,14 @@ double error_of_peak(int octave, int level, const Frame& frame, const FramePlan&
     const double step = frame.kernel.cut ? std::exp(-*frame.kernel.cut * *frame.kernel.cut) : 0;
     return of_filters + step;
   }
-  const double mean_sigma = static_cast<double>(plan.splats.mean_sigma);
+  if (!takes_pixel_means(frame)) return 0;
   const double narrowest = without_widening(narrowest_sigma(octave), plan);
   const double widest = without_widening(widest_sigma(octave), plan);
+  const double mean = widest_mean(octave, plan);
   double error = 0;
-  if (narrowest < mean_sigma) error = 2 * 1.8 * std::min(widest, mean_sigma) * plan.erf_error;
-  if (widest > mean_sigma && takes_pixel_means(frame)) {
-    const double sigma = std::max(narrowest, mean_sigma);
-    error = std::max(error, center_value_error(sigma));
-  }
-  return error / std::max(1.0, plan.needs.widths[static_cast<std::size_t>(octave)].light);
+  if (narrowest < mean) error = error_of_means_in(octave, std::min(widest, mean), plan);
+  if (widest > mean) error = std::max(error, center_value_error(std::max(narrowest, mean)));
+  return error / std::max(1.0, light_of(octave, plan));
 }
 
 // 0.86 of a peak for each sigma by which a splat is off (docs/accuracy.md, "Single precision").
@@ -71,6 +92,14 @@ double place_error_of(int octave, const Frame& frame, const FramePlan& plan) {
   const double roundings = static_cast<double>(plan.places.error) +
                            static_cast<double>(plan.places.error_per_pixel) * farthest;
   return 0.86 * 0x1p-24 * roundings / std::max(0.5, narrowest_sigma(octave));
+}
+
+// From which on all splats of an octave are taken as means. Nothing does that for ellipses, of
+// which an axis may be as wide as one likes.
+double light_that_makes_means(int octave, const FramePlan& plan) {
+  if (plan.has_ellipses || plan.splats.bright_mean_sigma <= 0)
+    return std::numeric_limits<double>::infinity();
+  return light_of_bright_means(plan.splats, without_widening(widest_sigma(octave), plan));
 }
 
 double extent2(int octave, const FramePlan& plan) {
@@ -154,6 +183,10 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       peak_side_(cells.peaks.side),
       ending_(ending_of(octave_, frame, plan)),
       peak_error_(error_of_peak(octave_, level_, frame, plan)),
+      bright_mean_(are_bright_means(octave_, level_, frame, plan)
+                       ? without_widening(widest_sigma(octave_), plan)
+                       : 0),
+      light_of_means_(light_that_makes_means(octave_, plan)),
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
       window_(window_of(octave_, level_, cells.endings, plan)),
@@ -272,6 +305,11 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
     }
   }
   return peak_error_ * largest;
+}
+
+double OctaveErrors::part_of_itself(double light) const {
+  if (bright_mean_ == 0) return std::numeric_limits<double>::infinity();
+  return part_of_bright_mean(bright_mean_, light);
 }
 
 double OctaveErrors::of_places(const PixelBlock& block) const {

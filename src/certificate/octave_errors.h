@@ -38,6 +38,11 @@ class OctaveErrors {
   // By errors that are parts of peaks and of one sign, where splats lie upon one another; where a
   // bound is asked for, of all splats that reach the block.
   double of_peaks(const PixelBlock& block, double negligible) const;
+  // By which part of itself every splat errs at most, of so much light that lie upon one another;
+  // infinite where that is not known, of splats that do not count as bright ones.
+  double part_of_itself(double light) const;
+  // As splats of so much light all of the octave are taken as means that keep their digits.
+  double light_of_means() const { return light_of_means_; }
   // By places in single precision, whose roundings have either sign: what is passed once in 1e10.
   // Only where a bound is asked for.
   double of_places(const PixelBlock& block) const;
@@ -63,6 +68,8 @@ class OctaveErrors {
   int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;
   double ending_, peak_error_;
+  double bright_mean_;  // the widest sigma of splats that are all bright means; 0: not all are
+  double light_of_means_;
   double place_error_, place_share_;  // parts of a peak; the most that one splat errs
   EndingWindow window_;
   CellRange inner_;  // cells of endings that hold no splats from beyond the picture

@@ -86,19 +86,12 @@ class Nodes {
 
   // The largest error of these nodes' foretelling of finer ones, within the picture.
   double largest_error(const Nodes& fine, const SmoothPictureSettings& settings) const {
-    std::vector<double> foretold(channels_);
-    double largest = 0;
-    for (int row = 0; row < fine.y_.count; ++row) {
-      const int y = fine.y_.pixel(row);
-      if (y < 0 || y >= settings.height) continue;
-      for (int column = 0; column < fine.x_.count; ++column) {
-        const int x = fine.x_.pixel(column);
-        if (x < 0 || x >= settings.width || node_at(x, y)) continue;
-        interpolate(x, y, foretold.data());
-        largest = std::max(largest, settings.error_of(fine.at(column, row), foretold.data()));
-      }
-    }
-    return largest;
+    std::vector<double> largest(static_cast<std::size_t>(fine.y_.count));
+    for_blocks(largest.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t row = first; row < last; ++row)
+        largest[row] = largest_error_of_row(static_cast<int>(row), fine, settings);
+    });
+    return *std::max_element(largest.begin(), largest.end());
   }
 
   std::vector<double> pixels_of(const Rectangle& part) const {
@@ -109,11 +102,8 @@ class Nodes {
       std::vector<double> row(static_cast<std::size_t>(x_.count) * channels_);
       for (std::size_t k = first; k < last; ++k) {
         interpolate_row(part.y + static_cast<int>(k), row);
-        for (std::size_t x = 0; x < width; ++x) {
-          const int pixel = part.x + static_cast<int>(x);
-          for (std::size_t c = 0; c < channels_; ++c)
-            pixels[c * plane + k * width + x] = along_row(row, pixel, c);
-        }
+        for (std::size_t x = 0; x < width; ++x)
+          along_row(row, part.x + static_cast<int>(x), pixels.data() + k * width + x, plane);
       }
     });
     return pixels;
@@ -155,14 +145,36 @@ class Nodes {
     }
   }
 
-  double along_row(const std::vector<double>& row, int x, std::size_t channel) const {
-    const auto base = static_cast<std::size_t>(x_.base(x));
-    if (x_.spacing == 1) return row[base * channels_ + channel];
+  // The pixel's channels, `plane` numbers apart.
+  void along_row(const std::vector<double>& row, int x, double* pixel, std::size_t plane) const {
+    const double* nodes = row.data() + static_cast<std::size_t>(x_.base(x)) * channels_;
+    if (x_.spacing == 1) {
+      for (std::size_t c = 0; c < channels_; ++c)
+        pixel[c * plane] = nodes[c];
+      return;
+    }
     const Weights& own = weights(x_.phase(x));
-    double sum = 0;
-    for (std::size_t k = 0; k < own.size(); ++k)
-      sum += own[k] * row[(base + k) * channels_ + channel];
-    return sum;
+    for (std::size_t c = 0; c < channels_; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < own.size(); ++k)
+        sum += own[k] * nodes[k * channels_ + c];
+      pixel[c * plane] = sum;
+    }
+  }
+
+  double largest_error_of_row(int row, const Nodes& fine,
+                              const SmoothPictureSettings& settings) const {
+    const int y = fine.y_.pixel(row);
+    if (y < 0 || y >= settings.height) return 0;
+    std::vector<double> foretold(channels_);
+    double largest = 0;
+    for (int column = 0; column < fine.x_.count; ++column) {
+      const int x = fine.x_.pixel(column);
+      if (x < 0 || x >= settings.width || node_at(x, y)) continue;
+      interpolate(x, y, foretold.data());
+      largest = std::max(largest, settings.error_of(fine.at(column, row), foretold.data()));
+    }
+    return largest;
   }
 
   void interpolate(int x, int y, double* channels) const {

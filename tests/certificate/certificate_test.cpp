@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/frames.h"
+#include "scene/plan/splat_limits.h"
 
 namespace splotchcl::test {
 namespace {
@@ -172,6 +173,43 @@ TEST_F(CertificateTest, AsksForFinerGridsWherePeaksLieUponOneAnother) {
   EXPECT_GE(first.needs.grid_light, 100);
   plan_ = refine_plan(frame_, plan_, first.needs);
   EXPECT_TRUE(certify_cells(cells).keeps_promise());
+}
+
+// What absorbs before a light picture errs by more than its own light.
+TEST_F(CertificateTest, AsksForAsMuchLightOfPeaksAsABrightPictureAmplifiesThem) {
+  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
+  plan_ = make_plan(frame_);
+  Image image = dark_picture();
+  std::fill(image.pixels.begin(), image.pixels.end(), 40.0f);
+  for (std::size_t i = 0; i < image.pixels.size(); i += 64)
+    image.pixels[i] = 0;
+  for (const int octave : {0, 1, 2, 3}) {
+    PeakCells cells = empty_cells();
+    cells.octave = octave;
+    at(cells.peaks, 10, 10) = 40;
+    const Certificate first = certify({{cells}, 1, {}}, image, frame_, plan_);
+    ASSERT_FALSE(first.keeps_promise()) << octave;
+    const FramePlan refined = refine_plan(frame_, plan_, first.needs);
+    EXPECT_TRUE(certify({{cells}, 1, {}}, image, frame_, refined).keeps_promise()) << octave;
+  }
+}
+
+// However many lie upon one another, they err by no more than a part of the pixel.
+TEST_F(CertificateTest, KnowsThatMeansOfBrightSplatsKeepTheirDigits) {
+  PeakCells cells = empty_cells();
+  cells.octave = 2;
+  at(cells.peaks, 10, 10) = 1e9f;
+  ASSERT_GT(certify_cells(cells).worst.peaks, 1);
+  plan_.needs.widths[2].light = light_of_bright_means(plan_.splats, 4);
+  EXPECT_LT(certify_cells(cells).worst.peaks, 0.05);
+}
+
+TEST_F(CertificateTest, DoesNotTakeCenterValuesOfWiderSplatsForMeans) {
+  PeakCells cells = empty_cells();
+  cells.octave = 2;
+  at(cells.peaks, 10, 10) = 1e9f;
+  plan_.needs.widths[2].light = 0.5 * light_of_bright_means(plan_.splats, 4);
+  EXPECT_GT(certify_cells(cells).worst.peaks, 1);
 }
 
 // An error of absorption takes away no more than the light that a pixel has.

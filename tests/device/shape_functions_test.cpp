@@ -9,6 +9,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "scene/plan/splat_limits.h"
 
 namespace splotchcl::test {
 namespace {
@@ -61,6 +62,86 @@ TEST_P(ShapeFunctions, ErrorFunctionErrsByWhatPlansCountOn) {
   const auto error = [](double found, double at) { return found - std::erf(at); };
   EXPECT_LE(largest(x, evaluate("error_function", "", x), error), 2.3e-6);
   EXPECT_LE(largest(x, evaluate("error_function", "#define FULL_PRECISION\n", x), error), 2.3e-7);
+}
+
+// Means along one axis: what is computed, at every fourth of a pixel from the center on.
+struct Means {
+  std::vector<double> found, exact;
+};
+
+// The largest error of their products, over the peak.
+double largest_error(const Means& means) {
+  double most = 0;
+  for (std::size_t i = 0; i < means.found.size(); ++i) {
+    for (std::size_t k = i; k < means.found.size(); ++k)
+      most = std::max(most,
+                      std::abs(means.found[i] * means.found[k] - means.exact[i] * means.exact[k]));
+  }
+  return most;
+}
+
+std::vector<float> fourths_of_pixels(int count) {
+  std::vector<float> places;
+  for (int i = 0; i < count; ++i)
+    places.push_back(0.25f * static_cast<float>(i));
+  return places;
+}
+
+double exact_mean(double place, double sigma) {
+  const double left = (place - 0.5) / sigma, right = (place + 0.5) / sigma;
+  return 0.5 * std::sqrt(3.141592653589793) * sigma * (std::erf(right) - std::erf(left));
+}
+
+TEST_P(ShapeFunctions, MeansByErfErrByTheirPartOfAPeakForEachSigma) {
+  for (const Precision precision : {Precision::fast, Precision::full}) {
+    const std::string defines = precision == Precision::full ? "#define FULL_PRECISION\n" : "";
+    for (double sigma = 0.5; sigma < 2; sigma *= 1.07) {
+      std::vector<float> edges;
+      for (const float place : fourths_of_pixels(96))
+        edges.push_back((place - 0.5f) / static_cast<float>(sigma));
+      const std::vector<float> erf = evaluate("error_function", defines, edges);
+      Means means;
+      for (std::size_t i = 0; i + 4 < erf.size(); ++i) {
+        const double left = static_cast<double>(erf[i]), right = static_cast<double>(erf[i + 4]);
+        means.found.push_back(0.5 * std::sqrt(3.141592653589793) * sigma * (right - left));
+        means.exact.push_back(exact_mean(0.25 * static_cast<double>(i), sigma));
+      }
+      EXPECT_LE(largest_error(means), sigma * error_of_means(precision)) << sigma;
+    }
+  }
+}
+
+TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByTheirPartOfAPeak) {
+  const std::vector<float> places = fourths_of_pixels(128);
+  for (const double sigma : {0.5, 0.9, 1.4, 2.0, 2.9, 3.9, 4.0, 6.0, 9.0}) {
+    const std::string define =
+        "#define BRIGHT_MEAN(d) bright_mean(d, " + std::to_string(sigma) + "f)\n";
+    Means means;
+    for (const float value : evaluate("BRIGHT_MEAN", define, places))
+      means.found.push_back(static_cast<double>(value));
+    for (const float place : places)
+      means.exact.push_back(exact_mean(static_cast<double>(place), sigma));
+    EXPECT_LE(largest_error(means), bright_mean_error(sigma)) << sigma;
+  }
+}
+
+// Beside the peak, where a splat of so much light has faded to 1.
+TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByAPartOfThemselves) {
+  constexpr double light = 1e6;
+  for (const double sigma : {0.9, 2.0, 3.9, 4.0, 9.0}) {
+    const std::string define =
+        "#define BRIGHT_MEAN(d) bright_mean(d, " + std::to_string(sigma) + "f)\n";
+    const std::vector<float> places = evenly(0, sigma * std::sqrt(std::log(light)), 1 << 12);
+    const auto error = [&](double found, double at) {
+      const double left = (at - 0.5) / sigma, right = (at + 0.5) / sigma;
+      const double beyond =
+          left < 0 ? std::erf(right) - std::erf(left) : std::erfc(left) - std::erfc(right);
+      return found / (0.5 * std::sqrt(3.141592653589793) * sigma * beyond) - 1;
+    };
+    EXPECT_LE(2 * largest(places, evaluate("BRIGHT_MEAN", define, places), error),
+              part_of_bright_mean(sigma, light))
+        << sigma;
+  }
 }
 
 TEST_P(ShapeFunctions, ErrorFunctionLosesNoLightOfAGrain) {

@@ -322,12 +322,11 @@ ProgramSource Specialization::list_around() const {
 }
 
 ProgramSource Specialization::behind() const {
-  const std::string defines =
-      define_if(is_ordered(), "LIGHT_ORDERED") + define_if(extended_, "EXTENDED_NUMBERS");
+  const std::string defines = define_if(is_ordered(), "LIGHT_ORDERED");
   if (extended_) {
-    return {defines + define_if(double_numbers_, "DOUBLE_NUMBERS"),
+    return {defines + define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS"),
             {"splat.h", "composite.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl",
-             "behind.cl"}};
+             "extended_lanes.cl", "behind_extended.cl"}};
   }
   return {defines + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
           {"splat.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "behind.cl"}};

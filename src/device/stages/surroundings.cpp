@@ -104,6 +104,14 @@ float carried(double depth, bool keeps_transmittance) {
   return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
 }
 
+// Numbers as pairs of floats.
+void split(const double* values, std::size_t count, float* high, float* low) {
+  for (std::size_t i = 0; i < count; ++i) {
+    high[i] = static_cast<float>(values[i]);
+    low[i] = static_cast<float>(values[i] - static_cast<double>(high[i]));
+  }
+}
+
 }  // namespace
 
 std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
@@ -273,25 +281,26 @@ std::vector<double> Surroundings::pixels_of(const std::vector<CloudAround>& clou
 std::vector<float> Surroundings::planes_of(const std::vector<double>& layer) const {
   const std::size_t pixels = static_cast<std::size_t>(context_.frame.crop.width) *
                              static_cast<std::size_t>(context_.frame.crop.height);
-  const bool is_ordered = context_.plan.light == LightPlan::ordered;
-  std::vector<float> planes;
-  planes.reserve(pixels * context_.specialization.planes());
-  for (std::size_t c = 0; c < (is_ordered ? 6u : 3u); ++c) {
-    const double* channel = layer.data() + c * pixels;
-    if (context_.plan.is_extended()) {
-      for (std::size_t i = 0; i < pixels; ++i)
-        planes.push_back(static_cast<float>(channel[i]));
-      for (std::size_t i = 0; i < pixels; ++i)
-        planes.push_back(
-            static_cast<float>(channel[i] - static_cast<double>(static_cast<float>(channel[i]))));
-      continue;
-    }
-    // Interpolation may leave less than nothing, by as little as it errs.
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const double value = std::max(channel[i], 0.0);
-      planes.push_back(c < 3 ? static_cast<float>(value)
-                             : carried(value, context_.plan.layers.keeps_transmittance));
-    }
+  constexpr std::size_t pixels_at_once = 1 << 14;
+  const bool is_extended = context_.plan.is_extended();
+  const bool keeps_transmittance = context_.plan.layers.keeps_transmittance;
+  const std::size_t channels = context_.plan.light == LightPlan::ordered ? 6 : 3;
+  const std::size_t parts = is_extended ? 2 : 1;
+  std::vector<float> planes(parts * channels * pixels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double* const channel = layer.data() + c * pixels;
+    float* const plane = planes.data() + parts * c * pixels;
+    for_blocks(pixels, pixels_at_once, [&](std::size_t first, std::size_t end) {
+      if (is_extended) {
+        split(channel + first, end - first, plane + first, plane + pixels + first);
+        return;
+      }
+      // Interpolation may leave less than nothing, by as little as it errs.
+      for (std::size_t i = first; i < end; ++i) {
+        const double value = std::max(channel[i], 0.0);
+        plane[i] = c < 3 ? static_cast<float>(value) : carried(value, keeps_transmittance);
+      }
+    });
   }
   return planes;
 }
@@ -315,13 +324,16 @@ void Surroundings::put_behind(const std::vector<double>& layer, const Planes& pl
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
   const Buffer<float> behind = device.pool.upload(planes_of(layer), "clouds around");
+  const std::size_t pixels_of_item = context_.plan.is_extended() ? 8 : 1;
+  const std::size_t items =
+      (static_cast<std::size_t>(crop.width) + pixels_of_item - 1) / pixels_of_item;
   Launch(device, "surroundings",
          device.programs.get(context_.specialization.behind()).create_kernel("put_behind"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(behind)
-      .run_grid(static_cast<std::size_t>(crop.width), static_cast<std::size_t>(crop.height), 1);
+      .run_grid(items, static_cast<std::size_t>(crop.height), 1);
 }
 
 }  // namespace splotchcl

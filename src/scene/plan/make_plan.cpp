@@ -17,10 +17,6 @@ namespace {
 // Copies of a splat in an equirectangular picture, half a period apart (kernels/project).
 constexpr int splats_with_copies = 11;
 
-// Of the polynomial (kernels/composite/shape.cl), which is cheap beside everything else that a
-// narrow splat costs.
-constexpr double erf_error = 2.3e-7;
-
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
 // are drawn again (docs/performance.md).
@@ -96,7 +92,7 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   const double of_even_light = plan.needs_sort() ? std::min(response, plan.light_behind) : response;
   plan.splats =
       choose_splat_limits(frame, plan.shares, plan.light, {of_even_light, response, unchecked});
-  plan.erf_error = erf_error;
+  plan.mean_error = error_of_means(plan.precision);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
   if (plan.is_extended()) {

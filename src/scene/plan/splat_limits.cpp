@@ -31,6 +31,38 @@ double center_value_error(double sigma_pixels) {
   return 8.2e-3 / (sigma2 * sigma2);
 }
 
+// Along both axes, of the polynomials of erf (kernels/composite/shape.cl). Of the shorter one by
+// computing them for widths from 0.5 to 2, of the longer one twice 1.8 of its error of 2.3e-7.
+double error_of_means(Precision precision) {
+  return precision == Precision::fast ? 3e-6 : 2 * 1.8 * 2.3e-7;
+}
+
+// The kernels work it out in single precision.
+double widest_bright_mean(const SplatLimits& limits, double light) {
+  constexpr double less = 0.999;
+  const double wider = std::sqrt(std::max(0.853 * std::log(std::max(light, 1.0)), 1.0));
+  return less * wider * static_cast<double>(limits.bright_mean_sigma);
+}
+
+double light_of_bright_means(const SplatLimits& limits, double sigma_pixels) {
+  const double wider = sigma_pixels / widest_bright_mean(limits, 1);
+  return std::exp(wider * wider / 0.853);
+}
+
+// Of 1 - erf at both edges of a pixel, of which none is above 1 where both count from the same
+// side, and with the rounding of the difference. From WIDE_MEAN on the series errs by less.
+double bright_mean_error(double sigma_pixels) {
+  constexpr double of_complements = 6e-7, wide_mean = 4;
+  return 2 * 1.8 * std::clamp(sigma_pixels, 0.5, wide_mean) * of_complements;
+}
+
+// Beside the peak the difference is as large a part of itself as at the peak or a smaller one, but
+// roundings of the distance in sigma count with its square.
+double part_of_bright_mean(double sigma_pixels, double light) {
+  constexpr double roundings_of_fading = 12 * 0x1p-24;
+  return bright_mean_error(sigma_pixels) + roundings_of_fading * std::log(std::max(light, 1.0));
+}
+
 bool takes_pixel_means(const Frame& frame) {
   return frame.kernel.sampling == Sampling::mean && frame.projection != Projection::cube;
 }

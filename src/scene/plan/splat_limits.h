@@ -12,6 +12,19 @@ constexpr double lattice_rows = 2;
 // By how much of its peak the widened center value of a splat errs at most, from sigma 2 on.
 double center_value_error(double sigma_pixels);
 
+// By how much of its peak a mean by erf errs, along both axes together, for each sigma.
+double error_of_means(Precision precision);
+
+// The width up to which splats that count as bright ones, of this light, are taken as means that
+// keep their digits (kernels/project/limits.cl); and the light from which on that is so wide.
+double widest_bright_mean(const SplatLimits& limits, double light);
+double light_of_bright_means(const SplatLimits& limits, double sigma_pixels);
+
+// By how much of its peak such a mean errs at most, along both axes together; and by which part of
+// itself, where splats of so much light have not faded below 1.
+double bright_mean_error(double sigma_pixels);
+double part_of_bright_mean(double sigma_pixels, double light);
+
 // What a relative error of every splat does to the picture (error_budget.h), by what is wrong.
 struct Responses {
   double of_ends = 1, of_means = 1;  // which the check after drawing knows
