@@ -1,5 +1,6 @@
 // What files of whole numbers store of light.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "image/blue_noise.h"
+#include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -46,6 +48,23 @@ class DitherPlaces {
                   std::to_string(bits) + " bits cannot hold; an .exr file can");
 }
 
+constexpr std::size_t pixels_of_block = 1 << 14;
+
+// The first pixel of those that threads find, in whatever order.
+class FirstPixel {
+ public:
+  explicit FirstPixel(std::size_t none) : first_(none) {}
+  void take(std::size_t pixel) {
+    std::size_t first = first_;
+    while (pixel < first && !first_.compare_exchange_weak(first, pixel)) {
+    }
+  }
+  std::size_t get() const { return first_; }
+
+ private:
+  std::atomic<std::size_t> first_;
+};
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const Image& image,
@@ -57,18 +76,26 @@ std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const
   const float scale = options.truncates ? 256 : 255;
   const DitherPlaces places(options.places, image);
   const auto width = static_cast<std::size_t>(std::max(1, image.width));
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+  const auto store = [&](std::size_t pixel) {
     float added = options.truncates ? 0 : 0.5F;
     if (dithers) added = places.threshold(pixel % width, pixel / width);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const float value = image.pixels[4 * pixel + channel];
-      if (std::isnan(value)) refuse_not_a_number(path, image, pixel, 8);
+      if (std::isnan(value)) return false;
       const float clamped = std::clamp(value, 0.0F, 1.0F);
       const float displayed = exponent == 1 ? clamped : std::pow(clamped, exponent);
       const float stored = std::min(scale * displayed + added, 255.0F);
       bytes[3 * pixel + channel] = static_cast<std::uint8_t>(stored);
     }
-  }
+    return true;
+  };
+  FirstPixel refused(pixels);
+  for_blocks(pixels, pixels_of_block, [&](std::size_t first, std::size_t last) {
+    for (std::size_t pixel = first; pixel < last; ++pixel) {
+      if (!store(pixel)) return refused.take(pixel);
+    }
+  });
+  if (refused.get() < pixels) refuse_not_a_number(path, image, refused.get(), 8);
   return bytes;
 }
 

@@ -56,10 +56,12 @@ class Views {
       drawn.finish = with_any_tone(scene_.finish, light);
       drawn.is_black = !with_tone_of(scene_.finish, light);
     }
-    for (const PictureSize& size : picture_sizes(scene_, frame_.crop.width, frame_.crop.height))
+    const std::vector<PictureSize> sizes =
+        picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
+    for (const PictureSize& size : sizes)
       drawn.pictures.push_back(
           {size.suffix,
-           Image(size.width, size.height),
+           Image(),
            {frame_.crop.x, frame_.crop.y, frame_.crop.width, frame_.crop.height}});
     const bool overlaps = scene_.stereo && is_anaglyph(scene_.stereo->layout);
     std::vector<Picture> of_right_eye;
@@ -69,7 +71,7 @@ class Views {
           images.empty() ? draw(frame_of_view(scene_, frame_, places_[i])) : std::move(images[i]);
       finishes_[i].apply(image, drawn.finish, draw);
       const bool is_over = overlaps && places_[i].eye == Eye::right;
-      put(image, places_[i], is_over ? of_right_eye : drawn.pictures);
+      put(std::move(image), places_[i], sizes, is_over ? of_right_eye : drawn.pictures);
     }
     for (std::size_t i = 0; i < of_right_eye.size(); ++i) {
       Image& left = drawn.pictures[i].image;
@@ -90,10 +92,19 @@ class Views {
     return is_whole ? image : cut_out(image, frame_.crop);
   }
 
-  static void put(const Image& image, const ViewPlace& place, std::vector<Picture>& pictures) {
-    const auto picture = std::find_if(pictures.begin(), pictures.end(),
-                                      [&](const Picture& p) { return p.suffix == place.suffix; });
-    copy_into(image, place.column * image.width, place.row * image.height, picture->image);
+  // A view that is all of its picture becomes it.
+  static void put(Image image, const ViewPlace& place, const std::vector<PictureSize>& sizes,
+                  std::vector<Picture>& pictures) {
+    std::size_t i = 0;
+    while (pictures[i].suffix != place.suffix)
+      ++i;
+    Image& picture = pictures[i].image;
+    if (image.width == sizes[i].width && image.height == sizes[i].height) {
+      picture = std::move(image);
+      return;
+    }
+    if (picture.pixels.empty()) picture = Image(sizes[i].width, sizes[i].height);
+    copy_into(image, place.column * image.width, place.row * image.height, picture);
   }
 
   const Scene& scene_;
