@@ -121,11 +121,12 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     const float unit = unit_of(splat, grid);
     TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
 #endif
-    for (int ty = range.z; ty <= range.w; ++ty) {
-      for (int tx = range.x; tx <= range.y; ++tx) {
-        const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
-        // Of the band that lists are made of.
-        if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
+    // One loop: most splats are in one tile, and it ends where a processor expects it to.
+    int tx = range.x, ty = range.z;
+    for (int left = (range.y - range.x + 1) * (range.w - range.z + 1); left > 0; --left) {
+      const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
+      // Of the band that lists are made of.
+      if (tile - p.first_tile < p.end_tile - p.first_tile) {
 #ifndef EXTENDED_NUMBERS
         set_place(&entry, splat, grid, tx * TILE_WIDTH + TILE_WIDTH / 2,
                   ty * TILE_HEIGHT + TILE_HEIGHT / 2, bits, unit);
@@ -134,6 +135,9 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
         store_entry(entry, to);
         ask_to_write(to + ENTRIES_AHEAD);
       }
+      const int is_last = tx == range.y;
+      tx = is_last ? range.x : tx + 1;
+      ty += is_last;
     }
   }
 }
