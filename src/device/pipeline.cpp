@@ -30,6 +30,7 @@ Image Pipeline::draw() {
   counts_ = {};
   around_ = {};
   in_lists_ = {};
+  chunks_with_around_.clear();
   counts_.particles = particle_count(context_.frame);
   Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
   if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
@@ -66,19 +67,14 @@ Planes Pipeline::draw_sums() {
   const std::vector<ParticleChunk> chunks = particle_chunks();
   const std::vector<ChunkRange> leaves = sum_leaves(chunks.size(), context_.device.traits);
   LeafSums sums(context_, leaves.size(), ranks_, transfer_ ? &*transfer_ : nullptr);
-  std::vector<ParticleChunk> own_chunks;
-  sums.draw([&](std::size_t leaf) {
-    const auto begin = chunks.begin();
-    own_chunks.insert(own_chunks.end(), begin + static_cast<std::ptrdiff_t>(leaves[leaf].first),
-                      begin + static_cast<std::ptrdiff_t>(leaves[leaf].end));
-    return draw_leaf(chunks, leaves[leaf]);
-  });
+  sums.draw([&](std::size_t leaf) { return draw_leaf(chunks, leaves[leaf]); });
   const std::uint64_t own_around = counts_.around;
   add_up_counts();
   if (leaves.empty() || counts_.too_sharp > 0) return compositor_.start();
   std::vector<CloudAround> around;
   if (counts_.around > 0)
-    around = ranks_ == nullptr ? find_around() : gather_around(own_chunks, own_around);
+    around = ranks_ == nullptr ? find_around(chunks_with_around_)
+                               : gather_around(chunks_with_around_, own_around);
   SplatLight light = sums.join();
   certifier_.put_cells(std::move(light.cells));
   if (is_first()) surroundings_.draw(around, light.planes);
@@ -116,9 +112,8 @@ void Pipeline::take_around(std::vector<CloudAround> clouds) {
   }
 }
 
-std::vector<CloudAround> Pipeline::find_around() {
-  std::vector<CloudAround> clouds =
-      surroundings_.in_order(list_around(particle_chunks(), counts_.around));
+std::vector<CloudAround> Pipeline::find_around(const std::vector<ParticleChunk>& chunks) {
+  std::vector<CloudAround> clouds = surroundings_.in_order(list_around(chunks, counts_.around));
   counts_.visible += clouds.size();
   return clouds;
 }
@@ -135,6 +130,11 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   counts_.bad += particles.bad;
   counts_.too_sharp += particles.too_sharp;
   counts_.around += particles.around;
+  if (particles.around > 0) {
+    // While the device draws the chunk.
+    if (chunks_with_around_.empty()) surroundings_.get_programs();
+    chunks_with_around_.push_back(chunk);
+  }
   return planes;
 }
 
@@ -166,7 +166,7 @@ Planes Pipeline::draw_alone(Planes planes) {
   KeyedSplats keyed = project_all();
   take_counts(keyed.particles, keyed.left_out);
   if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) take_around(find_around());
+  if (counts_.around > 0) take_around(find_around(particle_chunks()));
   place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
@@ -185,7 +185,7 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.windows = windows.steps();
   if (counts_.too_sharp > 0) return planes;
   const std::uint64_t without_clouds = counts_.visible;
-  if (counts_.around > 0) take_around(find_around());
+  if (counts_.around > 0) take_around(find_around(particle_chunks()));
   const std::uint64_t splats = without_clouds + in_lists_.count();
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);

@@ -114,6 +114,13 @@ void split(const double* values, std::size_t count, float* high, float* low) {
 
 }  // namespace
 
+void Surroundings::get_programs() const {
+  ProgramCache& programs = context_.device.programs;
+  programs.get(context_.specialization.list_around());
+  programs.get(context_.specialization.behind());
+  programs.compile_all();
+}
+
 std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
                                                     const ParticleBuffers& particles,
                                                     std::uint64_t most) const {

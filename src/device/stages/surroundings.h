@@ -20,6 +20,9 @@ class Surroundings {
  public:
   explicit Surroundings(const StageContext& context) : context_(context) {}
 
+  // Of sums that turn out to have some: there they wait for nobody.
+  void get_programs() const;
+
   // Those of the chunks' particles that the projection has left out, `counted` of them, in file
   // order; `get`: the particles of one chunk.
   std::vector<CloudAround> list(const std::vector<ParticleChunk>& chunks,
