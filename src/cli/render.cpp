@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <future>
 #include <map>
 
 #include "cli/commands.h"
@@ -238,6 +239,10 @@ int run_render(const RenderOptions& options, Console& console) {
   for (const std::string& note : drawn.all_notes())
     console.note(note);
   report.draw_seconds = drawing.seconds();
+  // To give so much memory back takes as long as to write a picture. Not of several processes: MPI
+  // may allow calls by one thread only.
+  std::future<void> given_back;
+  if (!ranks) given_back = std::async(std::launch::async, [&drawer] { drawer.reset(); });
   agree(ranks.get(), [&] {
     if (writes) write_all(options, *output, source, drawn, report, console);
   });

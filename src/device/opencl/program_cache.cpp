@@ -96,14 +96,20 @@ void ProgramCache::compile_all() {
   const auto lock = lock_runtime();
   const Stopwatch stopwatch(build_seconds_);
   for (auto& [key, entry] : programs_) {
-    if (!entry.compiled && !restore(entry)) missing.push_back(&entry);
+    if (!entry.compiled && !find_binary(entry)) missing.push_back(&entry);
   }
   build_together(missing);
 }
 
+bool ProgramCache::find_binary(Entry& entry) {
+  if (!entry.binary) entry.binary = binaries_.find(entry.key);
+  return entry.binary.has_value();
+}
+
 bool ProgramCache::restore(Entry& entry) {
-  const std::optional<std::string> binary = binaries_.find(entry.key);
-  if (binary) entry.compiled = program_of_binary(context_, entry.text.options, *binary);
+  if (!find_binary(entry)) return false;
+  entry.compiled = program_of_binary(context_, entry.text.options, *entry.binary);
+  entry.binary.reset();
   return entry.compiled.has_value();
 }
 
