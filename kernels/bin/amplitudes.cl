@@ -93,8 +93,8 @@ INLINED Amplitudes amplitudes_of(const Splat splat, const ComponentColors colors
   if (colors.absorption_kind == ABSORPTION_GRAY) {
     const float3 own = found.emission * own_part(splat, p);
     found.absorption = found.emission;
-    found.emission = select((float3)(0.0f), found.emission * (own / (own + colors.absorption_factor)),
-                            own > 0.0f);
+    const float3 emitted_part = own / (own + colors.absorption_factor);
+    found.emission = own > 0.0f ? found.emission * emitted_part : (float3)(0.0f);
   }
   return found;
 }
