@@ -11,8 +11,7 @@ INLINED float3 sample_knots(__global const float* knots, uint first, uint count,
   const uint below = min((uint)place, count - 1u);
   const uint above = min(below + 1u, count - 1u);
   const float3 color = knot_at(knots + (size_t)(first + below) * 3);
-  return color +
-         (place - (float)below) * (knot_at(knots + (size_t)(first + above) * 3) - color);
+  return color + (place - (float)below) * (knot_at(knots + (size_t)(first + above) * 3) - color);
 }
 
 #ifdef VECTOR_COLORS

@@ -213,8 +213,7 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
   const VALUE sigma = DRAWN_SIGMA(widths);
   VALUE mean_limit = (VALUE)(p.mean_sigma);
   if (ANY(brightness.bright)) {
-    mean_limit =
-        choose(mean_limit, bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
+    mean_limit = choose(mean_limit, bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
   }
   s.by_mean = sigma < mean_limit;
   s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);

@@ -30,7 +30,7 @@ class Program {
     std::string key, names;
     ProgramText text;
     std::optional<ProgramText> fallback;  // where the compiler does not take the text
-    std::optional<std::string> binary;  // that an earlier run has compiled
+    std::optional<std::string> binary;    // that an earlier run has compiled
     std::optional<compute::program> compiled;
   };
   Program(ProgramCache& cache, Entry& entry) : cache_(&cache), entry_(&entry) {}
@@ -49,10 +49,10 @@ class ProgramCache {
   ProgramCache& operator=(const ProgramCache&) = delete;
 
   Program get(const ProgramSource& source);
-  // What has been asked for and no earlier run has compiled. Many are shared out to other processes,
-  // if there is a way to start them. The compiler takes some milliseconds to read what an earlier
-  // run has compiled: that waits for the first kernel, while the device may draw with others.
-  // Throws as create_kernel.
+  // What has been asked for and no earlier run has compiled. Many are shared out to other
+  // processes, if there is a way to start them. The compiler takes some milliseconds to read what
+  // an earlier run has compiled: that waits for the first kernel, while the device may draw with
+  // others. Throws as create_kernel.
   void compile_all();
   void use_compilers(StartCompiler start_compiler) { start_compiler_ = std::move(start_compiler); }
 
