@@ -43,6 +43,7 @@ INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int
 }
 #endif
 
+// Those of most sums in two pieces, which overlap: a structure goes through memory.
 INLINED void store_entry(const TileSplat entry, __global TileSplat* to) {
 #if !defined(EXTENDED_NUMBERS) && !defined(LIGHT_ORDERED) && SUMMED == 3 && !defined(ELLIPSES) && \
     !defined(FINE_PLACES)
