@@ -116,9 +116,12 @@ void split(const double* values, std::size_t count, float* high, float* low) {
 
 void Surroundings::get_programs() const {
   ProgramCache& programs = context_.device.programs;
-  programs.get(context_.specialization.list_around());
-  programs.get(context_.specialization.behind());
+  const Program list = programs.get(context_.specialization.list_around());
+  const Program behind = programs.get(context_.specialization.behind());
   programs.compile_all();
+  // What an earlier run has compiled is read with its first kernel.
+  list.create_kernel("list_around");
+  behind.create_kernel("put_behind");
 }
 
 std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
