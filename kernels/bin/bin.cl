@@ -34,18 +34,12 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
     in_order[slot - p.first] = splat;
     __global const Grid* grid = grids + grid_of(splat);
 #ifdef TILES_IN_SPLAT
-    if (is_in_one_tile(splat.tiles) && !grid->is_part) {
-      // Most splats of a large snapshot.
-      tiles[slot - p.first] = splat.tiles;
-      ++count[number_of_tile(splat.tiles, grid->corner_tile, grid->tiles_x)];
-      continue;
-    }
     const uint touched = tiles_with_memory(splat.tiles, splat, *grid);
 #else
     const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, splat, *grid, count);
+    count_in_tiles(touched, splat, grid, count);
   }
 }
 #endif

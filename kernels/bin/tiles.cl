@@ -119,21 +119,19 @@ INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid gr
   return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
 }
 
-INLINED int is_in_one_tile(uint tiles) {
-  return tiles >> 2 * FIRST_TILE_BITS == (1u | 1u << TILE_COUNT_BITS);
-}
-
-// Of the first tile of a grid whose corner tile has this number.
-INLINED uint number_of_tile(uint tiles, uint corner_tile, int tiles_x) {
-  const uint first = (1u << FIRST_TILE_BITS) - 1u;
-  return corner_tile + (tiles >> FIRST_TILE_BITS & first) * (uint)tiles_x + (tiles & first);
-}
-
 // Counts the splat in the tiles that it touches.
-INLINED void count_in_tiles(uint tiles, const Splat splat, const Grid grid, __global uint* count) {
-  const int4 range = unpack_tiles(tiles, splat, grid);
+INLINED void count_in_tiles(uint tiles, const Splat splat, __global const Grid* grid,
+                            __global uint* count) {
+  // Most splats of a large snapshot.
+  if (tiles >> 2 * FIRST_TILE_BITS == (1u | 1u << TILE_COUNT_BITS)) {
+    const uint first = (1u << FIRST_TILE_BITS) - 1u;
+    const uint column = tiles & first, row = tiles >> FIRST_TILE_BITS & first;
+    ++count[grid->corner_tile + row * (uint)grid->tiles_x + column];
+    return;
+  }
+  const int4 range = unpack_tiles(tiles, splat, *grid);
   for (int ty = range.z; ty <= range.w; ++ty) {
     for (int tx = range.x; tx <= range.y; ++tx)
-      ++count[grid.corner_tile + (uint)(ty * grid.tiles_x + tx)];
+      ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
   }
 }

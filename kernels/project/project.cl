@@ -126,16 +126,12 @@ __attribute__((noinline)) void project_block(uint block, const ProjectParameters
 #ifdef COUNT_TILES
         __global const Grid* grid = grids + grid_of(listed);
 #ifdef TILES_IN_SPLAT
-        if (is_in_one_tile(listed.tiles) && !grid->is_part) {
-          // Most splats of a large snapshot.
-          ++count[number_of_tile(listed.tiles, grid->corner_tile, grid->tiles_x)];
-        } else {
-          count_in_tiles(tiles_with_memory(listed.tiles, listed, *grid), listed, *grid, count);
-        }
+        const uint touched = tiles_with_memory(listed.tiles, listed, *grid);
 #else
-        tiles[slot] = tiles_of(listed, *grid);
-        count_in_tiles(tiles[slot], listed, *grid, count);
+        const uint touched = tiles_of(listed, *grid);
+        tiles[slot] = touched;
 #endif
+        count_in_tiles(touched, listed, grid, count);
 #endif
         ++slot;
 #ifdef COPIES
