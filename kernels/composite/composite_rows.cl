@@ -147,41 +147,24 @@ __attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* 
 #endif
 
 #ifdef LIGHT_ORDERED
-// Whether no pixel of a row lets through more than `stop`; `front` and `block` are its opacities.
-inline int is_opaque_row(const float8 front[TILE_WIDTH / 8], const float* block, float stop) {
-  float8 most = (float8)(0.0f);
-  for (int k = 0; k < TILE_WIDTH / 8; ++k)
-    most = max(most, transmittance_of(front[k]) * transmittance_of(load_eight(block + 8 * k)));
-  const float4 four = max(most.lo, most.hi);
-  const float2 two = max(four.lo, four.hi);
-  return max(two.x, two.y) <= stop;
-}
-
 // Nothing behind shows any more: every channel of every pixel of the block behind the front is
-// opaque enough. The first row that is not says so of the tile.
-inline int is_opaque(const float* front, const float* block, float stop) {
+// opaque enough. The front is what is in the planes where it is null. The first row that is not
+// opaque says so of the tile.
+inline int is_opaque(const float* front, __global const float* planes, const Grid grid,
+                     size_t corner, const float* block, float stop) {
   for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       const int row = c * TILE_PIXELS + y * ROW;
-      float8 opacities[TILE_WIDTH / 8];
-      for (int k = 0; k < TILE_WIDTH / 8; ++k)
-        opacities[k] = load_eight(front + row + 8 * k);
-      if (!is_opaque_row(opacities, block + row, stop)) return 0;
-    }
-  }
-  return 1;
-}
-
-// The same where the front is what is in the planes.
-inline int is_opaque_in_planes(__global const float* planes, const Grid grid, size_t corner,
-                               const float* block, float stop) {
-  for (int c = SUMS; c < PLANES; ++c) {
-    for (int y = 0; y < TILE_HEIGHT; ++y) {
-      __global const float* row = planes + row_of_tile(grid, corner, c, y);
-      float8 opacities[TILE_WIDTH / 8];
-      for (int k = 0; k < TILE_WIDTH / 8; ++k)
-        opacities[k] = load_eight_of_planes(row + 8 * k);
-      if (!is_opaque_row(opacities, block + c * TILE_PIXELS + y * ROW, stop)) return 0;
+      __global const float* row_of_planes = planes + row_of_tile(grid, corner, c, y);
+      float8 most = (float8)(0.0f);
+      for (int x = 0; x < TILE_WIDTH; x += 8) {
+        const float8 opacity =
+            front ? load_eight(front + row + x) : load_eight_of_planes(row_of_planes + x);
+        most = max(most, transmittance_of(opacity) * transmittance_of(load_eight(block + row + x)));
+      }
+      const float4 four = max(most.lo, most.hi);
+      const float2 two = max(four.lo, four.hi);
+      if (!(max(two.x, two.y) <= stop)) return 0;
     }
   }
   return 1;
@@ -223,10 +206,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   float depth_of_block = 0.0f;
 #ifdef LIGHT_ORDERED
   if (segment.partial == NO_PARTIAL && !is_one_block) load_opacities(front, planes, grid, corner);
-  if (is_one_block ? is_opaque_in_planes(planes, grid, corner, tile, p.stop)
-                   : is_opaque(front, tile, p.stop)) {
-    end = segment.begin;
-  }
+  const float* const own_front = is_one_block ? 0 : front;
+  if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) end = segment.begin;
 #endif
   for (uint k = segment.begin; k < end; ++k) {
     if (asked < ROWS_OF_TILE) {
@@ -243,11 +224,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
       continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
-    if (drawn % 256u == 0u &&
-        (is_one_block ? is_opaque_in_planes(planes, grid, corner, tile, p.stop)
-                      : is_opaque(front, tile, p.stop))) {
-      break;
-    }
+    if (drawn % 256u == 0u && is_opaque(own_front, planes, grid, corner, tile, p.stop)) break;
 #endif
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
