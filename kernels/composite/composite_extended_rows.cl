@@ -8,74 +8,102 @@
 #else
 #define TILE_PLANES 3
 #endif
+// Planes of whole pages would share lines of the cache.
+#define PLANE (TILE_PIXELS + 8)
+// Eight pixels of the tile, which begin at multiples of eight.
+#define load_eight(p) (*(const double8*)(p))
+#define store_eight(v, p) (*(double8*)(p) = (v))
 #define DARKEST 1e-300  // of transmittances: their logarithm is a number
 
+// What a splat adds to a channel at its center.
+typedef struct Channel {
+  double emission, summed;
+} Channel;
+
 #ifdef LIGHT_ORDERED
-// phi(y) = (1 - exp(-y)) / y, by five terms of its series, whose error is y^5 / 720, or in full.
+// The splat's layer behind what is already there: with u = t X phi(A X) light grows by E u, and the
+// transmittance t loses A u. Of layers of these depths and less phi(y) = (1 - exp(-y)) / y is taken
+// by three terms of its series, whose error is y^3 / 24, and by five, whose error is y^5 / 720.
+#define THINNEST_LAYER 1e-3
 #define THIN_LAYER 0.03
-inline double8 phi_of_thin(double8 y) {
-  return 1.0 - y * (0.5 - y * (0.16666666666666666 -
-                               y * (0.041666666666666664 - y * 0.0083333333333333332)));
+INLINED double8 phi_of_thin(double8 y) {
+  return 1.0 - y * (0.5 - y * (1.0 / 6 - y * (1.0 / 24 - y * (1.0 / 120))));
 }
 
-// The layer behind what is already there.
-inline void add_layer(double* pixel, double8 shape, const double* emission,
-                      const double* absorption, int is_thin) {
-  for (int c = 0; c < SUMS; ++c) {
-    double* const source = pixel + c * TILE_PIXELS;
-    double* const passing = pixel + (c + SUMS) * TILE_PIXELS;
-    const double8 t = vload8(0, passing), depth = shape * absorption[c];
-    double8 phi = phi_of_thin(depth), left = 1.0 - depth * phi;
-    if (!is_thin) {
-      const double8 passed = exp_of_minus(min(depth, (double8)(700.0)));
-      const long8 is_thick = depth > THIN_LAYER;
-      phi = select(phi, (1.0 - passed) / max(depth, (double8)(THIN_LAYER)), is_thick);
-      left = select(left, passed, is_thick);
-    }
-    vstore8(vload8(0, source) + t * shape * phi * emission[c], 0, source);
-    vstore8(t * left, 0, passing);
-  }
+INLINED void add_thin(double* source, double8 covered, const Channel of) {
+  double* const passing = source + SUMS * PLANE;
+  const double8 t = load_eight(passing), u = t * covered;
+  store_eight(load_eight(source) + u * of.emission, source);
+  store_eight(t - u * of.summed, passing);
+}
+
+INLINED void add_thinnest_layer(double* source, double8 shape, const Channel of) {
+  const double second = 0.5 * of.summed, third = of.summed * of.summed * (1.0 / 6);
+  add_thin(source, shape - shape * shape * (second - shape * third), of);
+}
+
+INLINED void add_thin_layer(double* source, double8 shape, const Channel of) {
+  add_thin(source, shape * phi_of_thin(shape * of.summed), of);
+}
+
+INLINED void add_layer(double* source, double8 shape, const Channel of) {
+  double* const passing = source + SUMS * PLANE;
+  const double8 t = load_eight(passing), depth = shape * of.summed;
+  const double8 series = phi_of_thin(depth), passed = exp_of_minus(min(depth, (double8)(700.0)));
+  const long8 is_thick = depth > THIN_LAYER;
+  const double8 phi = select(series, (1.0 - passed) / max(depth, (double8)(THIN_LAYER)), is_thick);
+  store_eight(load_eight(source) + t * shape * phi * of.emission, source);
+  store_eight(t * select(1.0 - depth * series, passed, is_thick), passing);
 }
 #endif
+
+INLINED void add_sum(double* sum, double8 shape, const Channel of) {
+  store_eight(load_eight(sum) + shape * of.summed, sum);
+}
+
+// Written out for each channel, in values: what a loop took from an array it would fetch anew for
+// every row.
+#define ADD_ROWS(ADD)                                                         \
+  for (int x = shapes.columns.first & ~7; x <= shapes.columns.last; x += 8) { \
+    const ShapeColumns columns = shape_columns(&shapes, x);                   \
+    for (int y = shapes.rows.first; y <= shapes.rows.last; ++y) {             \
+      const double8 shape = shape_of_eight(&shapes, columns, y);              \
+      double* const pixel = tile + y * TILE_WIDTH + x;                        \
+      ADD(pixel, shape, red);                                                 \
+      ADD(pixel + PLANE, shape, green);                                       \
+      ADD(pixel + 2 * PLANE, shape, blue);                                    \
+    }                                                                         \
+  }
 
 inline void add_splat(double* tile, __global const ExtendedSplat* from,
                       const ExtendedTile* of_tile) {
   const ExtendedSplat splat = *from;
   ExtendedShape shapes;
   if (!start_shape(&shapes, &splat, of_tile)) return;
-  double summed[SUMS];
-  for (int c = 0; c < SUMS; ++c)
-    summed[c] = in_full(splat.summed[c]);
+  const Channel red = {in_full(splat.emission[0]), in_full(splat.summed[0])};
+  const Channel green = {in_full(splat.emission[1]), in_full(splat.summed[1])};
+  const Channel blue = {in_full(splat.emission[2]), in_full(splat.summed[2])};
 #ifdef LIGHT_ORDERED
-  double emission[SUMS];
-  for (int c = 0; c < SUMS; ++c)
-    emission[c] = in_full(splat.emission[c]);
   // No mean is more than 1, and none more than the light below a pixel.
-  const int is_thin = max(summed[0], max(summed[1], summed[2])) <= THIN_LAYER;
-#endif
-  for (int x = shapes.columns.first & ~7; x <= shapes.columns.last; x += 8) {
-    for (int y = shapes.rows.first; y <= shapes.rows.last; ++y) {
-      const double8 shape = shape_of_eight(&shapes, x, y);
-      double* const pixel = tile + y * TILE_WIDTH + x;
-#ifdef LIGHT_ORDERED
-      add_layer(pixel, shape, emission, summed, is_thin);
-#else
-      for (int c = 0; c < SUMS; ++c) {
-        double* const sum = pixel + c * TILE_PIXELS;
-        vstore8(vload8(0, sum) + shape * summed[c], 0, sum);
-      }
-#endif
-    }
+  const double deepest = max(red.summed, max(green.summed, blue.summed));
+  if (deepest <= THINNEST_LAYER) {
+    ADD_ROWS(add_thinnest_layer)
+  } else if (deepest <= THIN_LAYER) {
+    ADD_ROWS(add_thin_layer)
+  } else {
+    ADD_ROWS(add_layer)
   }
+#else
+  ADD_ROWS(add_sum)
+#endif
 }
 
 // Between the tile and pixels in memory, which hold depths.
 inline void take_pixels(double* tile, const Pixels pixels) {
   for (int c = 0; c < SUMS; ++c) {
-    vstore8(pixels.light[c], 0, tile + c * TILE_PIXELS);
+    store_eight(pixels.light[c], tile + c * PLANE);
 #ifdef LIGHT_ORDERED
-    vstore8(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), 0,
-            tile + (c + SUMS) * TILE_PIXELS);
+    store_eight(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), tile + (c + SUMS) * PLANE);
 #endif
   }
 }
@@ -83,9 +111,9 @@ inline void take_pixels(double* tile, const Pixels pixels) {
 inline Pixels give_pixels(const double* tile) {
   Pixels pixels;
   for (int c = 0; c < SUMS; ++c) {
-    pixels.light[c] = vload8(0, tile + c * TILE_PIXELS);
+    pixels.light[c] = load_eight(tile + c * PLANE);
 #ifdef LIGHT_ORDERED
-    const double8 passing = vload8(0, tile + (c + SUMS) * TILE_PIXELS);
+    const double8 passing = load_eight(tile + (c + SUMS) * PLANE);
     pixels.depth[c] = -log(max(passing, (double8)(DARKEST)));
 #endif
   }
@@ -108,7 +136,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   of_tile.face = p.face;
   const int is_part = segment.partial != NO_PARTIAL;
   __global float* part = partials + (is_part ? (size_t)segment.partial * PLANES * TILE_PIXELS : 0);
-  double tile[TILE_PLANES * TILE_PIXELS];
+  double8 eights[TILE_PLANES * PLANE / 8];
+  double* const tile = (double*)eights;
   for (uint item = 0; item < GROUP; ++item) {
     const Pixels pixels =
         is_part ? no_pixels()

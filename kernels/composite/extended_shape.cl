@@ -4,10 +4,6 @@ inline double in_full(FloatPair a) {
   return (double)a.high + (double)a.low;
 }
 
-inline double8 ramp_of_eight() {
-  return (double8)(0, 1, 2, 3, 4, 5, 6, 7);
-}
-
 // Pixels along one axis of the tile; none where last < first.
 typedef struct PixelRange {
   int first, last;
@@ -52,11 +48,21 @@ inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
   return shape->columns.first <= shape->columns.last && shape->rows.first <= shape->rows.last;
 }
 
+// What eight columns of pixels share.
+typedef struct ShapeColumns {
+  double8 dx, x;
+} ShapeColumns;
+
+INLINED ShapeColumns shape_columns(const ExtendedShape* shape, int first) {
+  const double8 columns = (double)first + ramp_of_eight();
+  return (ShapeColumns){shape->x + columns, shape->tangent_x + columns * shape->tangent};
+}
+
 // face_shape() of face_shape.cl.
-inline double8 shape_of_eight(const ExtendedShape* shape, int column, int row) {
-  const double8 columns = (double)column + ramp_of_eight(), dx = shape->x + columns;
+INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns columns, int row) {
+  const double8 dx = columns.dx, x = columns.x;
   const double dy = shape->y + (double)row, y = shape->tangent_y + (double)row * shape->tangent;
-  const double8 x = shape->tangent_x + columns * shape->tangent, k = (1.0 + y * y) + x * x;
+  const double8 k = (1.0 + y * y) + x * x;
   const double8 gk = shape->squared_width * k, turned = x * dy - y * dx;
   const double8 inverse = 1.0 / (gk + shape->footprint);
   const double8 squared = (dx * dx + dy * dy) + turned * turned;
@@ -79,28 +85,6 @@ typedef struct Axis {
   PixelRange range;
 } Axis;
 
-// The mean of exp(-d^2 / sigma^2) over pixels from 1 - erf of the distances of their edges.
-inline double8 mean_of_complements(double8 left, double8 of_left, double8 right, double8 of_right) {
-  const double8 beside = select(of_right - of_left, of_left - of_right, left >= 0.0);
-  return select(beside, 2.0 - of_left - of_right, (left < 0.0) & (right > 0.0));
-}
-
-inline void fill_means(double* values, double first, int begin, int end, double sigma) {
-  double beyond[TILE_WIDTH + 16];
-  const double per_sigma = 1.0 / sigma;
-  for (int k = begin; k <= end; k += 8) {
-    const double8 edge = (first - 0.5 + (double)k + ramp_of_eight()) * per_sigma;
-    vstore8(complement_of_erf(fabs(edge)), 0, beyond + k);
-  }
-  for (int k = begin; k < end; k += 8) {
-    const double8 left = (first - 0.5 + (double)k + ramp_of_eight()) * per_sigma;
-    const double8 right = (first + 0.5 + (double)k + ramp_of_eight()) * per_sigma;
-    const double8 mean =
-        mean_of_complements(left, vload8(0, beyond + k), right, vload8(0, beyond + k + 1));
-    vstore8(mean * (0.88622692545275805 * sigma), 0, values + k);
-  }
-}
-
 inline void fill_centers(double* values, double first, int begin, int end, double sigma) {
   for (int k = begin; k < end; k += 8) {
     const double8 u = (first + (double)k + ramp_of_eight()) / sigma;
@@ -118,7 +102,9 @@ inline void fill_axis(Axis* axis, double corner, int size, FloatPair center, Flo
   if (axis->range.first > axis->range.last) return;
   const int begin = axis->range.first & ~7, end = (axis->range.last & ~7) + 8;
 #ifdef SAMPLING_MEAN
-  if (sigma.high < 1e4f) {
+  if (are_wide_means(in_full(sigma), reach + 8.0)) {
+    fill_wide_means(axis->shape, first, begin, end, in_full(sigma));
+  } else if (sigma.high < 1e4f) {
     fill_means(axis->shape, first, begin, end, in_full(sigma));
   } else
 #endif
@@ -132,20 +118,6 @@ inline void fill_axis(Axis* axis, double corner, int size, FloatPair center, Flo
     vstore8((d > -0.5) & (d <= 0.5), 0, axis->holds + k);
 #endif
   }
-}
-
-// Eight pixels of a row, zero outside the cut.
-inline double8 cut_shape(double8 shape, const Axis* columns, int x, const Axis* rows, int y,
-                         double cut_square) {
-#ifdef KERNEL_CUT
-  long8 inside = vload8(0, columns->square + x) + rows->square[y] <= cut_square;
-#ifdef SAMPLING_MEAN
-  inside |= vload8(0, columns->holds + x) & (long8)(rows->holds[y]);
-#endif
-  return select((double8)(0.0), shape, inside);
-#else
-  return shape;
-#endif
 }
 
 // The product of one along x and one along y.
@@ -175,8 +147,36 @@ inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
   return shape->rows.first <= shape->rows.last;
 }
 
-inline double8 shape_of_eight(const ExtendedShape* shape, int x, int y) {
-  return cut_shape(vload8(0, shape->along_x.shape + x) * shape->along_y.shape[y], &shape->along_x,
-                   x, &shape->along_y, y, shape->cut_square);
+// What eight columns of pixels share.
+typedef struct ShapeColumns {
+  double8 shape;
+#ifdef KERNEL_CUT
+  double8 square;
+  long8 holds;
+#endif
+} ShapeColumns;
+
+INLINED ShapeColumns shape_columns(const ExtendedShape* shape, int first) {
+  ShapeColumns columns;
+  columns.shape = vload8(0, shape->along_x.shape + first);
+#ifdef KERNEL_CUT
+  columns.square = vload8(0, shape->along_x.square + first);
+  columns.holds = vload8(0, shape->along_x.holds + first);
+#endif
+  return columns;
+}
+
+// Zero outside the cut.
+INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns columns, int row) {
+  const double8 product = columns.shape * shape->along_y.shape[row];
+#ifdef KERNEL_CUT
+  long8 inside = columns.square + shape->along_y.square[row] <= shape->cut_square;
+#ifdef SAMPLING_MEAN
+  inside |= columns.holds & (long8)(shape->along_y.holds[row]);
+#endif
+  return select((double8)(0.0), product, inside);
+#else
+  return product;
+#endif
 }
 #endif

@@ -193,12 +193,69 @@ __kernel void evaluate(__global const float* x, __global double* results) {
 
 TEST_F(DoubleLanes, ErrByThePartsThatTheirCommentsName) {
   if (!device().traits.double_numbers) GTEST_SKIP() << "the device has no double precision";
-  EXPECT_LE(
-      largest_part("exp_of_minus", evenly(0, 700, 1 << 16), [](double y) { return std::exp(-y); }),
-      1e-14);
+  EXPECT_LE(largest_part("exp_of_minus", evenly(-700, 700, 1 << 16),
+                         [](double y) { return std::exp(-y); }),
+            1e-14);
   EXPECT_LE(largest_part("complement_of_erf", evenly(0, 10, 1 << 16),
                          [](double x) { return std::erfc(x); }),
             2e-13);
+}
+
+// Means of wide splats, of kernels/composite/extended_means.cl.
+class WideMeans : public StageTest {
+ protected:
+  std::vector<double> means(float first, float sigma, std::size_t pixels) {
+    const Program program = device().programs.get(
+        {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define TILE_WIDTH 64\n",
+         {"double_lanes.cl", "extended_means.cl"},
+         R"(
+__kernel void evaluate(float first, float sigma, int pixels, __global double* results) {
+  double values[TILE_WIDTH];
+  fill_wide_means(values, first, 0, pixels, sigma);
+  for (int k = 0; k < pixels; ++k)
+    results[k] = are_wide_means(sigma, max(fabs(first), fabs(first + pixels))) ? values[k] : -1;
+}
+)"});
+    const auto results = device().pool.get<double>(pixels, "result");
+    Launch(device(), "test", program.create_kernel("evaluate"))
+        .value(first)
+        .value(sigma)
+        .value(static_cast<cl_int>(pixels))
+        .arg(results)
+        .run_items(1);
+    return device().pool.download(results, pixels);
+  }
+};
+
+// exact_mean() to all digits far out.
+double exact_mean_beside(double distance, double sigma) {
+  const double near = (distance - 0.5) / sigma, far = (distance + 0.5) / sigma;
+  return 0.5 * std::sqrt(3.141592653589793) * sigma * (std::erfc(near) - std::erfc(far));
+}
+
+TEST_F(WideMeans, ErrByTwoPartsInABillionOfThemselves) {
+  if (!device().traits.double_numbers) GTEST_SKIP() << "the device has no double precision";
+  for (const float sigma : {3.31F, 6.5F, 10.0F, 40.0F, 1000.0F}) {
+    // As far out as a splat may be drawn, and on both sides of its center.
+    const float farthest = std::min(1.74F * sigma * sigma, 24.9F * sigma);
+    const std::size_t pixels = sigma < 6 ? 16 : 64;
+    const auto width = static_cast<float>(pixels);
+    for (const float first : {-farthest, 0.3F - 0.5F * width, farthest - width}) {
+      const std::vector<double> found = means(first, sigma, pixels);
+      for (std::size_t k = 0; k < pixels; ++k) {
+        const double distance = std::abs(static_cast<double>(first) + static_cast<double>(k));
+        EXPECT_NEAR(found[k] / exact_mean_beside(distance, static_cast<double>(sigma)), 1, 2e-9)
+            << sigma << " pixels wide, " << distance << " from the center";
+      }
+    }
+  }
+}
+
+TEST_F(WideMeans, AreNotTakenOfNarrowSplatsNorTooFarOut) {
+  if (!device().traits.double_numbers) GTEST_SKIP() << "the device has no double precision";
+  EXPECT_EQ(means(-4, 3.0F, 8)[0], -1) << "narrow";
+  EXPECT_EQ(means(200, 8.0F, 8)[0], -1) << "the slope is too steep for the series";
+  EXPECT_NE(means(-4, 8.0F, 8)[0], -1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lanes, ShapeFunctions, testing::Bool(),

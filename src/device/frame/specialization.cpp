@@ -242,14 +242,14 @@ ProgramSource Specialization::composite() const {
         "splat.h",    "bin.h",       "composite.h",       "common.cl",         "lanes.cl",
         "precise.cl", "extended.cl", "extended_lanes.cl", "extended_pixels.cl"};
     if (has_rows())
-      files.insert(files.end(),
-                   {"double_lanes.cl", "extended_shape.cl", "composite_extended_rows.cl"});
+      files.insert(files.end(), {"double_lanes.cl", "extended_means.cl", "extended_shape.cl",
+                                 "composite_extended_rows.cl"});
     else
       files.push_back("composite_extended_groups.cl");
     return {defines, files};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(rows_ && rows_of_16_ && !face_of_cube_, "ROWS_OF_16") + block_defines();
+             define_if(takes_rows_of_16(), "ROWS_OF_16") + block_defines();
   return {defines, composite_files()};
 }
 
