@@ -9,6 +9,13 @@
 #define INLINED __attribute__((always_inline)) inline
 #endif
 
+// Of functions that there are for eight numbers and for sixteen.
+#ifdef ROWS_OF_16
+#define OVERLOADED __attribute__((overloadable))
+#else
+#define OVERLOADED
+#endif
+
 #ifdef ELLIPSES
 #define SIGMA_X(splat) ((splat).along_x.sigma)
 #define RADIUS_X(splat) ((splat).along_x.radius)

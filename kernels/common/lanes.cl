@@ -1,5 +1,9 @@
 // One particle or pixel at a time on a GPU, eight on a processor: LANES_8 chooses. Stages
 // written in VALUE and INTEGER share every formula between the two.
+#undef VALUE
+#undef INTEGER
+#undef AS_VALUE
+#undef AS_INTEGER
 #ifdef LANES_8
 #define LANES 8
 #define VALUE float8

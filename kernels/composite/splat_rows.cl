@@ -108,6 +108,44 @@ inline int set_rows(Window* window, int2 rows, int width, __global const TileSpl
   return rows.x;
 }
 
+#if defined(ROWS_OF_16) && !defined(ELLIPSES)
+// One axis of the shape at sixteen pixels from pixel `begin` on, to the bits of fill_axis(); `ramp`
+// counts the lanes of each eight. Of pixel means there are fifteen, between sixteen edges; the last
+// lane is 0.
+INLINED float16 sixteen_of_axis(float first, float low, int begin, float16 ramp, float sigma,
+                                float mean_sigma) {
+  const float16 eights = (float)begin + (float16)((float8)(0.0f), (float8)(8.0f));
+  if (sigma >= mean_sigma) return gaussian(first + eights + ramp - low, inverse_of(sigma));
+  const float16 edges = (first - 0.5f + eights + ramp - low) * (1.0f / sigma);
+  const float16 within = error_function(edges);
+  return (within.s123456789abcdeff - within) * (PIXEL_MEAN_SCALE * sigma);
+}
+
+// Both axes stay in registers. A call with sixteen floats, as update_window_of_16() is.
+__attribute__((noinline)) void add_window_of_16(float* tile, int2 rows, int column, float16 ramp,
+                                                __global const TileSplat* splat, float mean_sigma,
+                                                int form) {
+  const float sigma = splat->sigma;
+  const float first_x = (float)column + FIRST_X - splat->x;
+  const float first_y = (float)rows.x + FIRST_Y - splat->y;
+  float along[TILE_HEIGHT + 16];
+  for (int k = 0; k <= rows.y - rows.x; k += 16)
+    store_sixteen(sixteen_of_axis(first_y, LOW_Y(*splat), k, ramp, sigma, mean_sigma), along + k);
+  Window window;
+  window.x = column;
+  const int skipped = set_rows(&window, rows, 16, splat) - rows.x;
+  update_rows_of_16(tile, &window,
+                    sixteen_of_axis(first_x, LOW_X(*splat), 0, ramp, sigma, mean_sigma),
+                    along + skipped, splat, form);
+}
+
+// Whether a splat's columns fit a window of sixteen, and its rows the means of one.
+inline int fits_window_of_16(int columns, int rows, float sigma, float mean_sigma) {
+  if (columns <= 8) return 0;
+  return sigma >= mean_sigma ? columns <= 16 : sigma > 0.0f && max(columns, rows) <= 15;
+}
+#endif
+
 inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
                            float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
@@ -194,6 +232,13 @@ inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTi
     update_window(tile, &window, across, along, splat, form);
     return 1;
   }
+#if defined(ROWS_OF_16) && !defined(ELLIPSES)
+  if (fits_window_of_16(columns_count, rows_count, sigma, mean_sigma) && takes_rows_of_16(form)) {
+    const float16 ramp = (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
+    add_window_of_16(tile, rows, columns.x, ramp, splat, mean_sigma, form);
+    return 1;
+  }
+#endif
   add_wide_splat(tile, splat, rows, columns, mean_sigma, form);
   return 1;
 }

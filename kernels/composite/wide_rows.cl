@@ -24,11 +24,9 @@ DEFINE_CUT_SHAPE(cut_shape_of_16, float16, int16)
     THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                         \
   }
 
-// A call, and its argument tells the compiler that it may use registers of sixteen floats, from
-// which it keeps away otherwise.
-__attribute__((noinline)) void update_window_of_16(float* tile, const Window* window,
-                                                   float16 across, const float* along,
-                                                   __global const TileSplat* splat, int form) {
+// update_window() (rows.cl) of a window that is sixteen pixels wide.
+INLINED void update_rows_of_16(float* tile, const Window* window, float16 across,
+                               const float* along, __global const TileSplat* splat, int form) {
 #ifdef KERNEL_CUT
   const float16 dx = (float)window->x + FIRST_X - splat->x +
                      (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15) -
@@ -55,6 +53,14 @@ __attribute__((noinline)) void update_window_of_16(float* tile, const Window* wi
     ADD_CHANNELS(load_sixteen, store_sixteen)
   }
 #endif
+}
+
+// A call, and its argument tells the compiler that it may use registers of sixteen floats, from
+// which it keeps away otherwise.
+__attribute__((noinline)) void update_window_of_16(float* tile, const Window* window,
+                                                   float16 across, const float* along,
+                                                   __global const TileSplat* splat, int form) {
+  update_rows_of_16(tile, window, across, along, splat, form);
 }
 
 // Whether rows of sixteen serve for a splat's layer.

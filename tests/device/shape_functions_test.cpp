@@ -1,4 +1,5 @@
-// The functions of kernels/composite/shape.cl keep the errors that their comments name.
+// The functions of kernels/composite/gaussian.cl and shape.cl keep the errors that their comments
+// name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
     const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
     const Program program =
         device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
-                               {"splat.h", "common.cl", "lanes.cl", "shape.cl"},
+                               {"splat.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl"},
                                kernel});
     const auto results = device().pool.get<float>(x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))

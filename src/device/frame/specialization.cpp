@@ -260,8 +260,9 @@ ProgramSource Specialization::composite_with_clouds() const {
 }
 
 std::vector<std::string> Specialization::composite_files() const {
-  std::vector<std::string> files = {"splat.h",  "bin.h",    "composite.h", "common.cl",
-                                    "lanes.cl", "shape.cl", "opacity.cl",  "clouds.cl"};
+  std::vector<std::string> files = {"splat.h", "bin.h", "composite.h", "common.cl"};
+  if (takes_rows_of_16()) files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl"});
+  files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
     files.insert(files.end(), {"rows.cl", "wide_rows.cl"});
@@ -299,7 +300,7 @@ ProgramSource Specialization::composite_slab() const {
                              : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
                                                      : std::string();
   return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
-              define_if(rows_, "LANES_8") + define_if(rows_ && rows_of_16_, "ROWS_OF_16") + blocks,
+              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") + blocks,
           composite_files()};
 }
 
@@ -309,7 +310,8 @@ ProgramSource Specialization::join_slab() const {
 
 ProgramSource Specialization::lay_slab() {
   return {define("LANES_8"),
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "shape.cl", "refine.cl", "slab.cl"}};
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "refine.cl",
+           "slab.cl"}};
 }
 
 ProgramSource Specialization::list_around() const {
@@ -362,8 +364,8 @@ ProgramSource Specialization::resolve() const {
                               define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
                               define_if(background_image_, "BACKGROUND_IMAGE");
   return {defines,
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "shape.cl", "opacity.cl", "precise.cl",
-           "resolve.cl"}};
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl",
+           "precise.cl", "resolve.cl"}};
 }
 
 }  // namespace splotchcl

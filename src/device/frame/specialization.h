@@ -97,6 +97,8 @@ class Specialization {
   std::string tile_size_defines() const;
   std::string tile_defines() const;
   std::string slab_defines() const;
+  // Shapes on faces of a cube come eight pixels at a time.
+  bool takes_rows_of_16() const { return rows_ && rows_of_16_ && !face_of_cube_; }
   std::string number_defines() const;
   std::string block_defines() const;
 
