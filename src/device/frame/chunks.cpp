@@ -16,6 +16,12 @@ std::vector<SplatChunk> cut(std::uint64_t count, std::uint32_t length) {
   return chunks;
 }
 
+// Of as few equal parts as are no longer than that: buffers of one serve for all.
+std::uint32_t equal_length(std::uint64_t count, std::uint32_t longest) {
+  const std::uint64_t parts = std::max<std::uint64_t>(1, (count + longest - 1) / longest);
+  return static_cast<std::uint32_t>((count + parts - 1) / parts);
+}
+
 }  // namespace
 
 std::vector<SplatChunk> splat_chunks(std::uint64_t count, const DeviceTraits& traits) {
@@ -29,7 +35,7 @@ std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const Devic
   std::vector<SplatChunk> chunks;
   for (std::uint64_t slab = 0; slab < parts; ++slab) {
     const std::uint64_t first = start_of(slab), end = start_of(slab + 1);
-    for (SplatChunk chunk : splat_chunks(end - first, traits)) {
+    for (SplatChunk chunk : cut(end - first, equal_length(end - first, traits.sorted_chunk))) {
       chunk.first += first;
       chunks.push_back(chunk);
     }

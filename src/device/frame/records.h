@@ -100,6 +100,7 @@ struct SlabLight {
   Buffer<float> before;  // the picture's own planes as they were before this slab
   // Of eight pixels of a row each: what any order of the slabs' splats could change at most.
   Buffer<float> errors;
+  Buffer<float> columns;  // grids of a slab while they are brought to the picture's own
 };
 
 }  // namespace splotchcl

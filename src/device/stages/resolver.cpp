@@ -22,6 +22,22 @@ std::size_t row_pairs(const shared::GridPart& part) {
   return strips(static_cast<std::size_t>(part.bottom - (part.top & ~1)), 2);
 }
 
+// Floats of one plane of a part blurred along its columns, and of one refined along them. A part
+// that is refined begins with an even column, and has the rows that ten taps look at.
+std::size_t blurred_floats(const shared::GridPart& part, std::size_t half_width) {
+  const auto height = static_cast<std::size_t>(part.bottom - part.top);
+  return (height + 2 * half_width) * 8 *
+         strips(static_cast<std::size_t>(part.right_end - part.left), 8);
+}
+
+std::size_t refined_rows(const shared::GridPart& part) {
+  return static_cast<std::size_t>(part.bottom - part.top) / 2 + 12;
+}
+
+std::size_t refined_strips(const shared::GridPart& part) {
+  return strips(static_cast<std::size_t>(part.right_end - part.left) + 1, 16);
+}
+
 }  // namespace
 
 Resolver::Resolver(const StageContext& context)
@@ -45,9 +61,25 @@ Resolver::Resolver(const StageContext& context)
     slab_program_ = context.device.programs.get(Specialization::lay_slab());
 }
 
+Buffer<float> Resolver::room_for_columns() const {
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
+  std::size_t floats = 0;
+  for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
+    const shared::GridPart& part = wanted[level];
+    floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
+    if (level > 0 && pyramid.is_blurred) {
+      const shared::GridPart widest = with_blur(part, pyramid.blur[0], pyramid);
+      floats = std::max(floats, blurred_floats(widest, most_blur_weights / 2));
+    }
+  }
+  return context_.device.pool.get<float>(context_.specialization.planes() * floats,
+                                         "blurred or refined columns");
+}
+
 // What every grid holds, brought to the picture's own: blurred level by level, then refined
 // from the coarsest on. Grids without light are left out.
-Planes Resolver::collect(Planes planes, std::size_t finest) const {
+Planes Resolver::collect(Planes planes, std::size_t finest, const Buffer<float>& columns) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
   const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
   const auto grid_of = [&pyramid](std::size_t level) {
@@ -61,15 +93,16 @@ Planes Resolver::collect(Planes planes, std::size_t finest) const {
     const std::uint32_t narrow = grid_of(level), wide = narrow + 1;
     if (is_used(wide)) {
       blur(planes, wide, narrow, with_blur(wanted[level], pyramid.blur[0], pyramid),
-           pyramid.blur[1] - pyramid.blur[0], is_used(narrow));
+           pyramid.blur[1] - pyramid.blur[0], is_used(narrow), columns);
       planes.used_grids |= 1u << narrow;
     }
-    if (is_used(narrow)) blur(planes, narrow, narrow, wanted[level], pyramid.blur[0], false);
+    if (is_used(narrow))
+      blur(planes, narrow, narrow, wanted[level], pyramid.blur[0], false, columns);
   }
   for (std::size_t level = levels - 1; level > finest; --level) {
     const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);
     if (!is_used(coarse)) continue;
-    refine(planes, coarse, fine, wanted[level - 1], is_used(fine));
+    refine(planes, coarse, fine, wanted[level - 1], is_used(fine), columns);
     planes.used_grids |= 1u << fine;
   }
   return planes;
@@ -77,7 +110,8 @@ Planes Resolver::collect(Planes planes, std::size_t finest) const {
 
 // What the target's `part` takes from the source.
 void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
-                    const shared::GridPart& part, double sigma2, bool add) const {
+                    const shared::GridPart& part, double sigma2, bool add,
+                    const Buffer<float>& columns) const {
   const std::vector<float> weights = blur_weights(sigma2, context_.plan.pyramid.blur_error);
   shared::BlurParameters parameters{};
   parameters.source = source;
@@ -92,8 +126,6 @@ void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t ta
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
   const std::size_t plane_count = context_.specialization.planes();
-  const auto columns = context_.device.pool.get<float>(
-      plane_count * source_height * 8 * width_strips, "blurred columns");
   Launch(context_.device, "resolve", grids_program_.create_kernel("blur_columns"))
       .value(parameters)
       .arg(context_.grids)
@@ -121,31 +153,23 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
 }
 
 // The first axis.
-Buffer<float> Resolver::refine_columns(const Planes& planes,
-                                       const shared::RefineParameters& parameters) const {
-  const shared::GridPart& part = parameters.part;
-  const auto width = static_cast<std::size_t>(part.right_end - part.left);
-  const auto height = static_cast<std::size_t>(part.bottom - part.top);
-  // The temporary begins with an even column, and has the rows that ten taps look at.
-  const std::size_t column_strips = strips(width + 1, 16), most_rows = height / 2 + 12;
-  const std::size_t plane_count = context_.specialization.planes();
-  auto columns = context_.device.pool.get<float>(plane_count * most_rows * 16 * column_strips,
-                                                 "refined columns");
+void Resolver::refine_columns(const Planes& planes, const shared::RefineParameters& parameters,
+                              const Buffer<float>& columns) const {
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
-      .run_grid(column_strips, most_rows, plane_count);
-  return columns;
+      .run_grid(refined_strips(parameters.part), refined_rows(parameters.part),
+                context_.specialization.planes());
 }
 
 // The same from one level to the next.
 void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
-                      const shared::GridPart& part, bool add) const {
+                      const shared::GridPart& part, bool add, const Buffer<float>& columns) const {
   shared::RefineParameters parameters = refine_parameters(coarse, fine, part);
   parameters.add = add;
-  const Buffer<float> columns = refine_columns(planes, parameters);
+  refine_columns(planes, parameters, columns);
   const auto width = static_cast<std::size_t>(part.right_end - part.left);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
@@ -167,22 +191,23 @@ SlabLight Resolver::start_slabs() const {
   slab.errors = context_.device.pool.get<float>(eights, "errors of slabs");
   for (const Buffer<float>* buffer : {&slab.before, &slab.errors})
     clear_memory(context_.device, "resolve", buffer->memory(), 0, buffer->size() * sizeof(float));
+  slab.columns = room_for_columns();
   return slab;
 }
 
 Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
   constexpr std::uint32_t picture = 1;
   if (light.used_grids == picture) return light;
-  Planes planes = collect(std::move(light), 1);
+  Planes planes = collect(std::move(light), 1, slab.columns);
   const auto coarse = static_cast<std::uint32_t>(context_.plan.pyramid.level_grids[1]);
   const shared::GridPart& part = context_.layout.wanted.front();
   const shared::RefineParameters parameters = refine_parameters(coarse, 0, part);
-  const Buffer<float> columns = refine_columns(planes, parameters);
+  refine_columns(planes, parameters, slab.columns);
   Launch(context_.device, "resolve", slab_program_.create_kernel("lay_slab"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
-      .arg(columns)
+      .arg(slab.columns)
       .arg(slab.before)
       .arg(slab.errors)
       .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8), row_pairs(part),
@@ -236,7 +261,9 @@ Buffer<float> Resolver::upload_background(std::size_t stride) const {
 }
 
 Image Resolver::resolve(Planes light) const {
-  const Planes planes = collect(std::move(light), 0);
+  const bool has_coarse_grids = light.used_grids > 1;
+  const Planes planes =
+      has_coarse_grids ? collect(std::move(light), 0, room_for_columns()) : std::move(light);
   Image image(parameters_.width, parameters_.height);
   if (context_.device.traits.shares_host_memory) {
     resolve_in_place(planes, image);

@@ -27,16 +27,19 @@ class Resolver {
   std::vector<float> errors_of_slabs(const SlabLight& slab) const;
 
  private:
+  // For what each step of collect() and lay_slab() makes along one axis of a grid.
+  Buffer<float> room_for_columns() const;
   // Down to grids of this level.
-  Planes collect(Planes planes, std::size_t finest) const;
-  Buffer<float> refine_columns(const Planes& planes,
-                               const shared::RefineParameters& parameters) const;
+  Planes collect(Planes planes, std::size_t finest, const Buffer<float>& columns) const;
+  void refine_columns(const Planes& planes, const shared::RefineParameters& parameters,
+                      const Buffer<float>& columns) const;
   shared::RefineParameters refine_parameters(std::uint32_t coarse, std::uint32_t fine,
                                              const shared::GridPart& part) const;
   void blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
-            const shared::GridPart& part, double sigma2, bool add) const;
+            const shared::GridPart& part, double sigma2, bool add,
+            const Buffer<float>& columns) const;
   void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
-              const shared::GridPart& part, bool add) const;
+              const shared::GridPart& part, bool add, const Buffer<float>& columns) const;
   Buffer<float> upload_background(std::size_t stride) const;
   void resolve_in_place(const Planes& planes, Image& image) const;
   void write_pixels(const Planes& planes, const compute::buffer& pixels) const;
