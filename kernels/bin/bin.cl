@@ -126,7 +126,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                   ty * TILE_HEIGHT + TILE_HEIGHT / 2, bits, unit);
 #endif
         __global TileSplat* to = entries + (size_t)starts[tile] + count[tile]++;
-        store_entry(entry, to);
+        *to = entry;
         ask_to_write(to + ENTRIES_AHEAD);
       }
       const int is_last = tx == range.y;

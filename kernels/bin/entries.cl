@@ -42,15 +42,3 @@ INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int
 #endif
 }
 #endif
-
-// Those of most sums in two pieces, which overlap: a structure goes through memory.
-INLINED void store_entry(const TileSplat entry, __global TileSplat* to) {
-#if !defined(EXTENDED_NUMBERS) && !defined(LIGHT_ORDERED) && SUMMED == 3 && !defined(ELLIPSES) && \
-    !defined(FINE_PLACES)
-  __global float* words = (__global float*)to;
-  vstore4((float4)(entry.x, entry.y, entry.sigma, entry.radius), 0, words);
-  vstore4((float4)(entry.radius, entry.summed[0], entry.summed[1], entry.summed[2]), 0, words + 3);
-#else
-  *to = entry;
-#endif
-}
