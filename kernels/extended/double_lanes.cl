@@ -6,8 +6,8 @@ inline double8 ramp_of_eight() {
   return (double8)(0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-// exp(-y) for -700 <= y <= 700, relative error 1e-14. 1.5 * 2^52, added to a number, rounds it to an
-// integer and leaves it in the low bits; ln 2 is in two parts, the first so short that its
+// exp(-y) for -700 <= y <= 700, relative error 1e-14. 1.5 * 2^52, added to a number, rounds it to
+// an integer and leaves it in the low bits; ln 2 is in two parts, the first so short that its
 // multiples are exact.
 inline double8 exp_of_minus(double8 y) {
   const double magic = 6755399441055744.0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "certificate/certificate.h"
+#include "certificate/expected_needs.h"
 #include "certificate/picture_light.h"
 #include "device/failing_parts.h"
 #include "device/opencl/device_context.h"
@@ -89,6 +90,13 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
   if (!plan.certify) return refine_plan(frame, plan, certificate.needs);
   // Bounds fall more slowly than what is shared out: by no less than 4 at a time.
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
+}
+
+// The plan of the first drawing.
+FramePlan first_plan(const Frame& frame, const PlanOptions& options) {
+  const FramePlan plan = make_plan(frame, options);
+  const std::optional<SplatNeeds> needs = expected_needs(frame, plan);
+  return needs ? refine_plan(frame, plan, *needs) : plan;
 }
 
 // Whether all ranks that have particles draw.
@@ -331,13 +339,13 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Image Renderer::render(const Frame& frame) {
   if (!frame.spread) {
     check_frame(frame);
-    return render(frame, make_plan(frame, state_->plan_options));
+    return render(frame, first_plan(frame, state_->plan_options));
   }
   FramePlan plan;
   frame.spread->agree_on([&] {
     check_frame(frame);
     check_ranks(frame, state_->ranks.get());
-    plan = make_plan(frame, state_->plan_options);
+    plan = first_plan(frame, state_->plan_options);
   });
   return render(frame, plan);
 }

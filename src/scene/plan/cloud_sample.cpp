@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t sample_limit = 16384;
+constexpr std::size_t sample_limit = 32768;
 
 bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
   const double reach = 7 * cloud.sigma;  // no cloud is drawn farther

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What the check after drawing is likely to ask for where many splats lie upon one another, from a
+// sample of the particles: what it asks for is drawn at once, and not a second time. Less than that
+// where the sample does not show it; none where nothing more is needed, and in plans that are not
+// checked by an estimate. The same in every run, and whatever crop is drawn.
+std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan);
+
+}  // namespace splotchcl

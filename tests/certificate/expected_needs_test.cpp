@@ -1,0 +1,68 @@
+#include "certificate/expected_needs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "reference/frames.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr int size = 128;
+
+// Clouds of sigma 3 all over the picture, in a regular pattern that is no crowd, and so many more
+// in one place.
+Frame field_with_crowd(std::size_t field, std::size_t crowd) {
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(field))));
+  std::vector<Cloud> clouds;
+  for (std::size_t i = 0; i < field; ++i) {
+    const double x = (static_cast<double>(i % columns) + 0.5) / static_cast<double>(columns) - 0.5;
+    const double y = (static_cast<double>(i / columns) + 0.5) / static_cast<double>(columns) - 0.5;
+    clouds.push_back({size * x, size * y, 1, 3, 1e-3});
+  }
+  clouds.insert(clouds.end(), crowd, Cloud{0.3, 0.2, 1, 3, 0.5});
+  return frame_of(size, size, {component_of(clouds, one_color(1, 1, 1))});
+}
+
+std::optional<SplatNeeds> needs_of(const Frame& frame) {
+  return expected_needs(frame, make_plan(frame));
+}
+
+TEST(ExpectedNeeds, AreNoneWhereLightIsEven) {
+  EXPECT_FALSE(needs_of(field_with_crowd(3000, 0)));
+}
+
+TEST(ExpectedNeeds, AreThoseOfSplatsInOnePlace) {
+  const std::optional<SplatNeeds> needs = needs_of(field_with_crowd(100, 5000));
+  ASSERT_TRUE(needs);
+  const WidthNeed& of_their_width = needs->widths[2];  // sigma from 2 to 4
+  EXPECT_GT(of_their_width.farther, 1);
+  EXPECT_TRUE(of_their_width.light >= 2500 || needs->grid_light >= 2500);
+  EXPECT_EQ(needs->widths[8].light, 0) << "of widths that no splat has";
+}
+
+TEST(ExpectedNeeds, AreFoundInASampleOfManyParticles) {
+  const Frame frame = field_with_crowd(150000, 20000);
+  ASSERT_TRUE(needs_of(frame));
+  EXPECT_FALSE(needs_of(field_with_crowd(150000, 0)));
+}
+
+TEST(ExpectedNeeds, AreNoneOfPlansThatNoEstimateChecks) {
+  Frame frame = field_with_crowd(100, 5000);
+  EXPECT_FALSE(expected_needs(frame, make_plan(frame, {true, -1, true}))) << "a bound checks it";
+  EXPECT_FALSE(expected_needs(frame, extend_plan(frame, make_plan(frame)))) << "nothing is left";
+}
+
+TEST(ExpectedNeeds, AreNoneWhereSourcesWithoutABrightestShineThroughWhatAbsorbs) {
+  Frame frame = field_with_crowd(100, 5000);
+  DrawnComponent stars = frame.components[0];
+  stars.absorption = {Absorption::Kind::none, 0};
+  frame.components.push_back(stars);
+  ASSERT_EQ(make_plan(frame).light, LightPlan::ordered);
+  EXPECT_FALSE(needs_of(frame));
+}
+
+}  // namespace
+}  // namespace splotchcl::test
