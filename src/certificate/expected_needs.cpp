@@ -70,7 +70,9 @@ class OctaveSample {
     return std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
   }
   std::int32_t cell_of(double place) const {
-    return static_cast<std::int32_t>(std::floor(std::ldexp(place, -shift_)));
+    constexpr double farthest = 1e9;  // clouds as wide may lie as far beside the picture
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(std::ldexp(place, -shift_)), -farthest, farthest));
   }
   Sampled sum(int left, int top, int side) const {
     Sampled all;
