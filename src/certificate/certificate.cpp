@@ -21,6 +21,8 @@ constexpr double least_of_peaks = 0.3;
 constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
+// What is left for ends, at least, where nothing makes peaks smaller.
+constexpr double least_room = 0.05;
 // Where ends and peaks both break it, peaks are left a part of it.
 constexpr double others = 4;
 
@@ -85,17 +87,25 @@ class FrameErrors {
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
     sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise;
+    double most_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
       const double peaks = octaves_[i].of_peaks(pixels, negligible_part / response);
       parts[i].peak_light = peaks > 0 ? peaks / octaves_[i].peak_error() : 0;
-      parts[i].peaks = std::min(response * peaks, octaves_[i].part_of_itself(parts[i].peak_light) *
-                                                      light.relative / promise_);
+      const double of_itself =
+          octaves_[i].part_of_itself(parts[i].peak_light) * light.relative / promise_;
+      parts[i].peaks = std::min(response * peaks, of_itself);
       if (is_bound_) sums.rest += response * octaves_[i].of_places(pixels);
       sums.ends += parts[i].ends;
       sums.even += parts[i].even;
-      sums.peaks += parts[i].peaks;
+      if (of_itself < response * peaks)
+        most_of_itself = std::max(most_of_itself, of_itself);
+      else
+        sums.peaks += parts[i].peaks;
     }
+    // Where splats of several octaves err by parts of themselves, all of them err by no more than
+    // the largest part of all.
+    sums.peaks += most_of_itself;
     return sums;
   }
 
@@ -103,6 +113,9 @@ class FrameErrors {
 
   void add_needs(const std::vector<Part>& parts, const ErrorParts& sums, SplatNeeds& needs) const {
     const double error = sums.sum();
+    // Peaks may be as small as they get.
+    const double room = std::max(least_room, 1 - sums.rest - sums.peaks);
+    const double of_ends = std::max(error, (sums.ends + sums.even) / room);
     // What changes of order do falls a little more slowly than slabs are more.
     if (sums.slabs > least_of_slabs) {
       const double more = std::min(2 * margin * std::max(1.0, error), most_times_slabs);
@@ -114,7 +127,7 @@ class FrameErrors {
       if (octaves_[i].level() > 0) on_grids += parts[i].peak_light;
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (parts[i].ends > least_part || parts[i].even > least_part)
-        need.farther = std::max(need.farther, std::log(margin * error));
+        need.farther = std::max(need.farther, std::log(margin * of_ends));
     }
     if (peaks <= least_of_peaks) return;
     // So many times smaller errors of peaks leave what is promised to the others.

@@ -237,5 +237,22 @@ TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {
   EXPECT_EQ(certify_cells(cells).worst.ends, 0);
 }
 
+TEST_F(CertificateTest, CountsOfBrightMeansOfSeveralWidthsTheLargestPartOfAll) {
+  SplatNeeds needs;
+  for (WidthNeed& need : needs.widths)
+    need.light = 1000;
+  plan_ = refine_plan(frame_, plan_, needs);
+  PeakCells narrow = empty_cells(), wide = empty_cells();
+  narrow.octave = 0;
+  for (PeakCells* cells : {&narrow, &wide})
+    at(cells->peaks, 16, 16) = 1e7f;
+  const auto peaks_of = [&](const std::vector<PeakCells>& cells) {
+    return certify({cells, 1, {}}, dark_picture(), frame_, plan_).worst.peaks;
+  };
+  EXPECT_GT(peaks_of({narrow}), 0);
+  EXPECT_GT(peaks_of({wide}), peaks_of({narrow}));
+  EXPECT_EQ(peaks_of({narrow, wide}), peaks_of({wide}));
+}
+
 }  // namespace
 }  // namespace splotchcl::test
