@@ -29,7 +29,8 @@ constexpr double others = 4;
 // Errors of one octave of splats in one block of pixels, over what is promised there.
 struct Part {
   double ends = 0, peaks = 0, even = 0;
-  double peak_light = 0;  // the light of the peaks that lie upon one another
+  double peak_light = 0;      // the light of the peaks that lie upon one another
+  bool is_of_itself = false;  // peaks are counted as parts of themselves
 };
 
 PixelBlock pixels_of(const PictureLight& picture, std::size_t block) {
@@ -87,7 +88,7 @@ class FrameErrors {
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
     sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise;
-    double most_of_itself = 0;
+    double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
       const double peaks = octaves_[i].of_peaks(pixels, negligible_part / response);
@@ -98,14 +99,20 @@ class FrameErrors {
       if (is_bound_) sums.rest += response * octaves_[i].of_places(pixels);
       sums.ends += parts[i].ends;
       sums.even += parts[i].even;
-      if (of_itself < response * peaks)
-        most_of_itself = std::max(most_of_itself, of_itself);
+      parts[i].is_of_itself = of_itself < response * peaks;
+      if (parts[i].is_of_itself)
+        light_of_itself += parts[i].peak_light;
       else
         sums.peaks += parts[i].peaks;
     }
     // Where splats of several octaves err by parts of themselves, all of them err by no more than
-    // the largest part of all.
-    sums.peaks += most_of_itself;
+    // the largest part, of their light together, since that is what fades to 1.
+    double most_of_itself = 0;
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+      if (parts[i].is_of_itself)
+        most_of_itself = std::max(most_of_itself, octaves_[i].part_of_itself(light_of_itself));
+    }
+    sums.peaks += most_of_itself * light.relative / promise_;
     return sums;
   }
 

@@ -251,7 +251,9 @@ TEST_F(CertificateTest, CountsOfBrightMeansOfSeveralWidthsTheLargestPartOfAll) {
   };
   EXPECT_GT(peaks_of({narrow}), 0);
   EXPECT_GT(peaks_of({wide}), peaks_of({narrow}));
-  EXPECT_EQ(peaks_of({narrow, wide}), peaks_of({wide}));
+  const double together = peaks_of({narrow, wide});
+  at(wide.peaks, 16, 16) = 2e7f;
+  EXPECT_NEAR(together, peaks_of({wide}), 1e-9 * together) << "as if all were of the wide ones";
 }
 
 }  // namespace
