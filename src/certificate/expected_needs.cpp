@@ -15,9 +15,6 @@
 namespace splotchcl {
 namespace {
 
-// Cells and their surroundings are as those of the check (docs/accuracy.md, "Checked after
-// drawing"): as wide as the octave's widest splats, from 4 to 16 pixels of the grid.
-constexpr int narrowest_shift = 2, widest_shift = 4;
 // A square of cells of fewer sampled particles tells nothing of how many there are.
 constexpr double fewest = 6;
 // What the light of n sampled particles may be too large by, in parts of itself times root n.
@@ -36,14 +33,14 @@ struct Sampled {
   }
 };
 
-// The sampled splats of one octave of widths on the grid that they are drawn on.
+// The sampled splats of one octave of widths on the grid that they are drawn on, in cells as those
+// of the check (docs/accuracy.md, "Checked after drawing").
 class OctaveSample {
  public:
   OctaveSample(int octave, int level)
-      : level_(level), shift_(level + std::clamp(octave - level, narrowest_shift, widest_shift)) {}
+      : level_(level), shift_(level + peak_cell_shift(octave - level)) {}
 
   int level() const { return level_; }
-  bool is_empty() const { return cells_.empty(); }
 
   void add(const SampledCloud& cloud, double most_peak) {
     Sampled& cell = cells_[key(cell_of(cloud.x), cell_of(cloud.y))];

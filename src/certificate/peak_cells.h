@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace splotchcl {
@@ -10,6 +11,20 @@ struct CellSums {
   int columns = 0, rows = 0;
   std::vector<float> values;
 };
+
+// Cells of an octave, by sigma in pixels of its grid, are as wide as its widest splats, 2^shift
+// pixels: no wider than the smallest tile, and no narrower than two pixels for endings and four for
+// peaks, so that together they take 3.5 bytes per pixel.
+inline int cell_shift(int octave, int narrowest) {
+  constexpr int widest = 4;
+  return std::clamp(octave, narrowest, widest);
+}
+inline int ending_cell_shift(int octave) {
+  return cell_shift(octave, 1);
+}
+inline int peak_cell_shift(int octave) {
+  return cell_shift(octave, 2);
+}
 
 // Splats of one octave of widths on one grid of a drawn frame, in cells about as wide as they
 // are. All splats that were drawn are in it, each once.
