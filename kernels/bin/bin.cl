@@ -2,7 +2,8 @@
 // splats; block and tile fix where each entry goes, so lists keep the splats' order and
 // never depend on timing.
 
-inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks, uint block) {
+static inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
+                             uint block) {
   const uint begin = p.first + block * p.stride;
 #ifdef BLOCKS_OF_PROJECTION
   // Blocks are the projection's: each fills only a part of its stride.

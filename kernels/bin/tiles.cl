@@ -36,7 +36,7 @@ INLINED int4 listed_tiles(int4 touched, const Splat splat, const Grid grid) {
 // its radius is beyond integers. First pixels are turned round, so that first and last ones are
 // found alike: the last whole number below, as floor() is a call on PoCL. Clamped before the
 // conversion: a splat close to the camera may lie anywhere.
-inline int4 pixels_of_wide(const Splat splat, const Grid grid) {
+static inline int4 pixels_of_wide(const Splat splat, const Grid grid) {
   const float2 center = center_on_grid(splat, grid);
   const float2 radius = (float2)(RADIUS_X(splat), splat.radius) + grid.room;
   const float2 size = (float2)((float)grid.width, (float)grid.height);
@@ -90,7 +90,7 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
 #define TILE_COUNT_BITS 6
 #define FOUND_AGAIN 0xffffffffu
 
-inline uint pack_tiles(int4 range) {
+static inline uint pack_tiles(int4 range) {
   const int columns = range.y - range.x + 1, rows = range.w - range.z + 1;
   const int fits = max(range.x, range.z) < 1 << FIRST_TILE_BITS &&
                    max(columns, rows) < (1 << TILE_COUNT_BITS) - 1;

@@ -6,9 +6,10 @@ INLINED void add(const Contribution added, __global float* cells) {
 }
 
 // A call: hardly any splats are only listed.
-__attribute__((noinline)) void collect_listed(__global const TileSplat* splat, const Collected* c,
-                                              const CertifyParameters* p, __global const Grid* grid,
-                                              int column, int row, __global float* cells) {
+__attribute__((noinline)) static void collect_listed(__global const TileSplat* splat,
+                                                     const Collected* c, const CertifyParameters* p,
+                                                     __global const Grid* grid, int column, int row,
+                                                     __global float* cells) {
   add(contribution_of_listed(splat, c, p, grid, column, row), cells);
 }
 

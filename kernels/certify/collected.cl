@@ -2,18 +2,18 @@
 // from the lists that were drawn.
 
 // Comparisons, since min, max and clamp are calls on PoCL.
-inline float smaller(float a, float b) {
+static inline float smaller(float a, float b) {
   return a < b ? a : b;
 }
-inline float larger(float a, float b) {
+static inline float larger(float a, float b) {
   return a > b ? a : b;
 }
-inline float largest(__global const float* values) {
+static inline float largest(__global const float* values) {
   return larger(values[0], larger(values[1], values[2]));
 }
 
 // The brightest channel at the splat's center.
-inline float amplitude_of(__global const TileSplat* splat, float light_behind) {
+static inline float amplitude_of(__global const TileSplat* splat, float light_behind) {
 #ifdef LIGHT_ORDERED
   return larger(largest(splat->emission), light_behind * largest(splat->absorption));
 #else
@@ -28,7 +28,7 @@ typedef struct Reach {
   float x0, x1, y0, y1;
 } Reach;
 
-inline Reach reach_of(const Grid grid, int column, int row) {
+static inline Reach reach_of(const Grid grid, int column, int row) {
   Reach reach;
   reach.x0 = column == 0 ? -INFINITY : -0.5f * TILE_WIDTH;
   reach.x1 = column == grid.tiles_x - 1 ? INFINITY : 0.5f * TILE_WIDTH;
@@ -42,7 +42,7 @@ INLINED uint cell_at(const OctaveCells cells, int x, int y) {
          (uint)(x >> cells.shift);
 }
 
-inline int nearest_pixel(float center, float first, float last) {
+static inline int nearest_pixel(float center, float first, float last) {
   return (int)smaller(larger(center, first), last);
 }
 
@@ -56,7 +56,8 @@ INLINED float listed_ending(__global const TileSplat* splat, const CertifyParame
 }
 
 // The octave whose splats end as far out as a bright one, which is drawn farther than others.
-inline int octave_of_ending(float radius, int octave, int level, const CertifyParameters* p) {
+static inline int octave_of_ending(float radius, int octave, int level,
+                                   const CertifyParameters* p) {
   const float radius2 = radius * radius;
   while (octave + level < WIDTH_OCTAVES - 1 &&
          p->extent2[octave + level] * (float)(1 << 2 * octave) < radius2) {

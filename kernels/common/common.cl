@@ -6,7 +6,7 @@
 // Where a call would cost: PoCL leaves functions of some length as calls, and their structures
 // in memory.
 #ifndef INLINED  // scripts/test_icd has another for a simulator
-#define INLINED __attribute__((always_inline)) inline
+#define INLINED __attribute__((always_inline)) static inline
 #endif
 
 // Of functions that there are for eight numbers and for sixteen.
@@ -24,18 +24,18 @@
 #define RADIUS_X(splat) ((splat).radius)
 #endif
 
-inline size_t first_float(const Grid grid) {
+static inline size_t first_float(const Grid grid) {
   return (size_t)grid.first_float_low | ((size_t)grid.first_float_high << 32);
 }
 
 // Where a pixel of one of its planes is.
-inline size_t pixel_at(const Grid grid, uint plane, int x, int y) {
+static inline size_t pixel_at(const Grid grid, uint plane, int x, int y) {
   return first_float(grid) + (size_t)plane * grid.plane_size +
          (size_t)(y - grid.first_y) * grid.stride + (size_t)(x - grid.first_x);
 }
 
 // Eight pixels of a row, or as many as there are.
-inline void store_first(float8 values, int count, __global float* pixels) {
+static inline void store_first(float8 values, int count, __global float* pixels) {
   if (count >= 8) {
     vstore8(values, 0, pixels);
     return;
@@ -47,7 +47,7 @@ inline void store_first(float8 values, int count, __global float* pixels) {
 }
 
 // The grid that a tile belongs to. Grids are few, coarse ones small.
-inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile) {
+static inline uint grid_of_tile(__global const Grid* grids, uint grid_count, uint tile) {
   uint g = 0;
   while (g + 1 < grid_count && tile >= grids[g + 1].first_tile)
     ++g;
@@ -112,7 +112,7 @@ INLINED int2 pixel_range(float center, float radius, float first_center, int siz
 }
 
 // The radius of a cut disc: the drawn one, less the half pixel of pixel means.
-inline float cut_radius(float radius) {
+static inline float cut_radius(float radius) {
 #ifdef SAMPLING_MEAN
   return radius - 0.5f;
 #else

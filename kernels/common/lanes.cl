@@ -42,13 +42,13 @@
 #endif
 
 // 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.
-inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
+static inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
   return select(if_false, if_true, mask);
 }
 
 // log2 of a positive, finite number, absolute error 3e-7: exponent, and the series of
 // artanh on [sqrt(1/2), sqrt(2)].
-inline VALUE log2_positive(VALUE x) {
+static inline VALUE log2_positive(VALUE x) {
   const INTEGER denormal = x < 1.17549435e-38f;
   x = choose(x, x * 16777216.0f, denormal);
   const INTEGER bits = AS_INTEGER(x) - 0x3f3504f3;

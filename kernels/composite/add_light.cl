@@ -1,6 +1,6 @@
 // Light of one part of a sum's splats added to that of another.
 
-inline size_t first_of(const AddLightParameters p) {
+static inline size_t first_of(const AddLightParameters p) {
   return (size_t)p.first_low | ((size_t)p.first_high << 32);
 }
 

@@ -2,7 +2,7 @@
 // light, then those of depths (extended_pixels.cl).
 
 // As many as there are in the row.
-inline float8 load_first(int count, __global const float* pixels) {
+static inline float8 load_first(int count, __global const float* pixels) {
   if (count >= 8) return vload8(0, pixels);
   float values[8] = {0, 0, 0, 0, 0, 0, 0, 0};
   for (int k = 0; k < count; ++k)
@@ -10,12 +10,13 @@ inline float8 load_first(int count, __global const float* pixels) {
   return vload8(0, values);
 }
 
-inline ExtendedLanes load_first_extended(int count, __global const float* pixels, size_t plane) {
+static inline ExtendedLanes load_first_extended(int count, __global const float* pixels,
+                                                size_t plane) {
   return lanes_pair(load_first(count, pixels), load_first(count, pixels + plane));
 }
 
-inline void store_first_extended(ExtendedLanes value, int count, __global float* pixels,
-                                 size_t plane) {
+static inline void store_first_extended(ExtendedLanes value, int count, __global float* pixels,
+                                        size_t plane) {
   store_first(high_lanes(value), count, pixels);
   store_first(low_lanes(value), count, pixels + plane);
 }

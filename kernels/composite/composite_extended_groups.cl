@@ -12,7 +12,7 @@
 
 // The mean of exp(-t^2 / sigma^2) over a pixel whose centre is at distance d, by the
 // differences of erfc that do not cancel.
-inline Extended narrow_mean(Extended d, Extended sigma) {
+static inline Extended narrow_mean(Extended d, Extended sigma) {
   const Extended far = extended_sum(d, extended_of(0.5f)),
                  near = extended_difference(d, extended_of(0.5f));
   const Extended far_erfc = extended_erfc(extended_quotient(far, sigma));
@@ -27,7 +27,7 @@ inline Extended narrow_mean(Extended d, Extended sigma) {
 // The mean of exp(bend t^2) cosh(slope t) over -1/2 < t < 1/2, less 1, for bend >= -1/9: by
 // its series in the derivatives of a Gaussian up to the sixth, the next being below
 // slope^8 / 9e7, or by six points of Gauss, which err by 2e-16 slope^12.
-inline float mean_excess(float slope, float bend) {
+static inline float mean_excess(float slope, float bend) {
   if (slope < 1.0f) {
     const float s = slope * slope;
     const float second = s + 2.0f * bend;
@@ -48,7 +48,7 @@ inline float mean_excess(float slope, float bend) {
 
 // The mean over a pixel for sigma >= 3: exp(-d^2 / sigma^2) times the mean of
 // exp(-2 d t / sigma^2 - t^2 / sigma^2), which is close to 1.
-inline Extended wide_mean(Extended d, Extended sigma) {
+static inline Extended wide_mean(Extended d, Extended sigma) {
   const Extended u = extended_quotient(d, sigma);
   const float inverse = 1.0f / high_part(sigma);
   const float excess = mean_excess(2.0f * high_part(u) * inverse, -inverse * inverse);
@@ -57,7 +57,7 @@ inline Extended wide_mean(Extended d, Extended sigma) {
 }
 
 // One axis of the shape in the pixel whose centre is at distance d >= 0.
-inline Extended extended_axis(Extended d, Extended sigma) {
+static inline Extended extended_axis(Extended d, Extended sigma) {
 #ifdef SAMPLING_MEAN
   if (high_part(sigma) < 3.0f) return narrow_mean(d, sigma);
   if (high_part(sigma) < 1e4f) return wide_mean(d, sigma);
@@ -67,7 +67,8 @@ inline Extended extended_axis(Extended d, Extended sigma) {
 }
 
 // A column of the splat, behind what is already there.
-inline void add_column(Pixels* pixels, ExtendedLanes column, const __local ExtendedSplat* splat) {
+static inline void add_column(Pixels* pixels, ExtendedLanes column,
+                              const __local ExtendedSplat* splat) {
   for (int c = 0; c < 3; ++c) {
 #ifdef LIGHT_ORDERED
     const ExtendedLanes depth = lanes_product(column, extended_pair(splat->summed[c]));
@@ -93,7 +94,7 @@ typedef struct Batch {
 } Batch;
 
 // `place` of the tile's columns and rows, whose pixel centre lies at `centre`.
-inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
+static inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
   const __local ExtendedSplat* splat = batch->splats + k;
   const int is_column = place < TILE_WIDTH;
   const FloatPair splat_center = is_column ? splat->x : splat->y;
@@ -126,8 +127,8 @@ inline void fill_axis(__local Batch* batch, uint k, uint place, float center) {
 
 #ifdef CUT_BY_AXES
 // The columns of eight pixels, without those outside the cut disc.
-inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch, uint k, uint x,
-                                uint y) {
+static inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch, uint k,
+                                       uint x, uint y) {
   const Extended cut = extended_pair(batch->splats[k].cut);
   const Extended cut_square = extended_product(cut, cut);
   FloatPair row;
@@ -151,13 +152,13 @@ inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch* batch
 #endif
 
 #ifdef FACE_OF_CUBE
-inline Extended extended_square(Extended a) {
+static inline Extended extended_square(Extended a) {
   return extended_product(a, a);
 }
 
 // face_shape() of face_shape.cl, in the pixel whose corner is (x, y).
-inline Extended extended_face_shape(const __local ExtendedSplat* splat, float x, float y,
-                                    const CubeFace face) {
+static inline Extended extended_face_shape(const __local ExtendedSplat* splat, float x, float y,
+                                           const CubeFace face) {
   const Extended column = extended_of(x + 0.5f), row = extended_of(y + 0.5f);
   const Extended dx = extended_difference(column, extended_pair(splat->x));
   const Extended dy = extended_difference(row, extended_pair(splat->y));
@@ -185,8 +186,8 @@ inline Extended extended_face_shape(const __local ExtendedSplat* splat, float x,
 }
 
 // Of eight pixels of a row.
-inline ExtendedLanes column_on_face(const __local ExtendedSplat* splat, float x, float y,
-                                    const CubeFace face) {
+static inline ExtendedLanes column_on_face(const __local ExtendedSplat* splat, float x, float y,
+                                           const CubeFace face) {
   float high[8], low[8];
   for (int lane = 0; lane < 8; ++lane) {
     const Extended value = extended_face_shape(splat, x + (float)lane, y, face);

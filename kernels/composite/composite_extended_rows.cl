@@ -75,8 +75,8 @@ INLINED void add_sum(double* sum, double8 shape, const Channel of) {
     }                                                                         \
   }
 
-inline void add_splat(double* tile, __global const ExtendedSplat* from,
-                      const ExtendedTile* of_tile) {
+static inline void add_splat(double* tile, __global const ExtendedSplat* from,
+                             const ExtendedTile* of_tile) {
   const ExtendedSplat splat = *from;
   ExtendedShape shapes;
   if (!start_shape(&shapes, &splat, of_tile)) return;
@@ -99,7 +99,7 @@ inline void add_splat(double* tile, __global const ExtendedSplat* from,
 }
 
 // Between the tile and pixels in memory, which hold depths.
-inline void take_pixels(double* tile, const Pixels pixels) {
+static inline void take_pixels(double* tile, const Pixels pixels) {
   for (int c = 0; c < SUMS; ++c) {
     store_eight(pixels.light[c], tile + c * PLANE);
 #ifdef LIGHT_ORDERED
@@ -108,7 +108,7 @@ inline void take_pixels(double* tile, const Pixels pixels) {
   }
 }
 
-inline Pixels give_pixels(const double* tile) {
+static inline Pixels give_pixels(const double* tile) {
   Pixels pixels;
   for (int c = 0; c < SUMS; ++c) {
     pixels.light[c] = load_eight(tile + c * PLANE);

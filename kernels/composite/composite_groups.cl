@@ -38,12 +38,12 @@ typedef struct Batch {
 } Batch;
 
 // What axis_shape() needs of a width: divided once for all pixels.
-inline float axis_factor(float sigma, float mean_sigma) {
+static inline float axis_factor(float sigma, float mean_sigma) {
   return sigma >= mean_sigma ? 1.44269504f / (sigma * sigma) : 1.0f / sigma;
 }
 
 // One axis of the separable shape at distance d of a pixel's centre.
-inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
+static inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
   if (sigma < 0.0f) return bright_mean(d, -sigma);
   if (sigma >= mean_sigma) return gaussian(d, factor);
   return PIXEL_MEAN_SCALE * sigma *
@@ -56,8 +56,8 @@ inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
 
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
 // `center` is that of the item's column or row.
-inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, float center,
-                           float mean_sigma) {
+static inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, float center,
+                                  float mean_sigma) {
   const __local TileSplat* splat = batch->splats + k;
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
@@ -82,7 +82,7 @@ inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, fl
 #endif
 
 // Whether a splat reaches the center of a pixel of the tile.
-inline int reaches_tile(const __local TileSplat* splat) {
+static inline int reaches_tile(const __local TileSplat* splat) {
   return fabs(splat->x) <= 0.5f * (TILE_WIDTH - 1) + RADIUS_X(*splat) &&
          fabs(splat->y) <= 0.5f * (TILE_HEIGHT - 1) + splat->radius;
 }
@@ -90,7 +90,7 @@ inline int reaches_tile(const __local TileSplat* splat) {
 // ... of the part around (x, y). A splat ends at its radius all around, but for those that are
 // taken as means over pixels, which have corners, or are cut, which draw the pixel that holds their
 // center.
-inline int reaches_part(const __local TileSplat* splat, float x, float y, float mean_sigma) {
+static inline int reaches_part(const __local TileSplat* splat, float x, float y, float mean_sigma) {
   const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
   const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
   if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
@@ -108,7 +108,7 @@ inline int reaches_part(const __local TileSplat* splat, float x, float y, float 
 #endif
 }
 
-inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
+static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
 #ifdef LIGHT_ORDERED
   const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
   return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
@@ -218,7 +218,7 @@ INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
 }
 
 #if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
-inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
+static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
   const float dx = (float)x + FIRST_X - splat->x - LOW_X(*splat);
   const float dy = (float)y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float cut = cut_radius(splat->radius);
@@ -237,8 +237,8 @@ inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
 
 #ifdef LIGHT_ORDERED
 // As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl.
-inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
-                             float half_of_it, float shape) {
+static inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
+                                    float half_of_it, float shape) {
   const float opacity = pixel[c + 3];
   const float covered = shape - (shape * shape) * half_of_it;
   const float u = covered - opacity * covered;
@@ -246,8 +246,8 @@ inline void add_thin_channel(float* pixel, int c, float emission, float absorpti
   pixel[c + 3] = opacity + u * absorption;
 }
 
-inline void add_channel(float* pixel, int c, float emission, float absorption, float shape,
-                        int by_series) {
+static inline void add_channel(float* pixel, int c, float emission, float absorption, float shape,
+                               int by_series) {
   const float opacity = pixel[c + 3], depth = shape * absorption;
   const float phi = by_series ? phi_series(depth) : phi_full(depth);
   const float passed = by_series ? passed_by_series(depth, phi) : passed_in_full(depth, phi);
@@ -341,7 +341,7 @@ INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, u
 }
 
 // A block of splats behind what is in front of it (composite_rows.cl, SPLATS_OF_BLOCK).
-inline void add_block(float* block, float* front) {
+static inline void add_block(float* block, float* front) {
 #ifdef LIGHT_ORDERED
   for (int c = 0; c < 3; ++c) {
     const float t = transmittance_of(front[c + 3]);
@@ -358,7 +358,7 @@ inline void add_block(float* block, float* front) {
 
 // Whether a pixel lets anything through from behind: of a tile in which none does, the rest of the
 // list is not drawn.
-inline int shows_behind(const float* front, float stop) {
+static inline int shows_behind(const float* front, float stop) {
 #ifdef LIGHT_ORDERED
   for (int c = 3; c < PLANES; ++c) {
     if (transmittance_of(front[c]) > stop) return 1;
@@ -371,7 +371,7 @@ inline int shows_behind(const float* front, float stop) {
 
 // The bits behind the first n set ones of `counted`, which has as many at least: from the next set
 // one on.
-inline uint bits_behind(uint counted, uint n) {
+static inline uint bits_behind(uint counted, uint n) {
   for (uint k = 0; k < n; ++k)
     take_first(&counted);
   return counted != 0 ? 0xffffffffu >> clz(counted) : 0u;

@@ -10,19 +10,19 @@
 #define SUMS PLANES
 #endif
 
-inline void clear_planes(float* tile) {
+static inline void clear_planes(float* tile) {
   for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
     store_eight((float8)(0.0f), tile + i);
 }
 
 // Where a row of a tile with this corner begins.
-inline size_t row_of_tile(const Grid grid, size_t corner, int plane, int y) {
+static inline size_t row_of_tile(const Grid grid, size_t corner, int plane, int y) {
   return corner + (size_t)plane * grid.plane_size + (size_t)y * grid.stride;
 }
 
 #ifdef LIGHT_ORDERED
-inline void load_opacities(float* tile, __global const float* planes, const Grid grid,
-                           size_t corner) {
+static inline void load_opacities(float* tile, __global const float* planes, const Grid grid,
+                                  size_t corner) {
   for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global const float* row = planes + row_of_tile(grid, corner, c, y);
@@ -38,8 +38,8 @@ inline void load_opacities(float* tile, __global const float* planes, const Grid
 // are drawn, so many rows with each of them that no more are under way at a time than a processor
 // keeps track of.
 #define ROWS_OF_TILE (PLANES * TILE_HEIGHT)
-inline void ask_for_rows(__global float* planes, const Grid grid, size_t corner, int first,
-                         int count) {
+static inline void ask_for_rows(__global float* planes, const Grid grid, size_t corner, int first,
+                                int count) {
   const int floats_of_line = 16;
   for (int row = first; row < min(first + count, ROWS_OF_TILE); ++row) {
     __global const float* begin =
@@ -49,7 +49,8 @@ inline void ask_for_rows(__global float* planes, const Grid grid, size_t corner,
   }
 }
 
-inline void store_tile(const float* tile, __global float* planes, const Grid grid, size_t corner) {
+static inline void store_tile(const float* tile, __global float* planes, const Grid grid,
+                              size_t corner) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* row = planes + row_of_tile(grid, corner, c, y);
@@ -66,7 +67,7 @@ inline void store_tile(const float* tile, __global float* planes, const Grid gri
 // half a rounding of the opacity in front of it adds light, but no opacity. Drawn by themselves in
 // blocks of so many, n of them err by as many roundings and one for each block, not by n.
 #ifdef LIGHT_ORDERED
-inline void add_block(const float* block, float* front) {
+static inline void add_block(const float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += 8) {
     const float8 opacity = load_eight(front + SUMS * TILE_PIXELS + i);
     const float8 behind = load_eight(block + SUMS * TILE_PIXELS + i);
@@ -77,8 +78,8 @@ inline void add_block(const float* block, float* front) {
 }
 
 // The same of a list's only block, whose front is what is in the planes.
-inline void add_block_to_planes(const float* block, __global float* planes, const Grid grid,
-                                size_t corner) {
+static inline void add_block_to_planes(const float* block, __global float* planes, const Grid grid,
+                                       size_t corner) {
   for (int c = 0; c < SUMS; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* light = planes + row_of_tile(grid, corner, c, y);
@@ -96,14 +97,14 @@ inline void add_block_to_planes(const float* block, __global float* planes, cons
   }
 }
 #else
-inline void add_block(const float* block, float* front) {
+static inline void add_block(const float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
     store_eight(load_eight(front + i) + load_eight(block + i), front + i);
 }
 #endif
 #endif
 
-inline void store_partial(const float* tile, __global float* partial) {
+static inline void store_partial(const float* tile, __global float* partial) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
@@ -126,9 +127,9 @@ inline void store_partial(const float* tile, __global float* partial) {
   }
 
 // A call: hardly any entries are clouds. Whether it touches the tile.
-__attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* cloud,
-                                        const TileClouds* clouds, float* depth_of_block,
-                                        const CompositeParameters* p) {
+__attribute__((noinline)) static int add_cloud(float* tile, __global const CloudEntry* cloud,
+                                               const TileClouds* clouds, float* depth_of_block,
+                                               const CompositeParameters* p) {
   if (!cloud_touches(cloud, clouds)) return 0;
   const float8 absorption0 = cloud->absorption[0], emission0 = cloud->emission[0];
   const float8 absorption1 = cloud->absorption[1], emission1 = cloud->emission[1];
@@ -150,8 +151,8 @@ __attribute__((noinline)) int add_cloud(float* tile, __global const CloudEntry* 
 // Nothing behind shows any more: every channel of every pixel of the block behind the front is
 // opaque enough. The front is what is in the planes where it is null. The first row that is not
 // opaque says so of the tile.
-inline int is_opaque(const float* front, __global const float* planes, const Grid grid,
-                     size_t corner, const float* block, float stop) {
+static inline int is_opaque(const float* front, __global const float* planes, const Grid grid,
+                            size_t corner, const float* block, float stop) {
   for (int c = SUMS; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       const int row = c * TILE_PIXELS + y * ROW;

@@ -2,12 +2,13 @@
 // `begin` to `end` of a tile, of which pixel 0 has its center at distance `first`.
 
 // The mean of exp(-d^2 / sigma^2) over pixels from 1 - erf of the distances of their edges.
-inline double8 mean_of_complements(double8 left, double8 of_left, double8 right, double8 of_right) {
+static inline double8 mean_of_complements(double8 left, double8 of_left, double8 right,
+                                          double8 of_right) {
   const double8 beside = select(of_right - of_left, of_left - of_right, left >= 0.0);
   return select(beside, 2.0 - of_left - of_right, (left < 0.0) & (right > 0.0));
 }
 
-inline void fill_means(double* values, double first, int begin, int end, double sigma) {
+static inline void fill_means(double* values, double first, int begin, int end, double sigma) {
   double beyond[TILE_WIDTH + 16];
   const double per_sigma = 1.0 / sigma;
   for (int k = begin; k <= end; k += 8) {
@@ -27,13 +28,13 @@ inline void fill_means(double* values, double first, int begin, int end, double 
 // exp(-s t - t^2 / sigma^2) over -1/2 < t < 1/2, s = 2 d / sigma^2, by the series of both factors:
 // the mean of t^n is 2^-n / (n + 1). What is left out is s^14 / 2e16, 2e-9 with s up to 3.5. From
 // eight pixels to the next the value at the center changes by a factor, and that by another one.
-inline int are_wide_means(double sigma, double farthest) {
+static inline int are_wide_means(double sigma, double farthest) {
   const double least_sigma = 3.3, most_s = 3.5, most_sigmas = 25.0;  // exp(-25^2) is a double
   return sigma >= least_sigma && 2.0 * farthest <= most_s * sigma * sigma &&
          farthest <= most_sigmas * sigma;
 }
 
-inline void fill_wide_means(double* values, double first, int begin, int end, double sigma) {
+static inline void fill_wide_means(double* values, double first, int begin, int end, double sigma) {
   const double per_sigma2 = 1.0 / (sigma * sigma), q = 0.25 * per_sigma2;
   // Of even powers of s: (2^-n / n!) (1 / (n + 1) - q / (n + 3) + q^2 / (2 (n + 5)) - ...).
   const double8 n = (double8)(0, 2, 4, 6, 8, 10, 12, 14);

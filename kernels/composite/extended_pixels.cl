@@ -12,14 +12,14 @@ typedef struct Pixels {
 #endif
 } Pixels;
 
-inline ExtendedLanes load_extended(__global const float* planes, size_t plane) {
+static inline ExtendedLanes load_extended(__global const float* planes, size_t plane) {
   return lanes_pair(vload8(0, planes), vload8(0, planes + plane));
 }
-inline void store_extended(ExtendedLanes value, __global float* planes, size_t plane) {
+static inline void store_extended(ExtendedLanes value, __global float* planes, size_t plane) {
   vstore8(high_lanes(value), 0, planes);
   vstore8(low_lanes(value), 0, planes + plane);
 }
-inline Pixels load_pixels(__global const float* planes, size_t plane) {
+static inline Pixels load_pixels(__global const float* planes, size_t plane) {
   Pixels pixels;
   for (int c = 0; c < 3; ++c) {
     pixels.light[c] = load_extended(planes + 2 * c * plane, plane);
@@ -29,7 +29,7 @@ inline Pixels load_pixels(__global const float* planes, size_t plane) {
   }
   return pixels;
 }
-inline void store_pixels(const Pixels pixels, __global float* planes, size_t plane) {
+static inline void store_pixels(const Pixels pixels, __global float* planes, size_t plane) {
   for (int c = 0; c < 3; ++c) {
     store_extended(pixels.light[c], planes + 2 * c * plane, plane);
 #ifdef LIGHT_ORDERED
@@ -37,7 +37,7 @@ inline void store_pixels(const Pixels pixels, __global float* planes, size_t pla
 #endif
   }
 }
-inline Pixels no_pixels() {
+static inline Pixels no_pixels() {
   Pixels pixels;
   for (int c = 0; c < 3; ++c) {
     pixels.light[c] = lanes_pair((float8)(0.0f), (float8)(0.0f));
@@ -49,13 +49,14 @@ inline Pixels no_pixels() {
 }
 
 #ifdef LIGHT_ORDERED
-inline float8 transmittance(ExtendedLanes depth) {
+static inline float8 transmittance(ExtendedLanes depth) {
   return precise_exp_negative(high_lanes(depth), low_lanes(depth));
 }
 #endif
 
 // Where the work-item's pixels lie in the planes of their grid.
-inline __global float* own_planes(__global float* planes, const Grid grid, uint tile, uint item) {
+static inline __global float* own_planes(__global float* planes, const Grid grid, uint tile,
+                                         uint item) {
   const uint in_grid = tile - grid.first_tile;
   const uint row = in_grid / (uint)grid.tiles_x * TILE_HEIGHT + item * 8 / TILE_WIDTH;
   const uint column = in_grid % (uint)grid.tiles_x * TILE_WIDTH + item * 8 % TILE_WIDTH;

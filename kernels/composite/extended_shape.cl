@@ -1,6 +1,6 @@
 // Shapes of splats in double precision, eight pixels of a row of a tile at a time.
 
-inline double in_full(FloatPair a) {
+static inline double in_full(FloatPair a) {
   return (double)a.high + (double)a.low;
 }
 
@@ -10,7 +10,7 @@ typedef struct PixelRange {
 } PixelRange;
 
 // `first` is the distance of the first pixel's center.
-inline PixelRange pixels_of_axis(double first, double reach, int size) {
+static inline PixelRange pixels_of_axis(double first, double reach, int size) {
   const double low = -first - reach, high = -first + reach;
   PixelRange range;
   range.first = low <= 0.0 ? 0 : low > (double)size ? size : (int)ceil(low);
@@ -32,8 +32,8 @@ typedef struct ExtendedShape {
 } ExtendedShape;
 
 // Whether the splat reaches the tile.
-inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
-                       const ExtendedTile* of_tile) {
+static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
+                              const ExtendedTile* of_tile) {
   shape->x = of_tile->corner_x - in_full(splat->x);
   shape->y = of_tile->corner_y - in_full(splat->y);
   shape->columns = pixels_of_axis(shape->x, (double)RADIUS_X(*splat), TILE_WIDTH);
@@ -85,7 +85,7 @@ typedef struct Axis {
   PixelRange range;
 } Axis;
 
-inline void fill_centers(double* values, double first, int begin, int end, double sigma) {
+static inline void fill_centers(double* values, double first, int begin, int end, double sigma) {
   for (int k = begin; k < end; k += 8) {
     const double8 u = (first + (double)k + ramp_of_eight()) / sigma;
     vstore8(exp_of_minus(min(u * u, (double8)(700.0))), 0, values + k);
@@ -95,8 +95,8 @@ inline void fill_centers(double* values, double first, int begin, int end, doubl
 // Pixels of a tile of `size`, the first of which has its center at `corner`, in whole eights;
 // nothing beyond the radius. `squeeze`: from distances to those in the disc that an ellipse is made
 // of.
-inline void fill_axis(Axis* axis, double corner, int size, FloatPair center, FloatPair sigma,
-                      float radius, double squeeze) {
+static inline void fill_axis(Axis* axis, double corner, int size, FloatPair center, FloatPair sigma,
+                             float radius, double squeeze) {
   const double first = corner - in_full(center), reach = (double)radius;
   axis->range = pixels_of_axis(first, reach, size);
   if (axis->range.first > axis->range.last) return;
@@ -128,8 +128,8 @@ typedef struct ExtendedShape {
 } ExtendedShape;
 
 // Whether the splat reaches the tile.
-inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
-                       const ExtendedTile* of_tile) {
+static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
+                              const ExtendedTile* of_tile) {
 #ifdef ELLIPSES
   const double squeeze = in_full(splat->sigma) / in_full(splat->along_x.sigma);
 #else

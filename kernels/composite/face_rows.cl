@@ -4,13 +4,13 @@
 // What all splats of a tile share.
 typedef TileOnFace SplatTile;
 
-inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
+static inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
   return tile_on_face(p->face, grid, tile);
 }
 
 // The window's rows of eight.
-inline void fill_rows(float* values, const Window* window, __global const TileSplat* splat,
-                      const SplatTile* of_tile) {
+static inline void fill_rows(float* values, const Window* window, __global const TileSplat* splat,
+                             const SplatTile* of_tile) {
   const float8 columns = (float)window->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float8 x = (of_tile->x + columns) * of_tile->per_focal;
   const float8 dx = columns + FIRST_X - splat->x - LOW_X(*splat);
@@ -23,8 +23,8 @@ inline void fill_rows(float* values, const Window* window, __global const TileSp
 }
 
 // Whether it touches the tile: as in splat_rows.cl.
-inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
-                     float* depth_of_block, const CompositeParameters* p) {
+static inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
+                            float* depth_of_block, const CompositeParameters* p) {
   const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return 0;

@@ -1,7 +1,7 @@
 // exp(-x^2) and erf(x), on VALUEs (lanes.cl, lanes_of_16.cl).
 
 // 2^f on [-1/2, 1/2]: relative error 7.5e-8, within single precision ...
-OVERLOADED inline VALUE exp2_to_all_digits(VALUE f) {
+OVERLOADED static inline VALUE exp2_to_all_digits(VALUE f) {
   VALUE p = f * 1.53458118e-4f + 1.33999314e-3f;
   p = p * f + 9.61848896e-3f;
   p = p * f + 5.55032878e-2f;
@@ -11,7 +11,7 @@ OVERLOADED inline VALUE exp2_to_all_digits(VALUE f) {
 }
 
 // ... and 2.7e-6.
-OVERLOADED inline VALUE exp2_to_five_digits(VALUE f) {
+OVERLOADED static inline VALUE exp2_to_five_digits(VALUE f) {
   VALUE p = f * 9.57010165e-3f + 5.59178621e-2f;
   p = p * f + 0.240247448f;
   p = p * f + 0.693121815f;
@@ -28,26 +28,26 @@ OVERLOADED inline VALUE exp2_to_five_digits(VALUE f) {
 // where it becomes an exponent.
 #define TO_LOW_BITS 12582912.0f
 
-OVERLOADED inline VALUE times_power_of_two(VALUE value, VALUE in_low_bits) {
+OVERLOADED static inline VALUE times_power_of_two(VALUE value, VALUE in_low_bits) {
   return AS_VALUE(AS_INTEGER(value) + (AS_INTEGER(in_low_bits) << 23));
 }
 
 // 2^t for t <= 0.
-OVERLOADED inline VALUE exp2_negative(VALUE t) {
+OVERLOADED static inline VALUE exp2_negative(VALUE t) {
   t = max(t, (VALUE)(-126.0f));
   const VALUE shifted = t + TO_LOW_BITS;
   return times_power_of_two(exp2_of_fraction(t - (shifted - TO_LOW_BITS)), shifted);
 }
 
 // exp(-d^2 / sigma^2) with inverse = log2(e) / sigma^2.
-OVERLOADED inline VALUE gaussian(VALUE d, float inverse) {
+OVERLOADED static inline VALUE gaussian(VALUE d, float inverse) {
   return exp2_negative(d * d * -inverse);
 }
 
 // erf as x p(x^2), constant beyond its range: absolute error 2.3e-6, its even and its odd powers
 // apart, so that half as many steps wait for each other; 1 at the end, so that a grain loses no
 // light ...
-OVERLOADED inline VALUE erf_to_five_digits(VALUE x) {
+OVERLOADED static inline VALUE erf_to_five_digits(VALUE x) {
   x = clamp(x, (VALUE)(-3.35f), (VALUE)(3.35f));
   const VALUE u = x * x * 0.178213418f - 1.0f, u2 = u * u;
   VALUE even = u2 * 0.00507548125f + 0.0106919426f;
@@ -64,7 +64,7 @@ OVERLOADED inline VALUE erf_to_five_digits(VALUE x) {
 }
 
 // ... and 2.3e-7.
-OVERLOADED inline VALUE erf_to_all_digits(VALUE x) {
+OVERLOADED static inline VALUE erf_to_all_digits(VALUE x) {
   x = clamp(x, (VALUE)(-4.0f), (VALUE)(4.0f));
   const VALUE u = x * x * 0.125f - 1.0f;
   VALUE p = u * -0.00112648448f + 0.00287871086f;

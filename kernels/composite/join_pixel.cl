@@ -1,6 +1,6 @@
 // A pixel of a layer behind the planes' one.
-inline void join_pixel(__global float* planes, size_t plane, __global const float* partial,
-                       size_t pixel) {
+static inline void join_pixel(__global float* planes, size_t plane, __global const float* partial,
+                              size_t pixel) {
 #ifdef LIGHT_ORDERED
   for (int c = 0; c < 3; ++c) {
     __global float* source = planes + (size_t)c * plane;

@@ -45,10 +45,10 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #else
 #define BESIDE_CENTER(INTS) (INTS)(-1)
 #endif
-#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                         \
-  inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float cut2, float squeeze) { \
-    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) + dy * dy > cut2;               \
-    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));             \
+#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                                \
+  static inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float cut2, float squeeze) { \
+    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) + dy * dy > cut2;                      \
+    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                    \
   }
 DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #else
@@ -127,7 +127,7 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #define DEPTH_OF_OPACITIES INFINITY
 #endif
 
-inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
+static inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
   if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES)
     return deepest <= p->phi_short ? BY_TWO_TERMS : BY_THREE_TERMS;
   return deepest <= p->phi_series ? BY_SERIES : IN_FULL;
@@ -165,8 +165,8 @@ typedef struct Window {
 } Window;
 
 // Updates the window with across[8] * along[rows]; on a face of a cube with along[rows][8].
-inline void update_window(float* tile, const Window* window, float8 across, const float* along,
-                          __global const TileSplat* splat, int form) {
+static inline void update_window(float* tile, const Window* window, float8 across,
+                                 const float* along, __global const TileSplat* splat, int form) {
 #ifdef CUT_BY_ROWS
   const float8 dx =
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);

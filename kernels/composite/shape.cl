@@ -16,7 +16,7 @@
 
 // exp(-x^2) for 0 <= x <= 9.2, relative error 3e-7: the square is taken apart, since a rounding of
 // it would count as often as it is large.
-inline VALUE exp_of_minus_square(VALUE x) {
+static inline VALUE exp_of_minus_square(VALUE x) {
   const VALUE high = AS_VALUE(AS_INTEGER(x) & (INTEGER)(~0xfff));
   const VALUE square = high * high, rest = (x - high) * (x + high);
   const VALUE shifted = square * -1.44269504f + TO_LOW_BITS;
@@ -28,7 +28,7 @@ inline VALUE exp_of_minus_square(VALUE x) {
 
 // 1 - erf(x) for x >= 0, relative error 5e-7, constant beyond 9.19, where it is 1e-38: exp(-x^2)
 // times t p(t), t = 1 / (1 + x / 2).
-inline VALUE complement_of_erf(VALUE x) {
+static inline VALUE complement_of_erf(VALUE x) {
   x = min(x, (VALUE)(9.19f));
   const VALUE t = 1.0f / (0.5f * x + 1.0f);
   const VALUE u = t * 2.43243241f - 1.43243241f;
@@ -45,7 +45,7 @@ inline VALUE complement_of_erf(VALUE x) {
 
 // The mean over a pixel, over PIXEL_MEAN_SCALE * sigma, from 1 - erf of the distances of its edges:
 // of differences of small numbers, so that far out it keeps its digits.
-inline VALUE mean_of_complements(VALUE left, VALUE of_left, VALUE right, VALUE of_right) {
+static inline VALUE mean_of_complements(VALUE left, VALUE of_left, VALUE right, VALUE of_right) {
   const VALUE beside = choose(of_right - of_left, of_left - of_right, left >= 0.0f);
   return choose(beside, 2.0f - of_left - of_right, left<0.0f & right> 0.0f);
 }
@@ -54,7 +54,7 @@ inline VALUE mean_of_complements(VALUE left, VALUE of_left, VALUE right, VALUE o
 // value at the center times the mean of exp(-(2 d t + t^2) / sigma^2) over -1/2 < t < 1/2, by its
 // series up to the sixth derivative of a Gaussian; the next is (2 d / sigma^2)^8 / 9e7.
 #define WIDE_MEAN 4.0f
-inline VALUE wide_bright_mean(VALUE d, float sigma) {
+static inline VALUE wide_bright_mean(VALUE d, float sigma) {
   const VALUE x = min(fabs(d) / sigma, (VALUE)(9.19f)), slope = x * (2.0f / sigma);
   const VALUE s = slope * slope;
   const float b = -1.0f / (sigma * sigma);
@@ -68,7 +68,7 @@ inline VALUE wide_bright_mean(VALUE d, float sigma) {
 // Splats whose light or depth is well above 1 carry their sigma with a minus where they are
 // taken as means. What errors of their peak would show beside them, so that these means are
 // differences of 1 - erf.
-inline VALUE bright_mean(VALUE d, float sigma) {
+static inline VALUE bright_mean(VALUE d, float sigma) {
   if (sigma >= WIDE_MEAN) return wide_bright_mean(d, sigma);
   const VALUE left = (d - 0.5f) / sigma, right = (d + 0.5f) / sigma;
   return PIXEL_MEAN_SCALE * sigma *
@@ -77,28 +77,28 @@ inline VALUE bright_mean(VALUE d, float sigma) {
 }
 
 // phi(y) = (1 - exp(-y)) / y by two terms of its series (error y^2 / 6) ...
-inline VALUE phi_short(VALUE y) {
+static inline VALUE phi_short(VALUE y) {
   return 1.0f - 0.5f * y;
 }
 
 // ... by four (error y^4 / 120) ...
-inline VALUE phi_series(VALUE y) {
+static inline VALUE phi_series(VALUE y) {
   return 1.0f - y * (0.5f - y * (0.166666667f - y * 0.0416666667f));
 }
 
 // exp(-y) = 1 - y phi(y), where phi is taken by its series.
-inline VALUE passed_by_series(VALUE y, VALUE phi) {
+static inline VALUE passed_by_series(VALUE y, VALUE phi) {
   return 1.0f - y * phi;
 }
 
 // ... and for any y >= 0: the series below 0.1, where 1 - exp(-y) would cancel.
-inline VALUE phi_full(VALUE y) {
+static inline VALUE phi_full(VALUE y) {
   const VALUE direct = (1.0f - exp2_negative(y * -1.44269504f)) / max(y, (VALUE)(0.1f));
   return select(direct, phi_series(y), y < 0.1f);
 }
 
 // Below 0.1 by phi, too: what the polynomial errs by there would be taken away by each of thousands
 // of thin layers.
-inline VALUE passed_in_full(VALUE y, VALUE phi) {
+static inline VALUE passed_in_full(VALUE y, VALUE phi) {
   return select(exp2_negative(y * -1.44269504f), passed_by_series(y, phi), y < 0.1f);
 }

@@ -6,18 +6,18 @@ typedef struct SplatTile {
   float mean_sigma;
 } SplatTile;
 
-inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
+static inline SplatTile splat_tile(const Grid grid, uint tile, const CompositeParameters* p) {
   SplatTile of_tile;
   of_tile.mean_sigma = grid.mean_sigma;
   return of_tile;
 }
 
-inline float inverse_of(float sigma) {
+static inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
 }
 
 // fill_axis() of a bright splat.
-inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
+static inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (sigma >= WIDE_MEAN) {
     for (int k = 0; k < count; k += 8)
@@ -42,8 +42,8 @@ inline void fill_bright_axis(float* values, float first, float low, int count, f
 
 // One axis of the separable shape at `count` pixels, the first one's centre at distance
 // `first` - `low`. Writes whole eights: `values` has room for 16 more than `count`.
-inline void fill_axis(float* values, float first, float low, int count, float sigma,
-                      float mean_sigma) {
+static inline void fill_axis(float* values, float first, float low, int count, float sigma,
+                             float mean_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (sigma < 0.0f) {
     fill_bright_axis(values, first, low, count, -sigma);
@@ -72,7 +72,7 @@ inline void fill_axis(float* values, float first, float low, int count, float si
 
 // Means of pixels between seven neighboring edges, of which `distances` are those from the center;
 // the eighth is 0.
-inline float8 means_between(float8 distances, float sigma) {
+static inline float8 means_between(float8 distances, float sigma) {
   const float8 edges = distances / fabs(sigma);
   if (sigma < 0.0f) {
     const float8 beyond = complement_of_erf(fabs(edges));
@@ -84,13 +84,13 @@ inline float8 means_between(float8 distances, float sigma) {
 }
 
 // Pixel means of seven pixels, the first one's center at distance `first` - `low`; the eighth is 0.
-inline float8 seven_means(float first, float low, float sigma) {
+static inline float8 seven_means(float first, float low, float sigma) {
   return means_between(first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low, sigma);
 }
 
 // Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
 // the first.
-inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
+static inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
 #ifdef KERNEL_CUT
   const float last = FIRST_X + (float)(width - 1);
   const float nearest =
@@ -122,9 +122,10 @@ INLINED float16 sixteen_of_axis(float first, float low, int begin, float16 ramp,
 }
 
 // Both axes stay in registers. A call with sixteen floats, as update_window_of_16() is.
-__attribute__((noinline)) void add_window_of_16(float* tile, int2 rows, int column, float16 ramp,
-                                                __global const TileSplat* splat, float mean_sigma,
-                                                int form) {
+__attribute__((noinline)) static void add_window_of_16(float* tile, int2 rows, int column,
+                                                       float16 ramp,
+                                                       __global const TileSplat* splat,
+                                                       float mean_sigma, int form) {
   const float sigma = splat->sigma;
   const float first_x = (float)column + FIRST_X - splat->x;
   const float first_y = (float)rows.x + FIRST_Y - splat->y;
@@ -140,14 +141,14 @@ __attribute__((noinline)) void add_window_of_16(float* tile, int2 rows, int colu
 }
 
 // Whether a splat's columns fit a window of sixteen, and its rows the means of one.
-inline int fits_window_of_16(int columns, int rows, float sigma, float mean_sigma) {
+static inline int fits_window_of_16(int columns, int rows, float sigma, float mean_sigma) {
   if (columns <= 8) return 0;
   return sigma >= mean_sigma ? columns <= 16 : sigma > 0.0f && max(columns, rows) <= 15;
 }
 #endif
 
-inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
-                           float mean_sigma, int form) {
+static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
+                                  int2 columns, float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
@@ -173,8 +174,8 @@ inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 ro
 
 // Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
 // Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
-inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
-                     float* depth_of_block, const CompositeParameters* p) {
+static inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
+                            float* depth_of_block, const CompositeParameters* p) {
   const float mean_sigma = of_tile->mean_sigma;
   const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
   const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);

@@ -57,14 +57,15 @@ INLINED void update_rows_of_16(float* tile, const Window* window, float16 across
 
 // A call, and its argument tells the compiler that it may use registers of sixteen floats, from
 // which it keeps away otherwise.
-__attribute__((noinline)) void update_window_of_16(float* tile, const Window* window,
-                                                   float16 across, const float* along,
-                                                   __global const TileSplat* splat, int form) {
+__attribute__((noinline)) static void update_window_of_16(float* tile, const Window* window,
+                                                          float16 across, const float* along,
+                                                          __global const TileSplat* splat,
+                                                          int form) {
   update_rows_of_16(tile, window, across, along, splat, form);
 }
 
 // Whether rows of sixteen serve for a splat's layer.
-inline int takes_rows_of_16(int form) {
+static inline int takes_rows_of_16(int form) {
 #ifdef LIGHT_ORDERED
   return form <= BY_THREE_TERMS;
 #else

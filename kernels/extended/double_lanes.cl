@@ -2,14 +2,14 @@
 // compiler's own functions take them one by one.
 #pragma OPENCL FP_CONTRACT ON
 
-inline double8 ramp_of_eight() {
+static inline double8 ramp_of_eight() {
   return (double8)(0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 // exp(-y) for -700 <= y <= 700, relative error 1e-14. 1.5 * 2^52, added to a number, rounds it to
 // an integer and leaves it in the low bits; ln 2 is in two parts, the first so short that its
 // multiples are exact.
-inline double8 exp_of_minus(double8 y) {
+static inline double8 exp_of_minus(double8 y) {
   const double magic = 6755399441055744.0;
   const double8 shifted = y * -1.4426950408889634 + magic;
   const double8 n = shifted - magic;
@@ -30,7 +30,7 @@ inline double8 exp_of_minus(double8 y) {
 
 // 1 - erf(x) for x >= 0, relative error 2e-13, constant beyond 10, where it is 2e-45: exp(-x^2)
 // times t p(t), t = 1 / (1 + 0.3 x).
-inline double8 complement_of_erf(double8 x) {
+static inline double8 complement_of_erf(double8 x) {
   x = select(x, (double8)(10.0), x > 10.0);
   const double8 t = 1.0 / (x * 0.3 + 1.0);
   const double8 u = t * 2.6633499170812605 - 1.6633499170812602;

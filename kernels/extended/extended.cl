@@ -10,130 +10,130 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double Extended;
 
-inline Extended extended_of(float a) {
+static inline Extended extended_of(float a) {
   return (double)a;
 }
-inline Extended extended_pair(FloatPair a) {
+static inline Extended extended_pair(FloatPair a) {
   return (double)a.high + (double)a.low;
 }
-inline float high_part(Extended a) {
+static inline float high_part(Extended a) {
   return (float)a;
 }
-inline float low_part(Extended a) {
+static inline float low_part(Extended a) {
   return (float)(a - (double)(float)a);
 }
-inline Extended extended_negative(Extended a) {
+static inline Extended extended_negative(Extended a) {
   return -a;
 }
-inline Extended extended_sum(Extended a, Extended b) {
+static inline Extended extended_sum(Extended a, Extended b) {
   return a + b;
 }
-inline Extended extended_product(Extended a, Extended b) {
+static inline Extended extended_product(Extended a, Extended b) {
   return a * b;
 }
-inline Extended extended_scaled(Extended a, float power_of_two) {
+static inline Extended extended_scaled(Extended a, float power_of_two) {
   return a * (double)power_of_two;
 }
-inline Extended extended_quotient(Extended a, Extended b) {
+static inline Extended extended_quotient(Extended a, Extended b) {
   return a / b;
 }
-inline Extended extended_root(Extended a) {
+static inline Extended extended_root(Extended a) {
   return sqrt(a);
 }
-inline int extended_less(Extended a, Extended b) {
+static inline int extended_less(Extended a, Extended b) {
   return a < b;
 }
 #else
 typedef float2 Extended;
 
-inline Extended extended_of(float a) {
+static inline Extended extended_of(float a) {
   return (float2)(a, 0.0f);
 }
-inline Extended extended_pair(FloatPair a) {
+static inline Extended extended_pair(FloatPair a) {
   return (float2)(a.high, a.low);
 }
-inline float high_part(Extended a) {
+static inline float high_part(Extended a) {
   return a.x;
 }
-inline float low_part(Extended a) {
+static inline float low_part(Extended a) {
   return a.y;
 }
-inline Extended extended_negative(Extended a) {
+static inline Extended extended_negative(Extended a) {
   return -a;
 }
 
 // a + b where |a| >= |b| or a = 0. An infinite sum has no low part.
-inline Extended renormalized(float a, float b) {
+static inline Extended renormalized(float a, float b) {
   const float sum = a + b;
   const float low = b - (sum - a);
   return (float2)(sum, isfinite(sum) ? low : 0.0f);
 }
-inline float2 extended_float_sum(float a, float b) {
+static inline float2 extended_float_sum(float a, float b) {
   const float sum = a + b;
   const float back = sum - a;
   return (float2)(sum, (a - (sum - back)) + (b - back));
 }
-inline Extended extended_sum(Extended a, Extended b) {
+static inline Extended extended_sum(Extended a, Extended b) {
   const float2 high = extended_float_sum(a.x, b.x);
   const float2 low = extended_float_sum(a.y, b.y);
   const float2 first = renormalized(high.x, high.y + low.x);
   return renormalized(first.x, first.y + low.y);
 }
-inline Extended extended_product(Extended a, Extended b) {
+static inline Extended extended_product(Extended a, Extended b) {
   const float high = a.x * b.x;
   const float low = fma(a.x, b.x, -high) + (a.x * b.y + a.y * b.x);
   return renormalized(high, low);
 }
-inline Extended extended_scaled(Extended a, float power_of_two) {
+static inline Extended extended_scaled(Extended a, float power_of_two) {
   return a * power_of_two;
 }
-inline Extended extended_quotient(Extended a, Extended b) {
+static inline Extended extended_quotient(Extended a, Extended b) {
   const float first = a.x / b.x;
   const Extended rest = extended_sum(a, extended_negative(extended_product(b, extended_of(first))));
   const float second = rest.x / b.x;
   return isfinite(first) ? renormalized(first, second) : extended_of(first);
 }
-inline Extended extended_root(Extended a) {
+static inline Extended extended_root(Extended a) {
   if (!(a.x > 0.0f)) return extended_of(0.0f);
   const float root = sqrt(a.x);
   const Extended rest =
       extended_sum(a, extended_negative(extended_product(extended_of(root), extended_of(root))));
   return renormalized(root, rest.x / (2.0f * root));
 }
-inline int extended_less(Extended a, Extended b) {
+static inline int extended_less(Extended a, Extended b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 #endif
 
-inline FloatPair pair_of(Extended a) {
+static inline FloatPair pair_of(Extended a) {
   FloatPair pair;
   pair.high = high_part(a);
   pair.low = low_part(a);
   return pair;
 }
-inline Extended extended_constant(float high, float low) {
+static inline Extended extended_constant(float high, float low) {
   FloatPair pair;
   pair.high = high;
   pair.low = low;
   return extended_pair(pair);
 }
-inline Extended extended_difference(Extended a, Extended b) {
+static inline Extended extended_difference(Extended a, Extended b) {
   return extended_sum(a, extended_negative(b));
 }
-inline int is_negative(Extended a) {
+static inline int is_negative(Extended a) {
   return high_part(a) < 0.0f;
 }
-inline Extended extended_magnitude(Extended a) {
+static inline Extended extended_magnitude(Extended a) {
   return is_negative(a) ? extended_negative(a) : a;
 }
 
 // 2^n for -126 <= n <= 127.
-inline float extended_power_of_two(int n) {
+static inline float extended_power_of_two(int n) {
   return as_float((n + 127) << 23);
 }
 
 // exp(t) for t <= 80, relative error 3e-9; 0 below -86, where single precision ends.
-inline Extended extended_exp(Extended t) {
+static inline Extended extended_exp(Extended t) {
   if (!(high_part(t) > -86.0f)) return extended_of(0.0f);
   const float n = rint(high_part(t) * 1.44269504f);
   const Extended ln2 = extended_constant(6.931471825e-01f, -1.904654212e-09f);
@@ -156,7 +156,7 @@ inline Extended extended_exp(Extended t) {
 // erfc(x) for x >= 0, relative error 5e-9; 0 from 9.2 on, where exp(-x^2) ends above. As
 // (1 + 2 x) exp(x^2) erfc(x), a smooth function of x / (x + 3): Chebyshev polynomial of
 // degree 14 over [0, 12].
-inline Extended extended_erfc(Extended x) {
+static inline Extended extended_erfc(Extended x) {
   if (!(high_part(x) < 9.2f)) return extended_of(0.0f);
   const Extended place = extended_quotient(x, extended_sum(x, extended_of(3.0f)));
   const Extended z =
@@ -184,7 +184,7 @@ inline Extended extended_erfc(Extended x) {
 
 // ln(x) of a positive, finite number, absolute error 3e-9: one step of Newton's from single
 // precision.
-inline Extended extended_log(Extended x) {
+static inline Extended extended_log(Extended x) {
   // Denormals and numbers near the largest stay inside exp's range.
   const float size = high_part(x);
   const int tiny = size<1e-20f, huge = size> 1e20f;
@@ -197,7 +197,7 @@ inline Extended extended_log(Extended x) {
 }
 
 // asinh(v), absolute error 3e-9, relative 1e-7 or better near 0.
-inline Extended extended_asinh(float v) {
+static inline Extended extended_asinh(float v) {
   const float size = fabs(v);
   const Extended a = extended_of(size);
   Extended result;

@@ -1,7 +1,7 @@
 // Lengths and angles of extended numbers (extended.cl), relative error 2^-42.
 
 // sqrt(a^2 + b^2); no square leaves single precision.
-inline Extended extended_hypotenuse(Extended a, Extended b) {
+static inline Extended extended_hypotenuse(Extended a, Extended b) {
   const Extended first = extended_magnitude(a), second = extended_magnitude(b);
   const int swaps = extended_less(first, second);
   const Extended longer = swaps ? second : first, shorter = swaps ? first : second;
@@ -13,7 +13,7 @@ inline Extended extended_hypotenuse(Extended a, Extended b) {
 
 // Below, extended_atan2(): the angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
 #ifdef DOUBLE_NUMBERS
-inline Extended extended_atan2(Extended y, Extended x) {
+static inline Extended extended_atan2(Extended y, Extended x) {
   // Zeros without signs, which would turn a pole by half a turn.
   return atan2(y + 0.0, x + 0.0);
 }
@@ -43,7 +43,7 @@ __constant float arctangent_low[17] = {0.0f,
 
 // atan(v) for 0 <= v <= 1, as atan(k / 16) + atan(t) with |t| <= 1/32: of the series of the
 // latter t^13 / 13 is below 2^-63 of it, and from t^5 on single precision serves.
-inline Extended extended_arctangent(Extended v) {
+static inline Extended extended_arctangent(Extended v) {
   const float k = rint(high_part(v) * 16.0f);
   const Extended step = extended_of(k * 0.0625f);
   const Extended t = extended_quotient(extended_difference(v, step),
@@ -58,7 +58,7 @@ inline Extended extended_arctangent(Extended v) {
   return extended_sum(extended_constant(arctangent_high[(int)k], arctangent_low[(int)k]), series);
 }
 
-inline Extended extended_atan2(Extended y, Extended x) {
+static inline Extended extended_atan2(Extended y, Extended x) {
   const Extended along = extended_magnitude(x), across = extended_magnitude(y);
   const int steep = extended_less(along, across);
   const Extended longer = steep ? across : along, shorter = steep ? along : across;

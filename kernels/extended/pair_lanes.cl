@@ -6,7 +6,7 @@ typedef struct PairLanes {
   VALUE high, low;
 } PairLanes;
 
-inline PairLanes pair_lanes(FloatPair a) {
+static inline PairLanes pair_lanes(FloatPair a) {
   PairLanes pair;
   pair.high = (VALUE)(a.high);
   pair.low = (VALUE)(a.low);

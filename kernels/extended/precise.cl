@@ -2,7 +2,7 @@
 // negligible, on VALUEs (lanes.cl): for light, whose relative error no later step enlarges.
 
 // exp(-(high + low)) for high >= 0, |low| far below 1; 0 from 86 on.
-inline VALUE precise_exp_negative(VALUE high, VALUE low) {
+static inline VALUE precise_exp_negative(VALUE high, VALUE low) {
   const VALUE t = -min(high, (VALUE)(86.0f));
   const VALUE n = rint(t * 1.44269504f);
   // ln(2) in two floats, the first of few bits, so that its product with n is exact.
@@ -24,7 +24,7 @@ inline VALUE precise_exp_negative(VALUE high, VALUE low) {
 
 // (1 - exp(-y)) / y for y >= 0: eleven terms of its series up to 1, where 1 - exp(-y) begins
 // to keep its digits.
-inline VALUE precise_phi(VALUE y) {
+static inline VALUE precise_phi(VALUE y) {
   const VALUE x = -min(y, (VALUE)(1.0f));
   VALUE p = x * 2.50521084e-8f + 2.75573192e-7f;
   p = p * x + 2.75573192e-6f;

@@ -60,11 +60,11 @@ INLINED void write(VALUE between, uint begin, uint width, uint component, uint p
     values[(size_t)(begin + k) * width + component] = found[k];
 }
 
-inline VALUE mean_of(VALUE a, VALUE b, float fraction) {
+static inline VALUE mean_of(VALUE a, VALUE b, float fraction) {
   return choose(a + fraction * (b - a), a, a == b);
 }
 
-inline VALUE log2_of_mantissa(VALUE m) {
+static inline VALUE log2_of_mantissa(VALUE m) {
   const VALUE x = m - 1.0f;
   VALUE p = 0.1292618f;
   p = p * x - 0.20893268f;
@@ -78,7 +78,7 @@ inline VALUE log2_of_mantissa(VALUE m) {
   return p * x;
 }
 
-inline VALUE exp2_of_rest(VALUE x) {
+static inline VALUE exp2_of_rest(VALUE x) {
   VALUE p = 0.00015469728f;
   p = p * x + 0.0013390867f;
   p = p * x + 0.009618031f;
@@ -89,18 +89,18 @@ inline VALUE exp2_of_rest(VALUE x) {
 }
 
 // Of a normal number > 0, as m 2^e with m from sqrt(1/2) to sqrt(2).
-inline INTEGER exponent_of(VALUE value) {
+static inline INTEGER exponent_of(VALUE value) {
   return (AS_INTEGER(value) - 0x3f3504f3) >> 23;
 }
-inline VALUE mantissa_of(VALUE value) {
+static inline VALUE mantissa_of(VALUE value) {
   return AS_VALUE(((AS_INTEGER(value) - 0x3f3504f3) & 0x007fffff) + 0x3f3504f3);
 }
 
-inline VALUE exact_power_of_two(INTEGER exponent) {
+static inline VALUE exact_power_of_two(INTEGER exponent) {
   return AS_VALUE((exponent + 127) << 23);
 }
 
-inline INTEGER is_normal_and_positive(VALUE value) {
+static inline INTEGER is_normal_and_positive(VALUE value) {
   return value >= FLT_MIN & value <= FLT_MAX;
 }
 
@@ -120,7 +120,7 @@ INLINED VALUE geometric_mean_of(VALUE any_a, VALUE any_b, float fraction) {
 }
 
 // Those that vanish and appear have their own.
-inline VALUE of_members(VALUE both, VALUE vanishing, VALUE appearing, const MemberLanes of) {
+static inline VALUE of_members(VALUE both, VALUE vanishing, VALUE appearing, const MemberLanes of) {
   return choose(appearing, choose(vanishing, both, of.in_second), of.in_first);
 }
 
@@ -147,11 +147,11 @@ __kernel void interpolate_values(const InterpolateParameters p, __global const f
   }
 }
 
-inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
+static inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
   return (x - periods * path.size_high) - periods * path.size_low;
 }
 
-inline VALUE wrapped(VALUE x, uint axis, const PathParameters path) {
+static inline VALUE wrapped(VALUE x, uint axis, const PathParameters path) {
   if (!path.is_periodic) return x;
   const INTEGER is_inside = x >= path.lower[axis] & x < path.upper[axis];
   const VALUE moved = less_periods(x, floor((x - path.lower[axis]) * path.inverse_size), path);

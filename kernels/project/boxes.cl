@@ -11,7 +11,7 @@ INLINED void take_in(VALUE value, INTEGER good, VALUE* lower, VALUE* upper) {
   *upper = choose(*upper, max(*upper, value), good);
 }
 
-inline float least_of(VALUE values) {
+static inline float least_of(VALUE values) {
   float lanes[LANES];
   STORE(values, lanes);
   float least = lanes[0];

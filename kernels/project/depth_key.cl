@@ -11,11 +11,11 @@ typedef struct Depth {
   INTEGER is_before_camera;  // where a projection can show it at all
 } Depth;
 
-inline long wide_integer(WideInteger words) {
+static inline long wide_integer(WideInteger words) {
   return (long)((ulong)words.low | ((ulong)words.high << 32));
 }
 
-inline VALUE power_of_two_float(INTEGER exponent) {
+static inline VALUE power_of_two_float(INTEGER exponent) {
   return AS_VALUE((127 + exponent) << 23);
 }
 
@@ -163,9 +163,9 @@ INLINED INTEGER is_within_limits(const Depth depth, VALUE h, const DepthKeyParam
 }
 
 // Of particles from i on, those of which this is asked. A call: hardly any are.
-__attribute__((noinline)) INTEGER are_within_limits(uint i, uint end, INTEGER asked,
-                                                    const Columns columns,
-                                                    const ProjectParameters p) {
+__attribute__((noinline)) static INTEGER are_within_limits(uint i, uint end, INTEGER asked,
+                                                           const Columns columns,
+                                                           const ProjectParameters p) {
   const VALUE h = load_values(columns.smoothing_lengths, i, end, p.smoothing_length_stride);
   const Depth depth = depth_of(load_vectors(columns.positions, i, end), p.depth_key);
   return (asked == 0) | is_within_limits(depth, h, p.depth_key);

@@ -7,8 +7,8 @@ typedef struct ExtendedFaceEllipse {
   float sigma_x, sigma_y, wide;
 } ExtendedFaceEllipse;
 
-inline Extended extended_face_footprint(Extended squared_width, const ProjectParameters p,
-                                        const ExtendedParameters e) {
+static inline Extended extended_face_footprint(Extended squared_width, const ProjectParameters p,
+                                               const ExtendedParameters e) {
   if (!(p.footprint > 0.0f)) return extended_of(0.0f);
   const Extended one = extended_of(1.0f);
   const Extended sixth = extended_constant(1.666666716e-01f, -4.967053879e-09f);
@@ -25,9 +25,9 @@ inline Extended extended_face_footprint(Extended squared_width, const ProjectPar
 }
 
 // Of a cloud at (x, y) pixels from the face's middle; `sigma` as extended_wide_angle() has it.
-inline ExtendedFaceEllipse extended_face_ellipse(Extended sigma, Extended x, Extended y,
-                                                 const ProjectParameters p,
-                                                 const ExtendedParameters e) {
+static inline ExtendedFaceEllipse extended_face_ellipse(Extended sigma, Extended x, Extended y,
+                                                        const ProjectParameters p,
+                                                        const ExtendedParameters e) {
   const Extended focal = extended_pair(e.pixels_per_length);
   x = extended_quotient(x, focal);
   y = extended_quotient(y, focal);
@@ -43,8 +43,8 @@ inline ExtendedFaceEllipse extended_face_ellipse(Extended sigma, Extended x, Ext
   return ellipse;
 }
 
-inline float extended_face_reach(const ExtendedFaceEllipse ellipse, float extent,
-                                 const ProjectParameters p) {
+static inline float extended_face_reach(const ExtendedFaceEllipse ellipse, float extent,
+                                        const ProjectParameters p) {
   const float g = high_part(ellipse.squared_width), c = high_part(ellipse.footprint);
   const float own = high_part(ellipse.secant2);
   const float way = extent * ellipse.wide / (p.pixels_per_length * sqrt(own));
@@ -53,7 +53,7 @@ inline float extended_face_reach(const ExtendedFaceEllipse ellipse, float extent
 }
 
 // What any pixel shows of the cloud's own peak, at most.
-inline float extended_face_part(const ExtendedFaceEllipse ellipse) {
+static inline float extended_face_part(const ExtendedFaceEllipse ellipse) {
   const float gk = 3.0f * high_part(ellipse.squared_width), c = high_part(ellipse.footprint);
   return c > 0.0f ? gk / (gk + c) : 1.0f;
 }

@@ -3,7 +3,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // A field in [0, 1] (frame.h, ScalarMap).
-inline VALUE normalized(VALUE value, const FieldScaling map) {
+static inline VALUE normalized(VALUE value, const FieldScaling map) {
   VALUE scaled = value;
   if (map.scaling == SCALING_LOG) {
     scaled = choose((VALUE)(-INFINITY), log2_positive(max(value, (VALUE)(1e-45f))) * 0.301029996f,
@@ -16,7 +16,7 @@ inline VALUE normalized(VALUE value, const FieldScaling map) {
 }
 
 // w (scene.h, WeightModel); sigma_scaled is sigma in world units times length_scale.
-inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
+static inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
   const VALUE sigma_scaled = max(p.kernel_width * h * p.length_scale, (VALUE)(FLT_MIN));
   if (p.weight_model == WEIGHT_MASS) {
     return raw * p.weight_scale / sigma_scaled * p.weight_scale / sigma_scaled;
@@ -27,7 +27,8 @@ inline VALUE column_weight(VALUE raw, VALUE h, const ProjectParameters p) {
 
 // What `widening` times the width does to w at that width, for the light to stay the same: columns
 // of masses follow the width by themselves.
-inline VALUE weight_of_widened(VALUE weight, VALUE inverse_widening, const ProjectParameters p) {
+static inline VALUE weight_of_widened(VALUE weight, VALUE inverse_widening,
+                                      const ProjectParameters p) {
   if (p.weight_model == WEIGHT_MASS) return weight;
   const VALUE lowered = weight * inverse_widening;
   if (p.weight_model == WEIGHT_CONSTANT) return lowered;
@@ -35,7 +36,7 @@ inline VALUE weight_of_widened(VALUE weight, VALUE inverse_widening, const Proje
 }
 
 // A weight whose splat gives no pixel more than MOST_LIGHT; `peak` is what it gives per weight.
-inline VALUE limited_weight(VALUE weight, VALUE peak) {
+static inline VALUE limited_weight(VALUE weight, VALUE peak) {
   const INTEGER fits = weight * peak <= MOST_LIGHT;  // not if it is no number
   if (!ANY(fits == 0)) return weight;
   return fmin(weight, min(MOST_LIGHT / max(peak, (VALUE)(FLT_MIN)), (VALUE)(FLT_MAX)));
@@ -43,7 +44,7 @@ inline VALUE limited_weight(VALUE weight, VALUE peak) {
 
 // How many sigma a splat is drawn: at least so far that the light outside the square does
 // not show in a sum of many, and for a bright one so far that its own edge does not show.
-inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameters p) {
+static inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameters p) {
   const VALUE over_edge = peak * p.inverse_edge;
   if (!ANY((over_edge > 1.0f) | (farther > 0.0f))) return (VALUE)(p.least_extent);
   const VALUE excess = log2_positive(max(over_edge, (VALUE)(1.0f)));
@@ -52,29 +53,29 @@ inline VALUE truncation_extent(VALUE peak, VALUE farther, const ProjectParameter
 
 // The width below which a bright splat is taken as means. At the distance where it has faded
 // to 1 the widened center value errs by 5.6e-3 ln(peak)^2 / sigma^4 of what is there.
-inline VALUE bright_mean_limit(VALUE peak, const ProjectParameters p) {
+static inline VALUE bright_mean_limit(VALUE peak, const ProjectParameters p) {
   const VALUE fading = 0.693147181f * log2_positive(max(peak, (VALUE)(1.0f)));
   return p.bright_mean_sigma * sqrt(max(0.853f * fading, (VALUE)(1.0f)));
 }
 
 // The largest n with 2^n <= value, for positive values.
-inline INTEGER power_of_two(VALUE value) {
+static inline INTEGER power_of_two(VALUE value) {
   return (AS_INTEGER(value) >> 23) - 127;
 }
 
-inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameters p) {
+static inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectParameters p) {
   const INTEGER grid = clamp(octave, (INTEGER)(0), (INTEGER)(p.grid_count - 1));
   return select(grid, (INTEGER)(0), peak > p.coarse_peak);
 }
 
 // Its pixels are 2^level of the picture's wide. Two blurred grids share a level.
-inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
+static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
   return p.blurred ? (grid + 1) >> 1 : grid;
 }
 
 // Wide splats go to the coarsest grid that still shows their shape, bright ones finer. Two
 // blurred grids make an octave.
-inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
+static inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
   VALUE amplified = (VALUE)(p.coarse_sigma);
   if (ANY(peak > 1.0f)) amplified *= sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
   const VALUE ratio = sigma / amplified;

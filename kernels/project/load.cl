@@ -2,7 +2,7 @@
 
 // LANES values from index i on; those from `end` on repeat the last one, since a mapped
 // file may end with its last value. Stride 0: one value for all.
-inline VALUE load_values(__global const float* values, uint i, uint end, int stride) {
+static inline VALUE load_values(__global const float* values, uint i, uint end, int stride) {
   if (stride == 0) return (VALUE)(values[0]);
 #ifdef LANES_8
   if (i + LANES > end) {
@@ -122,10 +122,10 @@ INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
   return particles;
 }
 
-inline INTEGER is_finite(VALUE v) {
+static inline INTEGER is_finite(VALUE v) {
   return fabs(v) <= FLT_MAX;
 }
-inline INTEGER is_color(VALUE v) {
+static inline INTEGER is_color(VALUE v) {
   return v >= 0.0f & v <= FLT_MAX;
 }
 

@@ -10,14 +10,14 @@ typedef struct ExtendedPlace {
 #endif
 } ExtendedPlace;
 
-inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
+static inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
   return extended_sum(extended_sum(extended_product(d[0], extended_pair(axis[0])),
                                    extended_product(d[1], extended_pair(axis[1]))),
                       extended_product(d[2], extended_pair(axis[2])));
 }
 
-inline void extended_offset(__global const float* position, const ExtendedParameters e,
-                            Extended* d) {
+static inline void extended_offset(__global const float* position, const ExtendedParameters e,
+                                   Extended* d) {
   for (int axis = 0; axis < 3; ++axis) {
     d[axis] = extended_difference(extended_of(position[axis]), extended_of(e.position[axis][0]));
     d[axis] = extended_difference(d[axis], extended_of(e.position[axis][1]));
@@ -27,15 +27,15 @@ inline void extended_offset(__global const float* position, const ExtendedParame
 
 #ifdef WIDE_ANGLE
 // n with 2^n <= the largest of the three < 2^(n + 1), in the range of extended_power_of_two().
-inline int exponent_of_largest(const Extended* d) {
+static inline int exponent_of_largest(const Extended* d) {
   const float largest =
       max(fabs(high_part(d[0])), max(fabs(high_part(d[1])), fabs(high_part(d[2]))));
   return clamp((as_int(largest) >> 23) - 127, -126, 126);
 }
 
 // In units of a power of two near the distance, so that no length's unit matters.
-inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
-                                    const ExtendedParameters e) {
+static inline ExtendedPlace extended_place(__global const float* position,
+                                           const ProjectParameters p, const ExtendedParameters e) {
   Extended d[3], v[3];
   extended_offset(position, e, d);
   const int exponent = exponent_of_largest(d);
@@ -59,8 +59,8 @@ inline ExtendedPlace extended_place(__global const float* position, const Projec
   return place;
 }
 #else
-inline ExtendedPlace extended_place(__global const float* position, const ProjectParameters p,
-                                    const ExtendedParameters e) {
+static inline ExtendedPlace extended_place(__global const float* position,
+                                           const ProjectParameters p, const ExtendedParameters e) {
   Extended d[3];
   extended_offset(position, e, d);
   ExtendedPlace place;

@@ -12,9 +12,9 @@
           TILE_PARAMETERS
 
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles.
-__attribute__((noinline)) void project_block(uint block, const ProjectParameters* of_frame,
-                                             const ExtendedParameters* extended_of_frame,
-                                             PROJECT_PARAMETERS) {
+__attribute__((noinline)) static void project_block(uint block, const ProjectParameters* of_frame,
+                                                    const ExtendedParameters* extended_of_frame,
+                                                    PROJECT_PARAMETERS) {
   const ProjectParameters p = *of_frame;
   const ExtendedParameters e = *extended_of_frame;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,

@@ -2,8 +2,8 @@
 // those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
 
 // In [0, 1] (frame.h, ScalarMap).
-inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
-                                    FloatPair inverse_range) {
+static inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
+                                           FloatPair inverse_range) {
   Extended scaled = extended_of(value);
   if (scaling == SCALING_LOG) {
     if (!(value > 0.0f)) return extended_of(0.0f);
@@ -18,8 +18,8 @@ inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
 }
 
 // w (scene.h, WeightModel), with sigma in world units; weight_scale as in project.cl.
-inline Extended extended_column(float raw, Extended h, const ProjectParameters p,
-                                const ExtendedParameters e) {
+static inline Extended extended_column(float raw, Extended h, const ProjectParameters p,
+                                       const ExtendedParameters e) {
   const Extended scale = extended_pair(e.weight_scale);
   const Extended length_scale = extended_of(p.length_scale);
   Extended sigma_scaled =
@@ -38,21 +38,21 @@ inline Extended extended_column(float raw, Extended h, const ProjectParameters p
 }
 
 // As weight_of_widened() and limited_weight() do it for lanes.
-inline Extended extended_weight_of_widened(Extended weight, Extended inverse_widening,
-                                           const ProjectParameters p) {
+static inline Extended extended_weight_of_widened(Extended weight, Extended inverse_widening,
+                                                  const ProjectParameters p) {
   if (p.weight_model == WEIGHT_MASS) return weight;
   const Extended lowered = extended_product(weight, inverse_widening);
   if (p.weight_model == WEIGHT_CONSTANT) return lowered;
   return extended_product(extended_product(lowered, inverse_widening), inverse_widening);
 }
-inline Extended extended_limited_weight(Extended weight, float peak) {
+static inline Extended extended_limited_weight(Extended weight, float peak) {
   const float most = min(MOST_LIGHT / max(peak, FLT_MIN), FLT_MAX);
   return high_part(weight) < most ? weight : extended_of(most);
 }
 
 // Width in pixels and w, before its intensity; `scale` is pixels per length.
-inline void extended_width(float raw, Extended h, Extended scale, const ProjectParameters p,
-                           const ExtendedParameters e, Extended* sigma, Extended* weight) {
+static inline void extended_width(float raw, Extended h, Extended scale, const ProjectParameters p,
+                                  const ExtendedParameters e, Extended* sigma, Extended* weight) {
   const Extended width = extended_pair(e.kernel_width);
   const Extended h_pixels = extended_product(h, scale);
   *sigma = extended_product(width, h_pixels);
@@ -73,8 +73,8 @@ inline void extended_width(float raw, Extended h, Extended scale, const ProjectP
   }
 }
 
-inline void extended_knots(__global const float* knots, uint first, uint count, Extended position,
-                           Extended* color) {
+static inline void extended_knots(__global const float* knots, uint first, uint count,
+                                  Extended position, Extended* color) {
   const Extended place = extended_product(position, extended_of((float)(count - 1u)));
   uint below = min((uint)high_part(place), count - 1u);
   // The high part alone may have been rounded up to the next knot.
@@ -91,10 +91,10 @@ inline void extended_knots(__global const float* knots, uint first, uint count, 
 
 // E w and A w (scene.h, Absorption) at palette position `position`; emission comes with the
 // particle's own colour in it.
-inline void extended_amplitudes(Extended position, Extended weight, const Extended* own,
-                                const ComponentColors colors, __global const float* knots,
-                                const ExtendedParameters e, Extended* emission,
-                                Extended* absorption) {
+static inline void extended_amplitudes(Extended position, Extended weight, const Extended* own,
+                                       const ComponentColors colors, __global const float* knots,
+                                       const ExtendedParameters e, Extended* emission,
+                                       Extended* absorption) {
   const Extended bright = extended_product(weight, extended_pair(e.brightness));
   const Extended factor = extended_pair(e.absorption_factor);
   Extended emitted[3], absorbed[3];
@@ -124,17 +124,17 @@ inline void extended_amplitudes(Extended position, Extended weight, const Extend
 
 // How many sigma are drawn so that no sum of all of the frame's splats leaves out more than
 // the truncation's share.
-inline float extended_extent(float peak, const ExtendedParameters e) {
+static inline float extended_extent(float peak, const ExtendedParameters e) {
   return sqrt(log(max(peak * e.inverse_share, 1.0f))) + 1e-3f;
 }
 
 // Tiles are chosen by rounded numbers: with room for that, `far` pixels from the picture's middle.
-inline float rounded_radius(float radius, float far) {
+static inline float rounded_radius(float radius, float far) {
   return radius * 1.000001f + 2e-7f * far;
 }
 
 // How far a splat of this width is drawn along one axis.
-inline float radius_of(Extended sigma, float extent, const ExtendedParameters e) {
+static inline float radius_of(Extended sigma, float extent, const ExtendedParameters e) {
 #ifdef KERNEL_CUT
   const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
   const float radius = min(extent * high_part(sigma), high_part(cut) * 1.000001f);
@@ -149,8 +149,8 @@ inline float radius_of(Extended sigma, float extent, const ExtendedParameters e)
 }
 
 // As splat_place() does for lanes, well enough to choose tiles by.
-inline void put_in_units(float x, float y, float farthest, const ProjectParameters p,
-                         Splat* splat) {
+static inline void put_in_units(float x, float y, float farthest, const ProjectParameters p,
+                                Splat* splat) {
   const int exponent = (as_int(max(max(fabs(x), fabs(y)), farthest)) >> 23) - 127;
   const int coarser = max(exponent + p.place_bits - 29, 0);
   const float units_per_pixel = as_float((127 + p.place_bits - coarser) << 23);
@@ -160,17 +160,18 @@ inline void put_in_units(float x, float y, float farthest, const ProjectParamete
 }
 
 #ifdef FACE_OF_CUBE
-inline ExtendedFaceEllipse ellipse_on_face(const ExtendedPlace place, Extended sigma,
-                                           const ProjectParameters p, const ExtendedParameters e) {
+static inline ExtendedFaceEllipse ellipse_on_face(const ExtendedPlace place, Extended sigma,
+                                                  const ProjectParameters p,
+                                                  const ExtendedParameters e) {
   return extended_face_ellipse(sigma, extended_difference(place.x, extended_pair(e.center_x)),
                                extended_difference(place.y, extended_pair(e.center_y)), p, e);
 }
 #endif
 
 // Places and widths; `peak` is the largest of E w and A w.
-inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
-                           const ProjectParameters p, const ExtendedParameters e, Splat* splat,
-                           ExtendedSplat* extended) {
+static inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
+                                  const ProjectParameters p, const ExtendedParameters e,
+                                  Splat* splat, ExtendedSplat* extended) {
 #if defined(FACE_OF_CUBE)
   const ExtendedFaceEllipse ellipse = ellipse_on_face(place, sigma, p, e);
   const Extended sigma_x = extended_of(ellipse.sigma_x), sigma_y = extended_of(ellipse.sigma_y);
@@ -225,9 +226,11 @@ inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
 }
 
 // False if the particle is not in the picture.
-inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParameters e,
-                          const Columns columns, __global const ComponentColors* component_colors,
-                          __global const float* knots, Splat* splat, ExtendedSplat* extended) {
+static inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParameters e,
+                                 const Columns columns,
+                                 __global const ComponentColors* component_colors,
+                                 __global const float* knots, Splat* splat,
+                                 ExtendedSplat* extended) {
   const ExtendedPlace place = extended_place(columns.positions + (size_t)i * 3, p, e);
   if (!place.seen) return 0;
   const Extended raw_h =
@@ -293,7 +296,8 @@ inline int extended_splat(uint i, const ProjectParameters p, const ExtendedParam
 
 #ifdef COPIES
 // The splat's copy so many half periods to the right; odd ones are mirrored over this pole.
-inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole, const ExtendedParameters e) {
+static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
+                                    const ExtendedParameters e) {
   const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));
   splat.x = pair_of(extended_sum(extended_pair(splat.x), moved));
   if ((copy & 1) != 0) {

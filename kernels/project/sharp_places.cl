@@ -1,7 +1,7 @@
 // Places of splats so sharp, or so bright, that single precision would show: in extended numbers.
 
 // What a pixel by which its centre is off does to a splat, at most, per sigma (docs/accuracy.md).
-inline VALUE slope_of_peak(VALUE peak) {
+static inline VALUE slope_of_peak(VALUE peak) {
   return 0.86f * min(peak, (VALUE)(20.0f));
 }
 
@@ -29,9 +29,10 @@ typedef struct PlaceArrays {
 } PlaceArrays;
 
 // A call: hardly any splats are.
-__attribute__((noinline)) void find_sharp_places(uint i, uint end, const Columns columns,
-                                                 const ProjectParameters p,
-                                                 const ExtendedParameters e, PlaceArrays* places) {
+__attribute__((noinline)) static void find_sharp_places(uint i, uint end, const Columns columns,
+                                                        const ProjectParameters p,
+                                                        const ExtendedParameters e,
+                                                        PlaceArrays* places) {
   for (uint k = 0; k < LANES && i + k < end; ++k) {
     if (!places->asked[k]) continue;
     const ExtendedPlace place = extended_place(columns.positions + (size_t)(i + k) * 3, p, e);

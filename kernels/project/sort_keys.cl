@@ -4,7 +4,7 @@
 #define SORT_KEYS
 
 // Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
-inline INTEGER field_key(VALUE value) {
+static inline INTEGER field_key(VALUE value) {
   const INTEGER bits = AS_INTEGER(choose(value, (VALUE)(0.0f), value == 0.0f));
   return bits ^ ((bits >> 31) | (INTEGER)(int)0x80000000u);
 }
@@ -22,13 +22,13 @@ INLINED UNSIGNED_WIDE sort_keys_of(const Columns columns, uint i, uint end, VALU
 #endif
 
 #ifdef KEY_WINDOW
-inline int is_in_window(ulong key, const ProjectParameters p) {
+static inline int is_in_window(ulong key, const ProjectParameters p) {
   return key >= (ulong)wide_integer(p.window_first) && key < (ulong)wide_integer(p.window_end);
 }
 #endif
 
 #ifdef COUNT_KEYS
-inline uint bin_of(ulong key, const ProjectParameters p) {
+static inline uint bin_of(ulong key, const ProjectParameters p) {
   return (uint)(key >> p.bin_shift) & (KEY_BINS - 1u);
 }
 #endif

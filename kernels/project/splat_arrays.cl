@@ -164,7 +164,7 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 }
 #endif
 
-inline uint count_true(INTEGER mask) {
+static inline uint count_true(INTEGER mask) {
   int lanes[LANES];
   STORE(mask, lanes);
   uint count = 0;

@@ -134,7 +134,7 @@ typedef struct BrightnessLanes {
 } BrightnessLanes;
 
 // Few octaves need anything.
-inline VALUE value_of_octave(__global const float* values, int count, INTEGER octave) {
+static inline VALUE value_of_octave(__global const float* values, int count, INTEGER octave) {
   VALUE found = (VALUE)(0.0f);
   for (int k = 0; k < count; ++k)
     found = choose(found, (VALUE)(values[k]), octave == k);

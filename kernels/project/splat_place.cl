@@ -51,13 +51,13 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
 }
 
 #ifdef COPIES
-inline long in_long(struct WideInteger units) {
+static inline long in_long(struct WideInteger units) {
   return (long)((ulong)units.low | ((ulong)units.high << 32));
 }
 
 // Puts a splat, `y` pixels from the picture's middle, where its copy so many half periods to the
 // right is.
-inline void put_copy(Splat* splat, int copy, float y, const ProjectParameters p) {
+static inline void put_copy(Splat* splat, int copy, float y, const ProjectParameters p) {
   const uint coarser = splat->component_and_grid >> 24;
   splat->x += (int)((copy * in_long(p.period_units)) >> (coarser + 1));
   if ((copy & 1) == 0) return;
@@ -70,7 +70,7 @@ inline void put_copy(Splat* splat, int copy, float y, const ProjectParameters p)
 #endif
 
 #ifdef EXTENDED_NUMBERS
-inline float pixels_from_middle(int place, const Splat splat, const ProjectParameters p) {
+static inline float pixels_from_middle(int place, const Splat splat, const ProjectParameters p) {
   const int bits = p.place_bits - (int)(splat.component_and_grid >> 24);
   return (float)place * as_float((127 - bits) << 23);
 }

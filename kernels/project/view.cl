@@ -11,16 +11,16 @@ INLINED Vectors offset_from(Vectors position, const float* high, const float* lo
   return d;
 }
 
-inline VALUE along(Vectors d, const float* axis) {
+static inline VALUE along(Vectors d, const float* axis) {
   return (d.x * axis[0] + d.y * axis[1]) + d.z * axis[2];
 }
 
-inline VALUE squared_distance(Vectors d, float inverse_unit) {
+static inline VALUE squared_distance(Vectors d, float inverse_unit) {
   const VALUE x = d.x * inverse_unit, y = d.y * inverse_unit, z = d.z * inverse_unit;
   return (x * x + y * y) + z * z;
 }
 
-inline VALUE sum_of_sizes(Vectors d) {
+static inline VALUE sum_of_sizes(Vectors d) {
   return fabs(d.x) + fabs(d.y) + fabs(d.z);
 }
 

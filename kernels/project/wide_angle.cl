@@ -11,7 +11,7 @@ typedef struct WideAnglePoint {
 
 #ifdef EYE_OFFSET
 // Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
-inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
+static inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
   const VALUE cosine = sqrt(max(1.0f - sine * sine, (VALUE)(0.0f)));
   const VALUE along = (*x * axis[0] + *y * axis[1] + *z * axis[2]) * (1.0f - cosine);
   const VALUE turned_x = *x * cosine + (axis[1] * *z - axis[2] * *y) * sine + axis[0] * along;
@@ -24,8 +24,8 @@ inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
 #endif
 
 // x right, y down, z forward, in lengths.
-inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
-                                         const ProjectParameters p) {
+static inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
+                                                const ProjectParameters p) {
   WideAnglePoint point;
   x /= distance;
   y /= distance;
@@ -75,8 +75,8 @@ typedef struct PanoramaEllipse {
   VALUE sigma_x;
 } PanoramaEllipse;
 
-inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, VALUE sine_latitude,
-                                        const ProjectParameters p) {
+static inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, VALUE sine_latitude,
+                                               const ProjectParameters p) {
   const VALUE per_s = p.pixels_per_length / sigma;
   const VALUE sine = max(fabs(sine_latitude), (VALUE)(1e-18f));
   const VALUE u = min(cos_latitude * per_s / sine, (VALUE)(1e15f)), u2 = u * u;
@@ -91,7 +91,7 @@ inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, VALUE s
 }
 
 // Whether the lower pole is the nearer one.
-inline int pole_of(float y, const ProjectParameters p) {
+static inline int pole_of(float y, const ProjectParameters p) {
   return y >= p.center_y;
 }
 
@@ -101,8 +101,8 @@ typedef struct Copies {
   int first, last, step;
 } Copies;
 
-inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
-                                const ProjectParameters p) {
+static inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
+                                       const ProjectParameters p) {
   const float half_period = 0.5f * p.period;
   Copies copies;
   copies.first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -5.0f, 6.0f);

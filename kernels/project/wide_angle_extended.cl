@@ -10,18 +10,18 @@ typedef struct ExtendedWideAngle {
 } ExtendedWideAngle;
 
 #ifdef EYE_OFFSET
-inline Extended extended_turned(Extended value, Extended across, Extended along, Extended sine,
-                                Extended cosine) {
+static inline Extended extended_turned(Extended value, Extended across, Extended along,
+                                       Extended sine, Extended cosine) {
   return extended_sum(extended_sum(extended_product(value, cosine), extended_product(across, sine)),
                       along);
 }
 
-inline Extended extended_minor(Extended a, Extended b, Extended c, Extended d) {
+static inline Extended extended_minor(Extended a, Extended b, Extended c, Extended d) {
   return extended_difference(extended_product(a, d), extended_product(b, c));
 }
 
 // Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
-inline void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis) {
+static inline void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis) {
   const Extended one = extended_of(1.0f);
   const Extended cosine =
       extended_root(extended_product(extended_difference(one, sine), extended_sum(one, sine)));
@@ -47,7 +47,7 @@ inline void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis
 // (src/scene/projection.cpp).
 #define SINE_ON_AXIS 0x1p-40f
 
-inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended across = extended_hypotenuse(v[0], v[1]);
   const Extended angle = extended_atan2(across, v[2]);
   const Extended radius = extended_product(focal, angle);
@@ -64,7 +64,7 @@ inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle*
   }
 }
 #elif defined(PROJECTION_EQUIRECTANGULAR)
-inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended level = extended_hypotenuse(v[0], v[2]);
   place->cos_latitude = extended_quotient(level, place->distance);
   place->sine_latitude = extended_quotient(v[1], place->distance);
@@ -72,7 +72,7 @@ inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle*
   place->y = extended_product(focal, extended_atan2(v[1], level));
 }
 #else
-inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended cosine = extended_quotient(v[2], place->distance);
   place->seen &= high_part(cosine) > SMALLEST_COSINE_OF_FACE;
   place->x = extended_quotient(extended_product(focal, v[0]), v[2]);
@@ -82,8 +82,8 @@ inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle*
 #endif
 
 // The direction v is right, down, forward; `eye_offset` in the same lengths.
-inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
-                                             const ExtendedParameters e) {
+static inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
+                                                    const ExtendedParameters e) {
   ExtendedWideAngle place;
   place.distance = extended_hypotenuse(extended_hypotenuse(v[0], v[2]), v[1]);
   place.seen = high_part(place.distance) > 0.0f && high_part(place.distance) <= FLT_MAX;
@@ -105,12 +105,12 @@ typedef struct ExtendedEllipse {
   Extended nearer, sigma_x;
 } ExtendedEllipse;
 
-inline Extended extended_sum_with(float a, Extended b) {
+static inline Extended extended_sum_with(float a, Extended b) {
   return extended_sum(extended_of(a), b);
 }
 
 // k of the m at this u^2. Its constants are those of the host, in double precision.
-inline Extended extended_k_of(Extended u2) {
+static inline Extended extended_k_of(Extended u2) {
   const Extended one_and_half = extended_sum_with(1.0f, extended_scaled(u2, 0.5f));
   const Extended c = extended_difference(
       extended_constant(3.08999991f, 8.58306883e-08f),
@@ -121,7 +121,7 @@ inline Extended extended_k_of(Extended u2) {
 }
 
 // sine * exp(-m^2) + sqrt(pi) sine_m erf(m), relative error 4e-9.
-inline Extended extended_row_length(Extended sine, Extended m, Extended sine_m) {
+static inline Extended extended_row_length(Extended sine, Extended m, Extended sine_m) {
   const Extended along = extended_product(extended_constant(1.7724539f, -5.32464006e-08f), sine_m);
   if (high_part(m) > 9.0f) return along;
   const Extended gauss = extended_exp(extended_negative(extended_product(m, m)));
@@ -129,9 +129,9 @@ inline Extended extended_row_length(Extended sine, Extended m, Extended sine_m) 
   return extended_sum(extended_product(sine, gauss), extended_product(along, erf));
 }
 
-inline ExtendedEllipse extended_panorama_ellipse(Extended sigma, Extended cos_latitude,
-                                                 Extended sine_latitude,
-                                                 const ExtendedParameters e) {
+static inline ExtendedEllipse extended_panorama_ellipse(Extended sigma, Extended cos_latitude,
+                                                        Extended sine_latitude,
+                                                        const ExtendedParameters e) {
   const Extended focal = extended_pair(e.pixels_per_length);
   const Extended level = extended_quotient(extended_product(cos_latitude, focal), sigma);
   Extended sine = extended_magnitude(sine_latitude);

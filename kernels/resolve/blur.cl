@@ -3,7 +3,7 @@
 // in memory that are looked at (picture_layout.h).
 
 // Rows of the temporary are whole eights, and begin with the part's first pixel.
-inline size_t temporary_stride(const GridPart part) {
+static inline size_t temporary_stride(const GridPart part) {
   return ((size_t)(part.right_end - part.left) + 7) & ~(size_t)7;
 }
 

@@ -4,22 +4,22 @@
 // even. Every pixel that is looked at is in memory (picture_layout.h).
 
 // The coarse pixel under the finer grid's pixel `index`.
-inline int coarse_place(int index, Grid fine, Grid coarse) {
+static inline int coarse_place(int index, Grid fine, Grid coarse) {
   return ((index - fine.guard) >> 1) + coarse.guard;
 }
 
 // The temporary has whole sixteens of the part's columns, from an even one on, and of the coarse
 // grid's rows those that its rows are made from.
-inline int first_column(const GridPart part) {
+static inline int first_column(const GridPart part) {
   return part.left & ~1;
 }
-inline size_t temporary_columns(const GridPart part) {
+static inline size_t temporary_columns(const GridPart part) {
   return ((size_t)(part.right_end - first_column(part)) + 15) & ~(size_t)15;
 }
-inline int first_coarse_row(const GridPart part, Grid fine, Grid coarse) {
+static inline int first_coarse_row(const GridPart part, Grid fine, Grid coarse) {
   return coarse_place(part.top, fine, coarse) - 5;
 }
-inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
+static inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
   return coarse_place(part.bottom - 1, fine, coarse) + 6 - first_coarse_row(part, fine, coarse);
 }
 
@@ -52,7 +52,7 @@ typedef struct RowPair {
 } RowPair;
 
 // The first row of the pair that a work-item takes: the part may begin or end within a pair.
-inline int first_of_pair(const GridPart part, int pair) {
+static inline int first_of_pair(const GridPart part, int pair) {
   return (part.top & ~1) + 2 * pair;
 }
 
@@ -69,8 +69,9 @@ INLINED RowPair rows_between(__global const float* column, size_t stride, const 
 }
 
 // Where the temporary has eight pixels of plane c on the coarse row of row y.
-inline __global const float* column_of(__global const float* temporary, const GridPart part,
-                                       const Grid fine, const Grid coarse, uint c, int x, int y) {
+static inline __global const float* column_of(__global const float* temporary, const GridPart part,
+                                              const Grid fine, const Grid coarse, uint c, int x,
+                                              int y) {
   const int row = coarse_place(y, fine, coarse) - first_coarse_row(part, fine, coarse);
   return temporary + ((size_t)c * coarse_rows(part, fine, coarse) + row) * temporary_columns(part) +
          (x - first_column(part));

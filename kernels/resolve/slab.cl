@@ -37,7 +37,7 @@ INLINED float8 lay_channel(float8 depth, float8 light, int count, __global float
   return 0.5f * (fabs(narrow) * depth + fabs(wide) * (narrow_depth + depth));
 }
 
-inline float largest_of_first(float8 values, int count) {
+static inline float largest_of_first(float8 values, int count) {
   float lanes[8];
   vstore8(values, 0, lanes);
   float largest = 0.0f;

@@ -1,5 +1,5 @@
 // The order of a few values by the ends of their keys.
-inline void sort_short_run(__global const ushort* ends, __global uint* values, uint length) {
+static inline void sort_short_run(__global const ushort* ends, __global uint* values, uint length) {
   for (uint i = 1; i < length; ++i) {
     const uint value = values[i];
     const ushort key_end = ends[value];

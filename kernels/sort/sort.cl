@@ -86,7 +86,8 @@ __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* e
     keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[i] >> p.shift);
 }
 
-inline int run_is_in_order(__global const ushort* ends, __global const uint* values, uint length) {
+static inline int run_is_in_order(__global const ushort* ends, __global const uint* values,
+                                  uint length) {
   for (uint i = 1; i < length; ++i) {
     if (ends[values[i]] < ends[values[i - 1]]) return 0;
   }
@@ -94,8 +95,8 @@ inline int run_is_in_order(__global const ushort* ends, __global const uint* val
 }
 
 // One pass of a stable radix sort.
-inline void sort_run_by_digit(__global const ushort* ends, __global const uint* from,
-                              __global uint* to, uint length, uint shift) {
+static inline void sort_run_by_digit(__global const ushort* ends, __global const uint* from,
+                                     __global uint* to, uint length, uint shift) {
   uint next[SORT_DIGITS];
   for (uint d = 0; d < SORT_DIGITS; ++d)
     next[d] = 0;
