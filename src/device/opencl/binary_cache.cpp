@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <sstream>
 #include <utility>
@@ -52,6 +51,18 @@ std::string head_of(const std::string& key, const std::string& binary) {
   return head.str();
 }
 
+// Nothing where it cannot be read.
+std::string text_in(const std::filesystem::path& path) {
+  std::error_code failure;
+  const std::uintmax_t size = std::filesystem::file_size(path, failure);
+  if (failure) return {};
+  std::string text(static_cast<std::size_t>(size), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return text;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> BinaryCache::user_folder() {
@@ -95,8 +106,7 @@ std::filesystem::path BinaryCache::file_for(const std::string& key) const {
 
 std::optional<std::string> BinaryCache::find(const std::string& key) const {
   if (!folder_) return std::nullopt;
-  std::ifstream file(file_for(key), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = text_in(file_for(key));
   const std::size_t key_end = text.find(end_of_key);
   if (key_end == std::string::npos) return std::nullopt;
   std::string binary = text.substr(key_end + 1);
