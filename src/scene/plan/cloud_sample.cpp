@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "scene/peak_color.h"
 #include "scene/plan/cloud_in_picture.h"
@@ -20,24 +21,57 @@ bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
          cloud.y <= frame.height + reach;
 }
 
-void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
-                      std::vector<SampledCloud>& sample) {
-  const PeakColors colors(component);
-  const double least_sigma = frame.kernel.width * frame.kernel.min_radius_pixels;
-  for (std::size_t first = 0; first < component.particles.count; first += stride) {
-    const std::size_t i = sampled_index(first, stride, component.particles.count);
-    const std::optional<PictureCloud> found = cloud_in_picture(component, frame, i);
-    if (!found) continue;
+// Of a component, the sampled clouds that may be seen.
+class ComponentSample {
+ public:
+  ComponentSample(const DrawnComponent& component, const Frame& frame, std::size_t stride)
+      : component_(component),
+        frame_(frame),
+        stride_(stride),
+        colors_(component),
+        least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {}
+
+  std::size_t count() const {
+    const std::size_t particles = component_.particles.count;
+    return particles / stride_ + (particles % stride_ != 0);
+  }
+
+  std::optional<SampledCloud> cloud(std::size_t sampled) const {
+    const std::size_t i = sampled_index(sampled * stride_, stride_, component_.particles.count);
+    const std::optional<PictureCloud> found = cloud_in_picture(component_, frame_, i);
+    if (!found) return std::nullopt;
     SampledCloud cloud;
     cloud.x = found->x;
     cloud.y = found->y;
-    cloud.sigma = std::hypot(found->sigma, least_sigma);
-    if (!reaches_picture(cloud, frame)) continue;
-    cloud.light = colors(i) / component.reference_column * found->column * found->sigma /
+    cloud.sigma = std::hypot(found->sigma, least_sigma_);
+    if (!reaches_picture(cloud, frame_)) return std::nullopt;
+    cloud.light = colors_(i) / component_.reference_column * found->column * found->sigma /
                   cloud.sigma * std::min(1.0, pi * cloud.sigma * cloud.sigma);
-    cloud.weight = static_cast<double>(stride);
-    sample.push_back(cloud);
+    cloud.weight = static_cast<double>(stride_);
+    return cloud;
   }
+
+ private:
+  const DrawnComponent& component_;
+  const Frame& frame_;
+  std::size_t stride_;
+  PeakColors colors_;
+  double least_sigma_;
+};
+
+// In the particles' order. A sample is looked at on all cores: of a file that is mapped, each
+// particle is a page that the system has to find.
+void append(const ComponentSample& component, std::vector<SampledCloud>& sample) {
+  constexpr std::size_t at_once = 512;
+  std::vector<std::vector<SampledCloud>> blocks(component.count() / at_once + 1);
+  for_blocks(component.count(), at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (const std::optional<SampledCloud> cloud = component.cloud(i))
+        blocks[first / at_once].push_back(*cloud);
+    }
+  });
+  for (const std::vector<SampledCloud>& block : blocks)
+    sample.insert(sample.end(), block.begin(), block.end());
 }
 
 }  // namespace
@@ -46,7 +80,7 @@ std::vector<SampledCloud> sample_clouds(const Frame& frame) {
   const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
   std::vector<SampledCloud> sample;
   for (const DrawnComponent& component : frame.components)
-    sample_component(component, frame, stride, sample);
+    append(ComponentSample(component, frame, stride), sample);
   return sample;
 }
 

@@ -14,7 +14,7 @@ struct SampledCloud {
   double weight = 1;    // particles that it stands for
 };
 
-// At most 16384 particles of a frame, those that the whole picture does not show left out. The
+// At most 32768 particles of a frame, those that the whole picture does not show left out. The
 // same in every run, and whatever crop is drawn.
 std::vector<SampledCloud> sample_clouds(const Frame& frame);
 
