@@ -53,7 +53,16 @@ struct Axis {
   int phase(int pixel) const { return pixel - floor_divide(pixel, spacing) * spacing; }
 };
 
-class Nodes {
+int first_spacing(int side) {
+  int spacing = 1;
+  while (spacing < widest_spacing && 8 * spacing <= side)
+    spacing *= 2;
+  return spacing;
+}
+
+}  // namespace
+
+class SmoothPicture::Nodes {
  public:
   Nodes(const Rectangle& part, int spacing, int channels)
       : x_(part.x, part.width, spacing),
@@ -94,19 +103,14 @@ class Nodes {
     return *std::max_element(largest.begin(), largest.end());
   }
 
-  std::vector<double> pixels_of(const Rectangle& part) const {
+  // A row of `part`: of each channel its pixels.
+  void row(const Rectangle& part, int y, std::vector<double>& channels) const {
     const auto width = static_cast<std::size_t>(part.width);
-    const auto plane = width * static_cast<std::size_t>(part.height);
-    std::vector<double> pixels(channels_ * plane);
-    for_blocks(static_cast<std::size_t>(part.height), 8, [&](std::size_t first, std::size_t last) {
-      std::vector<double> row(static_cast<std::size_t>(x_.count) * channels_);
-      for (std::size_t k = first; k < last; ++k) {
-        interpolate_row(part.y + static_cast<int>(k), row);
-        for (std::size_t x = 0; x < width; ++x)
-          along_row(row, part.x + static_cast<int>(x), pixels.data() + k * width + x, plane);
-      }
-    });
-    return pixels;
+    channels.resize(channels_ * width);
+    std::vector<double> between(static_cast<std::size_t>(x_.count) * channels_);
+    interpolate_row(part.y + y, between);
+    for (std::size_t x = 0; x < width; ++x)
+      along_row(between, part.x + static_cast<int>(x), channels.data() + x, width);
   }
 
  private:
@@ -197,17 +201,8 @@ class Nodes {
   std::vector<Weights> weights_;  // of each phase
 };
 
-int first_spacing(int side) {
-  int spacing = 1;
-  while (spacing < widest_spacing && 8 * spacing <= side)
-    spacing *= 2;
-  return spacing;
-}
-
-}  // namespace
-
-std::vector<double> smooth_picture(const SmoothPictureSettings& settings,
-                                   const PixelFunction& pixel) {
+SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel)
+    : crop_(settings.crop) {
   const Rectangle whole = {0, 0, settings.width, settings.height};
   int spacing = first_spacing(std::min(settings.width, settings.height));
   Nodes nodes(spacing == 1 ? settings.crop : whole, spacing, settings.channels);
@@ -222,7 +217,15 @@ std::vector<double> smooth_picture(const SmoothPictureSettings& settings,
     nodes = std::move(finer);
     if (foretells) break;
   }
-  return nodes.pixels_of(settings.crop);
+  nodes_ = std::make_unique<const Nodes>(std::move(nodes));
+}
+
+SmoothPicture::SmoothPicture(SmoothPicture&&) noexcept = default;
+SmoothPicture& SmoothPicture::operator=(SmoothPicture&&) noexcept = default;
+SmoothPicture::~SmoothPicture() = default;
+
+void SmoothPicture::row(int y, std::vector<double>& channels) const {
+  nodes_->row(crop_, y, channels);
 }
 
 }  // namespace splotchcl

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "splotchcl/frame.h"
@@ -22,8 +23,21 @@ struct SmoothPictureSettings {
 // Works out a pixel's channels. Also of pixels beside the picture; called from several threads.
 using PixelFunction = std::function<void(int x, int y, double* channels)>;
 
-// The crop's pixels row by row, channel by channel.
-std::vector<double> smooth_picture(const SmoothPictureSettings& settings,
-                                   const PixelFunction& pixel);
+// Nodes from which a crop's pixels are interpolated, row by row.
+class SmoothPicture {
+ public:
+  SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel);
+  SmoothPicture(SmoothPicture&&) noexcept;
+  SmoothPicture& operator=(SmoothPicture&&) noexcept;
+  ~SmoothPicture();
+
+  // Row y of the crop: for each channel its `crop.width` pixels. Several threads may ask.
+  void row(int y, std::vector<double>& channels) const;
+
+ private:
+  class Nodes;
+  Rectangle crop_;
+  std::unique_ptr<const Nodes> nodes_;
+};
 
 }  // namespace splotchcl

@@ -58,6 +58,14 @@ void BufferPool::give_back(compute::buffer memory) {
   free_.push_back(std::move(memory));
 }
 
+void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes) {
+  compute::event event;
+  void* const values =
+      queue_.enqueue_map_buffer(memory, access, 0, static_cast<std::size_t>(bytes), event);
+  timer_.add_copy(event);
+  return values;
+}
+
 void BufferPool::release_until_it_fits(std::uint64_t wanted) {
   const std::uint64_t most = std::max(most_used_bytes_, used_bytes_ + wanted);
   if (total_bytes_ + wanted <= most || free_.empty()) return;

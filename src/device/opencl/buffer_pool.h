@@ -50,6 +50,31 @@ class Buffer {
   std::uint64_t size_ = 0;
 };
 
+// A buffer's values for as long as the host has them: on a device in the host's own memory without
+// a copy. Commands see what was written once this has gone.
+template <class T>
+class MappedValues {
+ public:
+  MappedValues(compute::command_queue queue, compute::buffer memory, void* values,
+               std::size_t count)
+      : queue_(std::move(queue)), memory_(std::move(memory)), values_(values), size_(count) {}
+  MappedValues(const MappedValues&) = delete;
+  MappedValues& operator=(const MappedValues&) = delete;
+  ~MappedValues() {
+    // Commands that follow fail where this does.
+    clEnqueueUnmapMemObject(queue_.get(), memory_.get(), values_, 0, nullptr, nullptr);
+  }
+
+  T* data() const { return static_cast<T*>(values_); }
+  std::size_t size() const { return size_; }
+
+ private:
+  compute::command_queue queue_;
+  compute::buffer memory_;
+  void* values_;
+  std::size_t size_;
+};
+
 // The device's working memory. Buffers that came back are handed out again, and what is held
 // in all never exceeds what has been in use at one time.
 class BufferPool {
@@ -87,6 +112,20 @@ class BufferPool {
     return values;
   }
 
+  // All values of a buffer that has some, to be read or to be written anew; both wait for the
+  // commands before.
+  template <class T>
+  MappedValues<const T> map_to_read(const Buffer<T>& buffer) {
+    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, buffer.size() * sizeof(T)),
+            static_cast<std::size_t>(buffer.size())};
+  }
+  template <class T>
+  MappedValues<T> map_to_write(const Buffer<T>& buffer) {
+    return {queue_, buffer.memory(),
+            map(buffer.memory(), CL_MAP_WRITE_INVALIDATE_REGION, buffer.size() * sizeof(T)),
+            static_cast<std::size_t>(buffer.size())};
+  }
+
   // Values from number `first` on, of memory that is there; both wait for it.
   template <class T>
   void write(const Buffer<T>& buffer, std::uint64_t first, const T* values, std::size_t count) {
@@ -109,6 +148,7 @@ class BufferPool {
   friend class PooledMemory;
   compute::buffer take(std::uint64_t bytes, const char* what);
   void give_back(compute::buffer memory);
+  void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
   void release_until_it_fits(std::uint64_t wanted);
 
   compute::context context_;

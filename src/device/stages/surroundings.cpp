@@ -18,7 +18,6 @@
 #include "scene/plan/light_structure.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
-#include "surroundings/smooth_picture.h"
 
 namespace splotchcl {
 namespace {
@@ -246,8 +245,8 @@ std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds)
 
 // The layer's light and depth in each pixel of the crop: in ordered scenes S, then tau, else the
 // sum.
-std::vector<double> Surroundings::pixels_of(const std::vector<CloudAround>& clouds,
-                                            const CloudLayer& layer, std::size_t parts) const {
+SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
+                                       const CloudLayer& layer, std::size_t parts) const {
   const Frame& frame = context_.frame;
   const FramePlan& plan = context_.plan;
   const LightPlan light = plan.light;
@@ -284,48 +283,54 @@ std::vector<double> Surroundings::pixels_of(const std::vector<CloudAround>& clou
       largest = std::max(largest, light_error(light, brightest, exact, foretold, c));
     return largest;
   };
-  return smooth_picture(settings, add_all);
+  return SmoothPicture(settings, add_all);
 }
 
 // As the planes of the picture's grid have them, without padding.
-std::vector<float> Surroundings::planes_of(const std::vector<double>& layer) const {
-  const std::size_t pixels = static_cast<std::size_t>(context_.frame.crop.width) *
-                             static_cast<std::size_t>(context_.frame.crop.height);
-  constexpr std::size_t pixels_at_once = 1 << 14;
+Buffer<float> Surroundings::planes_of(const SmoothPicture& layer) const {
+  const auto width = static_cast<std::size_t>(context_.frame.crop.width);
+  const auto height = static_cast<std::size_t>(context_.frame.crop.height);
+  const std::size_t pixels = width * height;
   const bool is_extended = context_.plan.is_extended();
   const bool keeps_transmittance = context_.plan.layers.keeps_transmittance;
   const std::size_t channels = context_.plan.light == LightPlan::ordered ? 6 : 3;
   const std::size_t parts = is_extended ? 2 : 1;
-  std::vector<float> planes(parts * channels * pixels);
-  for (std::size_t c = 0; c < channels; ++c) {
-    const double* const channel = layer.data() + c * pixels;
-    float* const plane = planes.data() + parts * c * pixels;
-    for_blocks(pixels, pixels_at_once, [&](std::size_t first, std::size_t end) {
-      if (is_extended) {
-        split(channel + first, end - first, plane + first, plane + pixels + first);
-        return;
+  BufferPool& pool = context_.device.pool;
+  Buffer<float> planes = pool.get<float>(parts * channels * pixels, "clouds around");
+  const MappedValues<float> mapped = pool.map_to_write(planes);
+  for_blocks(height, 8, [&](std::size_t first, std::size_t end) {
+    std::vector<double> row;
+    for (std::size_t y = first; y < end; ++y) {
+      layer.row(static_cast<int>(y), row);
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double* const values = row.data() + c * width;
+        float* const to = mapped.data() + parts * c * pixels + y * width;
+        if (is_extended) {
+          split(values, width, to, to + pixels);
+          continue;
+        }
+        // Interpolation may leave less than nothing, by as little as it errs.
+        for (std::size_t x = 0; x < width; ++x) {
+          const double value = std::max(values[x], 0.0);
+          to[x] = c < 3 ? static_cast<float>(value) : carried(value, keeps_transmittance);
+        }
       }
-      // Interpolation may leave less than nothing, by as little as it errs.
-      for (std::size_t i = first; i < end; ++i) {
-        const double value = std::max(channel[i], 0.0);
-        plane[i] = c < 3 ? static_cast<float>(value) : carried(value, keeps_transmittance);
-      }
-    });
-  }
+    }
+  });
   return planes;
 }
 
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
-  if (!clouds.empty()) put_behind(pixels_of(clouds, {0, clouds.size(), 0}, 1), planes);
+  if (!clouds.empty()) put_behind(picture_of(clouds, {0, clouds.size(), 0}, 1), planes);
 }
 
 // There are no more layers than clouds.
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                         const Planes& planes) const {
-  put_behind(pixels_of(clouds, layer, clouds.size()), planes);
+  put_behind(picture_of(clouds, layer, clouds.size()), planes);
 }
 
-void Surroundings::put_behind(const std::vector<double>& layer, const Planes& planes) const {
+void Surroundings::put_behind(const SmoothPicture& layer, const Planes& planes) const {
   const Rectangle& crop = context_.frame.crop;
   shared::BehindParameters parameters{};
   parameters.width = crop.width;
@@ -333,7 +338,7 @@ void Surroundings::put_behind(const std::vector<double>& layer, const Planes& pl
   parameters.crop_x = crop.x;
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
-  const Buffer<float> behind = device.pool.upload(planes_of(layer), "clouds around");
+  const Buffer<float> behind = planes_of(layer);
   const std::size_t pixels_of_item = context_.plan.is_extended() ? 8 : 1;
   const std::size_t items =
       (static_cast<std::size_t>(crop.width) + pixels_of_item - 1) / pixels_of_item;

@@ -11,6 +11,7 @@
 #include "device/frame/stage_context.h"
 #include "device/stages/cloud_layers.h"
 #include "surroundings/cloud_around.h"
+#include "surroundings/smooth_picture.h"
 
 namespace splotchcl {
 
@@ -58,10 +59,10 @@ class Surroundings {
               std::vector<CloudAround>& clouds) const;
   std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, std::uint64_t depth) const;
   // `parts` of the picture share what they may err by.
-  std::vector<double> pixels_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                                std::size_t parts) const;
-  void put_behind(const std::vector<double>& layer, const Planes& planes) const;
-  std::vector<float> planes_of(const std::vector<double>& layer) const;
+  SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                           std::size_t parts) const;
+  void put_behind(const SmoothPicture& layer, const Planes& planes) const;
+  Buffer<float> planes_of(const SmoothPicture& layer) const;
 
   const StageContext& context_;
 };
