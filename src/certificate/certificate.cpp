@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "certificate/octave_errors.h"
 #include "certificate/picture_light.h"
@@ -69,9 +71,13 @@ class FrameErrors {
         of_slabs_(splats.of_slabs) {
     for (std::size_t octave = 0; octave < lights_.size(); ++octave)
       lights_[octave] = plan.needs.widths[octave].light;
-    octaves_.reserve(splats.cells.size());
-    for (const PeakCells& of_octave : splats.cells)
-      octaves_.emplace_back(of_octave, frame, plan);
+    std::vector<std::optional<OctaveErrors>> octaves(splats.cells.size());
+    for_blocks(octaves.size(), 1, [&](std::size_t first, std::size_t) {
+      octaves[first].emplace(splats.cells[first], frame, plan);
+    });
+    octaves_.reserve(octaves.size());
+    for (std::optional<OctaveErrors>& octave : octaves)
+      octaves_.push_back(std::move(*octave));
   }
 
   std::size_t block_count() const { return picture_.blocks.size(); }

@@ -8,13 +8,14 @@
 #include "device/frame/cell_layout.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "parallel/for_blocks.h"
 
 namespace splotchcl {
 namespace {
 
 // What was collected, tile by tile.
 struct CellsOfTiles {
-  std::vector<float> values;
+  const float* values;
   std::size_t cells_per_tile;
   int tile_width, tile_height;
 
@@ -33,7 +34,7 @@ bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Gri
   const auto cells =
       static_cast<std::size_t>((tile_width >> octave.shift) * (tile_height >> octave.shift));
   for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
-    const float* first = values.data() + first_of(tile, octave);
+    const float* first = values + first_of(tile, octave);
     if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
   }
   return true;
@@ -52,7 +53,7 @@ CellSums CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::G
       const auto tile = static_cast<std::size_t>(row / along * grid.tiles_x + column);
       const std::size_t from =
           first_of(grid.first_tile + tile, octave) + static_cast<std::size_t>(row % along * across);
-      to = std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), across, to);
+      to = std::copy_n(values + from, across, to);
     }
   }
   return sums;
@@ -152,32 +153,42 @@ void Certifier::collect_in_groups(const TileLists& lists,
 CollectedSplats Certifier::collected() const {
   CollectedSplats found;
   if (!has_started()) return found;
-  const CellsOfTiles tiles = {context_.device.pool.download(cells_, cells_.size()),
-                              parameters_.cells_per_tile,
-                              static_cast<int>(context_.specialization.tile_width()),
-                              static_cast<int>(context_.specialization.tile_height())};
-  for (std::size_t i = parameters_.listed; i < tiles.values.size(); i += tiles.cells_per_tile)
-    found.longest_list = std::max(found.longest_list, static_cast<double>(tiles.values[i]));
-  for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
-    const shared::Grid& grid = context_.layout.grids[g];
-    const double blur = g == 0 ? 0 : static_cast<double>(parameters_.blur[g % 2 == 0]);
-    for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
-      const shared::OctaveCells& peaks = parameters_.peaks[octave];
-      const shared::OctaveCells& endings = parameters_.endings[octave];
-      // Bright splats end where those of wider octaves do.
-      if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) continue;
-      PeakCells cells;
-      cells.level = context_.plan.pyramid.grids[g].level;
-      cells.octave = octave + cells.level;
-      cells.left = grid.first_x - grid.guard;
-      cells.top = grid.first_y - grid.guard;
-      cells.peaks = tiles.gather(peaks, grid);
-      if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
-      cells.endings = tiles.gather(endings, grid);
-      found.cells.push_back(std::move(cells));
-    }
+  const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
+  for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
+    found.longest_list = std::max(found.longest_list, static_cast<double>(values.data()[i]));
+  const std::size_t grids = context_.layout.grids.size();
+  std::vector<std::optional<PeakCells>> octaves(grids * WIDTH_OCTAVES);
+  for_blocks(octaves.size(), 1, [&](std::size_t first, std::size_t) {
+    octaves[first] =
+        octave_of(values.data(), first / WIDTH_OCTAVES, static_cast<int>(first % WIDTH_OCTAVES));
+  });
+  for (std::optional<PeakCells>& cells : octaves) {
+    if (cells) found.cells.push_back(std::move(*cells));
   }
   return found;
+}
+
+// What was collected of an octave of a grid's splats, if there are any.
+std::optional<PeakCells> Certifier::octave_of(const float* values, std::size_t g,
+                                              int octave) const {
+  const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
+                              static_cast<int>(context_.specialization.tile_width()),
+                              static_cast<int>(context_.specialization.tile_height())};
+  const shared::Grid& grid = context_.layout.grids[g];
+  const shared::OctaveCells& peaks = parameters_.peaks[octave];
+  const shared::OctaveCells& endings = parameters_.endings[octave];
+  // Bright splats end where those of wider octaves do.
+  if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) return std::nullopt;
+  PeakCells cells;
+  cells.level = context_.plan.pyramid.grids[g].level;
+  cells.octave = octave + cells.level;
+  cells.left = grid.first_x - grid.guard;
+  cells.top = grid.first_y - grid.guard;
+  cells.peaks = tiles.gather(peaks, grid);
+  const double blur = g == 0 ? 0 : static_cast<double>(parameters_.blur[g % 2 == 0]);
+  if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
+  cells.endings = tiles.gather(endings, grid);
+  return cells;
 }
 
 }  // namespace splotchcl

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "certificate/certificate.h"
@@ -29,6 +30,7 @@ class Certifier {
 
  private:
   void start();
+  std::optional<PeakCells> octave_of(const float* values, std::size_t grid, int octave) const;
   void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
 
   const StageContext& context_;
