@@ -115,7 +115,6 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #ifdef OUTPUT_KEYS
         keys[slot] = (uint)(key >> 16);
         if (!p.sort_by_field) key_ends[slot] = (ushort)key;
-        order[slot] = slot;
 #endif
 #ifdef COUNT_KEYS
         const uint bin = bin_of(key, p);
@@ -149,8 +148,8 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 }
 
 // counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
-// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys,
-// the 16 bits below them where depths are keys, and the identity permutation, too; with COUNT_TILES
+// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and
+// the 16 bits below them where depths are keys, too; with COUNT_TILES
 // tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
 // tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
 // COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of

@@ -76,14 +76,14 @@ __kernel void sort_bits(const SortParameters p, __global const uint* keys, __glo
 }
 
 // Where all keys share their upper bits, as many of their ends' take their place: all but the
-// lowest `shift`. Values are still in their first order.
+// lowest `shift`.
 __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
-                                __global uint* keys) {
+                                __global const uint* values, __global uint* keys) {
   const uint block = get_global_id(0);
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i)
-    keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[i] >> p.shift);
+    keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[values[i]] >> p.shift);
 }
 
 static inline int run_is_in_order(__global const ushort* ends, __global const uint* values,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -90,15 +91,24 @@ class Stages {
   // Projects all components at once, as the ordered plan does.
   void project() { keyed_ = pipeline_->project_all(); }
   // After project().
-  std::vector<shared::Splat> splats() { return splats(keyed_.splats, keyed_.count); }
+  std::vector<shared::Splat> splats() {
+    const std::vector<std::uint32_t> order = read(keyed_.order, keyed_.count);
+    const std::vector<shared::Splat> slots = splats_in_slots(keyed_.splats, order);
+    std::vector<shared::Splat> splats;
+    for (const std::uint32_t slot : order)
+      splats.push_back(slots[slot]);
+    return splats;
+  }
   // As the sort has them: of 48 bits, or of 32 where a field is the key.
   std::vector<std::uint64_t> keys() {
     const std::vector<std::uint32_t> upper = read(keyed_.keys, keyed_.count);
     std::vector<std::uint64_t> keys(upper.begin(), upper.end());
     if (frame_.sort.by == SortOrder::By::field) return keys;
-    const std::vector<std::uint16_t> ends = read(keyed_.key_ends, keyed_.count);
+    const std::vector<std::uint32_t> slots = read(keyed_.order, keyed_.count);
+    const std::vector<std::uint16_t> ends =
+        read(keyed_.key_ends, static_cast<std::size_t>(keyed_.key_ends.size()));
     for (std::size_t i = 0; i < keys.size(); ++i)
-      keys[i] = keys[i] << 16 | ends[i];
+      keys[i] = keys[i] << 16 | ends[slots[i]];
     return keys;
   }
   const KeyedSplats& keyed() const { return keyed_; }
@@ -107,9 +117,10 @@ class Stages {
   std::vector<std::uint64_t> sorted_particles() {
     project();
     sort();
-    const std::vector<shared::Splat> all = splats(sorted_.splats, sorted_.count);
+    const std::vector<std::uint32_t> order = read(sorted_.order, sorted_.count);
+    const std::vector<shared::Splat> all = splats_in_slots(sorted_.splats, order);
     std::vector<std::uint64_t> particles;
-    for (const std::uint32_t slot : read(sorted_.order, sorted_.count))
+    for (const std::uint32_t slot : order)
       particles.push_back(identity_of(all[slot]));
     return particles;
   }
@@ -174,7 +185,10 @@ class Stages {
 
  private:
   void sort() { sorted_ = pipeline_->sorter().sort(std::move(keyed_)); }
-  std::vector<shared::Splat> splats(const SplatMemory& memory, std::size_t count) {
+  // As many as there are up to the last of these; between blocks of particles lie slots of none.
+  std::vector<shared::Splat> splats_in_slots(const SplatMemory& memory,
+                                             const std::vector<std::uint32_t>& slots) {
+    const std::size_t count = slots.empty() ? 0 : *std::max_element(slots.begin(), slots.end()) + 1;
     const std::size_t bytes = context().specialization.splat_bytes();
     const std::vector<std::byte> stored = read_as<std::byte>(memory.splats, count * bytes);
     std::vector<shared::Splat> splats(count);

@@ -38,13 +38,16 @@ struct ParticleCounts {
   std::uint64_t around = 0;     // the camera: not among the splats
 };
 
-// All splats of a frame, without gaps, in component and file order, with their sort keys.
+// All splats of a frame in component and file order, with their sort keys, which have no gaps.
 struct KeyedSplats {
   SplatMemory splats;
   Buffer<std::uint32_t> keys;      // their upper 32 bits
-  Buffer<std::uint16_t> key_ends;  // the 16 bits below them; none where a field is the key
-  Buffer<std::uint32_t> order;     // 0, 1, 2, ...
+  Buffer<std::uint16_t> key_ends;  // slot by slot the 16 bits below; none where a field is the key
+  Buffer<std::uint32_t> order;     // the slot of splat i: i, or farther behind
   std::uint32_t count = 0;
+  // Slots that hold no splat, for as many as there are particles around the camera; none: slots
+  // from `count` on are free.
+  std::vector<std::uint32_t> free_slots;
   std::uint32_t left_out = 0;  // blocks out of view
   ParticleCounts particles;
 };

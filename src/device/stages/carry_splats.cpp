@@ -32,10 +32,12 @@ std::vector<std::uint64_t> sort_keys_of(const StageContext& context, const Keyed
   BufferPool& pool = context.device.pool;
   const bool has_ends = keyed.key_ends.size() > 0;
   const std::vector<std::uint32_t> upper = pool.download(keyed.keys, keyed.count);
-  const std::vector<std::uint16_t> ends = pool.download(keyed.key_ends, has_ends ? keyed.count : 0);
+  const std::vector<std::uint32_t> slots = pool.download(keyed.order, has_ends ? keyed.count : 0);
+  const std::vector<std::uint16_t> ends =
+      pool.download(keyed.key_ends, static_cast<std::size_t>(keyed.key_ends.size()));
   std::vector<std::uint64_t> keys(upper.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
-    keys[i] = std::uint64_t{upper[i]} << 16 | (has_ends ? ends[i] : 0);
+    keys[i] = std::uint64_t{upper[i]} << 16 | (has_ends ? ends[slots[i]] : 0);
   return keys;
 }
 

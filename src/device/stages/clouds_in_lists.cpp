@@ -201,21 +201,25 @@ void CloudsInLists::append_before(std::uint64_t end, KeyedSplats& keyed) {
 void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keyed) const {
   if (begin == end) return;
   const Specialization& specialization = context_->specialization;
-  std::vector<std::uint32_t> splats, keys, order;
-  std::vector<std::uint16_t> ends;
+  const std::size_t splat_bytes = specialization.splat_bytes();
+  std::vector<std::uint32_t> keys, order;
   for (std::size_t cloud = begin; cloud < end; ++cloud) {
-    const std::vector<std::uint32_t> words = splat_words(specialization, cloud);
-    splats.insert(splats.end(), words.begin(), words.end());
+    const std::size_t i = cloud - begin;
+    const std::uint32_t slot = keyed.free_slots.empty()
+                                   ? keyed.count + static_cast<std::uint32_t>(i)
+                                   : keyed.free_slots[i];
+    write(*context_, splat_words(specialization, cloud), slot * splat_bytes,
+          keyed.splats.splats.memory());
+    if (keyed.key_ends.size() > 0) {
+      const std::vector<std::uint16_t> key_end = {static_cast<std::uint16_t>(keys_[cloud])};
+      write(*context_, key_end, slot * sizeof(std::uint16_t), keyed.key_ends.memory());
+    }
     keys.push_back(static_cast<std::uint32_t>(keys_[cloud] >> 16));
-    ends.push_back(static_cast<std::uint16_t>(keys_[cloud] & 0xffff));
-    order.push_back(keyed.count + static_cast<std::uint32_t>(cloud - begin));
+    order.push_back(slot);
   }
   const std::size_t first = keyed.count;
-  write(*context_, splats, first * specialization.splat_bytes(), keyed.splats.splats.memory());
   write(*context_, keys, first * sizeof(std::uint32_t), keyed.keys.memory());
   write(*context_, order, first * sizeof(std::uint32_t), keyed.order.memory());
-  if (keyed.key_ends.size() > 0)
-    write(*context_, ends, first * sizeof(std::uint16_t), keyed.key_ends.memory());
   keyed.count += static_cast<std::uint32_t>(end - begin);
 }
 

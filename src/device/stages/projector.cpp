@@ -49,6 +49,26 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   return sum;
 }
 
+// Of blocks whose particles have a slot each, and of what follows the last.
+std::vector<std::uint32_t> first_slots(std::uint32_t blocks, std::uint32_t stride) {
+  std::vector<std::uint32_t> first(std::size_t{blocks} + 1);
+  for (std::uint32_t b = 0; b <= blocks; ++b)
+    first[b] = b * stride;
+  return first;
+}
+
+// The first `wanted` slots that their blocks' splats leave. Particles around the camera leave as
+// many as they are.
+std::vector<std::uint32_t> free_slots(const std::vector<shared::BlockCounts>& blocks,
+                                      std::uint32_t stride, std::uint64_t wanted) {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+    for (std::uint32_t k = blocks[b].visible; k < stride && slots.size() < wanted; ++k)
+      slots.push_back(b * stride + k);
+  }
+  return slots;
+}
+
 }  // namespace
 
 // Where a launch that counts keys writes.
@@ -79,8 +99,8 @@ Projector::Projector(const StageContext& context)
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
   if (!rows) scan_.emplace(context.device);
-  if (!rows || context.plan.needs_sort())
-    programs.get(context.specialization.project(ProjectOutput::counts));
+  if (!rows) programs.get(context.specialization.project(ProjectOutput::counts));
+  if (rows && context.plan.needs_sort()) programs.get(Specialization::compact());
   if (context.plan.needs_sort()) {
     programs.get(context.specialization.project(ProjectOutput::splats_and_keys));
   } else {
@@ -218,51 +238,105 @@ ParticleCounts Projector::count(const SplatBlocks& blocks) const {
   return sum_of(context_.device.pool.download(blocks.counts, blocks.block_count));
 }
 
-KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
-  DeviceContext& device = context_.device;
+// Of a launch for each component.
+struct Projector::AllParticles {
   std::vector<shared::ProjectParameters> components;
   std::vector<std::vector<std::uint32_t>> left_out;
-  KeyedSplats keyed;
-  std::uint32_t blocks = 0;
+  std::uint32_t blocks = 0, blocks_left_out = 0;
+};
+
+KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
+  AllParticles all;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
-    components.push_back(parameters_for({c, 0, count}, particles[c]));
-    components.back().first_block = blocks;
-    blocks += block_count(components.back());
-    left_out.push_back(left_out_blocks(components.back(), particles[c]));
-    keyed.left_out += count_left_out(left_out.back());
+    all.components.push_back(parameters_for({c, 0, count}, particles[c]));
+    all.components.back().first_block = all.blocks;
+    all.blocks += block_count(all.components.back());
+    all.left_out.push_back(left_out_blocks(all.components.back(), particles[c]));
+    all.blocks_left_out += count_left_out(all.left_out.back());
   }
-  if (blocks == 0) return keyed;
-  const auto counts = counts_of(blocks);
-  const auto offsets = device.pool.get<std::uint32_t>(blocks + 1, "block offsets");
-  const auto pass = [&](ProjectOutput output, const Targets& targets) {
-    for (std::size_t c = 0; c < components.size(); ++c)
-      launch(output, components[c], particles[c], left_out[c], targets);
-  };
-  pass(ProjectOutput::counts, {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
-  scan_counts(blocks, counts, offsets);
-  const ParticleCounts found = download_counts(counts, blocks);
-  const std::uint32_t left_out_of_all = keyed.left_out;
+  if (all.blocks == 0) return {};
+  KeyedSplats keyed =
+      scan_ ? project_all_in_groups(all, particles) : project_all_in_blocks(all, particles);
+  keyed.left_out = all.blocks_left_out;
+  return keyed;
+}
+
+void Projector::launch_all(ProjectOutput output, const AllParticles& all,
+                           const std::vector<ParticleBuffers>& particles,
+                           const Targets& targets) const {
+  for (std::size_t c = 0; c < all.components.size(); ++c)
+    launch(output, all.components[c], particles[c], all.left_out[c], targets);
+}
+
+KeyedSplats Projector::project_all_in_groups(const AllParticles& all,
+                                             const std::vector<ParticleBuffers>& particles) const {
+  const auto counts = counts_of(all.blocks);
+  const auto offsets = context_.device.pool.get<std::uint32_t>(all.blocks + 1, "block offsets");
+  launch_all(ProjectOutput::counts, all, particles,
+             {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
+  scan_counts(all.blocks, counts, offsets);
+  const ParticleCounts found = download_counts(counts, all.blocks);
   // With room for clouds around the camera.
-  keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
+  KeyedSplats keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
   keyed.count = static_cast<std::uint32_t>(found.visible);
   keyed.particles = found;
-  keyed.left_out = left_out_of_all;
-  pass(ProjectOutput::splats_and_keys,
-       {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
+  launch_all(ProjectOutput::splats_and_keys, all, particles,
+             {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
+  return keyed;
+}
+
+// Each block's splats lie where there is room for all its particles, so that these are projected
+// once: how many come before is known afterwards, and only keys are moved. A processor has no
+// memory for slots that nothing is written to.
+KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
+                                             const std::vector<ParticleBuffers>& particles) const {
+  BufferPool& pool = context_.device.pool;
+  const std::uint32_t stride = all.components.front().block_particles *
+                               static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  const std::uint32_t slots = all.blocks * stride;
+  const auto counts = counts_of(all.blocks);
+  const auto keys = pool.get<std::uint32_t>(slots, "sort keys of blocks");
+  const auto offsets = pool.upload(first_slots(all.blocks, stride), "block offsets");
+  KeyedSplats keyed;
+  keyed.splats = splat_memory(slots);
+  keyed.key_ends = key_ends(slots);
+  launch_all(ProjectOutput::splats_and_keys, all, particles,
+             {offsets, counts, keyed.splats, keys, keyed.key_ends, unused_});
+  const std::vector<shared::BlockCounts> found = pool.download(counts, all.blocks);
+  keyed.particles = sum_of(found);
+  keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
+  keyed.free_slots = free_slots(found, stride, keyed.particles.around);
+  const std::uint64_t most = keyed.particles.visible + keyed.particles.around;
+  keyed.keys = pool.get<std::uint32_t>(most, "sort keys");
+  keyed.order = pool.get<std::uint32_t>(most, "order");
+  scan_counts(all.blocks, counts, offsets);
+  Launch(context_.device, "project",
+         context_.device.programs.get(Specialization::compact()).create_kernel("compact_keys"))
+      .value(stride)
+      .arg(counts)
+      .arg(offsets)
+      .arg(keys)
+      .arg(keyed.keys)
+      .arg(keyed.order)
+      .run_items(all.blocks);
   return keyed;
 }
 
 KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
   BufferPool& pool = context_.device.pool;
-  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
   KeyedSplats keyed;
   keyed.count = count;
   keyed.splats = splat_memory(count);
   keyed.keys = pool.get<std::uint32_t>(count, "sort keys");
-  keyed.key_ends = pool.get<std::uint16_t>(by_depth ? count : 0, "ends of sort keys");
+  keyed.key_ends = key_ends(count);
   keyed.order = pool.get<std::uint32_t>(count, "order");
   return keyed;
+}
+
+Buffer<std::uint16_t> Projector::key_ends(std::uint32_t slots) const {
+  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
+  return context_.device.pool.get<std::uint16_t>(by_depth ? slots : 0, "ends of sort keys");
 }
 
 Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {
@@ -332,15 +406,12 @@ std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameter
   const std::uint32_t stride =
       parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
   const auto counts = counts_of(blocks);
-  std::vector<std::uint32_t> first_of_block(blocks + 1);
-  for (std::uint32_t b = 0; b < blocks; ++b)
-    first_of_block[b] = b * stride;
-  const auto offsets = context_.device.pool.upload(first_of_block, "block offsets");
+  const auto offsets = context_.device.pool.upload(first_slots(blocks, stride), "block offsets");
   const KeyedSplats apart = keyed_memory(blocks * stride);
   shared::ProjectParameters with_gaps = parameters;
   with_gaps.first_slot = 0;
   launch(ProjectOutput::window_splats, with_gaps, particles, without,
-         {offsets, counts, apart.splats, apart.keys, apart.key_ends, apart.order});
+         {offsets, counts, apart.splats, apart.keys, apart.key_ends, unused_});
   scan_counts(blocks, counts, offsets);
   const Specialization& specialization = context_.specialization;
   const auto compact = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,

@@ -49,6 +49,14 @@ class Projector {
  private:
   struct KeyTargets;
   struct Targets;
+  struct AllParticles;
+  KeyedSplats project_all_in_blocks(const AllParticles& all,
+                                    const std::vector<ParticleBuffers>& particles) const;
+  KeyedSplats project_all_in_groups(const AllParticles& all,
+                                    const std::vector<ParticleBuffers>& particles) const;
+  void launch_all(ProjectOutput output, const AllParticles& all,
+                  const std::vector<ParticleBuffers>& particles, const Targets& targets) const;
+  Buffer<std::uint16_t> key_ends(std::uint32_t slots) const;
   Buffer<shared::BlockCounts> counts_of(std::uint32_t blocks) const;
   ParticleCounts download_counts(const Buffer<shared::BlockCounts>& counts,
                                  std::uint32_t blocks) const;

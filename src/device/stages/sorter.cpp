@@ -90,7 +90,8 @@ Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint3
 
 // Upper bits that all keys share make room for ends. How many bits of the ends are left.
 std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
-                                   const Buffer<std::uint16_t>& ends, std::uint32_t count) const {
+                                   const Buffer<std::uint16_t>& ends,
+                                   const Buffer<std::uint32_t>& values, std::uint32_t count) const {
   shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
   const auto bits = device_.pool.get<shared::KeyBits>(parameters.block_count, "key bits");
   const Program program = device_.programs.get(Specialization::sort());
@@ -108,6 +109,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
   Launch(device_, "sort", program.create_kernel("sort_take_in_ends"))
       .value(parameters)
       .arg(ends)
+      .arg(values)
       .arg(keys)
       .run_items(parameters.block_count);
   return parameters.shift;
@@ -119,7 +121,7 @@ Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std:
                                    Buffer<std::uint32_t> values, std::uint32_t count) const {
   if (count < 2) return values;
   if (groups_) return groups_->sort(std::move(keys), ends, std::move(values), count);
-  const std::uint32_t bits_left = take_in_ends(keys, ends, count);
+  const std::uint32_t bits_left = take_in_ends(keys, ends, values, count);
   Pairs sorted = sort_pairs(std::move(keys), std::move(values), count);
   if (bits_left == 0) return std::move(sorted.values);
   const shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);

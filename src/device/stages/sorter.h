@@ -19,8 +19,8 @@ class Sorter {
   // The first `count` values in the order of their ascending keys.
   Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                              std::uint32_t count) const;
-  // The numbers 0, 1, 2, ... in `values` in the order of their keys of 48 bits: the upper 32 of
-  // number i are keys[i], the others ends[i].
+  // The values in the order of their keys of 48 bits: the upper 32 of values[i] are keys[i], the
+  // others ends[values[i]]. Groups take the numbers 0, 1, 2, ... only.
   Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                              Buffer<std::uint32_t> values, std::uint32_t count) const;
 
@@ -32,7 +32,7 @@ class Sorter {
   Pairs sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                    std::uint32_t count) const;
   std::uint32_t take_in_ends(const Buffer<std::uint32_t>& keys, const Buffer<std::uint16_t>& ends,
-                             std::uint32_t count) const;
+                             const Buffer<std::uint32_t>& values, std::uint32_t count) const;
 
   DeviceContext& device_;
   std::optional<GroupSorter> groups_;  // does the work in its shape
