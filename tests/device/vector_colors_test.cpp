@@ -137,12 +137,13 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     const std::size_t count = stages.keys().size();
     const std::size_t floats = stages.context().specialization.splat_bytes() / sizeof(float);
     constexpr std::size_t red_of_splat = sizeof(shared::Splat) / sizeof(float);
-    const std::vector<float> splats =
-        stages.read_as<float>(stages.keyed().splats.splats, count * floats);
     ASSERT_GT(count, 500u);
+    const std::vector<std::uint32_t> slots = stages.read(stages.keyed().order, count);
+    const std::vector<float> splats =
+        stages.read_as<float>(stages.keyed().splats.splats, (slots.back() + 1) * floats);
     std::set<float> reds;
-    for (std::size_t i = 0; i < count; ++i)
-      reds.insert(splats[i * floats + red_of_splat]);
+    for (const std::uint32_t slot : slots)
+      reds.insert(splats[slot * floats + red_of_splat]);
     const Column& own = frame.components[0].particles.color_vector;
     EXPECT_EQ(reds.count(1.0f), 1u);
     for (const float red : reds) {
