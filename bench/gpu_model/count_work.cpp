@@ -99,7 +99,7 @@ class Counter {
       SplatBlocks blocks = pipeline_.project(chunk);
       work_.chunk = std::max(work_.chunk, static_cast<double>(chunk.end - chunk.first));
       draw_lists(pipeline_.binner().count(blocks));
-      work_.splats += static_cast<double>(pipeline_.projector().count(blocks).visible);
+      work_.splats += static_cast<double>(pipeline_.projector().count(blocks, chunk).visible);
     }
   }
 

@@ -34,7 +34,8 @@ std::uint32_t StageRig::prepare_lists() {
     splats = splat_chunks(sorted_.count, device_.traits).front().count;
   } else {
     project_chunk();
-    splats = static_cast<std::uint32_t>(pipeline_.projector().count(blocks_).visible);
+    const ParticleChunk chunk = pipeline_.particle_chunks().front();
+    splats = static_cast<std::uint32_t>(pipeline_.projector().count(blocks_, chunk).visible);
   }
   if (const std::size_t bands = count().bands.size(); bands > 1) {
     throw DeviceError("the benchmark's chunk needs " + std::to_string(bands) +

@@ -56,7 +56,7 @@ class OctaveSample {
       // The four squares of two cells by two with this one.
       for (const int left : {x - 1, x}) {
         for (const int top : {y - 1, y})
-          most = std::max(most, light_of_square(left, top, is_sample));
+          most = light_of_square(left, top, is_sample, most);
       }
     }
     return most;
@@ -81,13 +81,15 @@ class OctaveSample {
     }
     return all;
   }
-  double light_of_square(int left, int top, bool is_sample) const {
+  // Or `least`, where it is less.
+  double light_of_square(int left, int top, bool is_sample, double least) const {
     constexpr double square = 4, around = 32;
     const Sampled here = sum(left, top, 2);
-    if (is_sample && here.count < fewest) return 0;
+    if (is_sample && here.count < fewest) return least;
     const double certain = is_sample ? 1 - deviations / std::sqrt(here.count) : 1;
+    if (certain * here.peak <= least) return least;
     const double beside = sum(left - 2, top - 2, 6).peak - here.peak;
-    return certain * here.peak - beside * square / around;
+    return std::max(least, certain * here.peak - beside * square / around);
   }
 
   int level_, shift_;

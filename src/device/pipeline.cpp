@@ -92,7 +92,7 @@ SplatLight Pipeline::draw_leaf(const std::vector<ParticleChunk>& chunks, const C
   return light;
 }
 
-std::vector<CloudAround> Pipeline::list_around(const std::vector<ParticleChunk>& chunks,
+std::vector<CloudAround> Pipeline::list_around(const std::vector<ChunkBlocks>& chunks,
                                                std::uint64_t counted) {
   const auto get = [this](const ParticleChunk& chunk) {
     return particles_in_view(context_, particles_, chunk);
@@ -112,7 +112,7 @@ void Pipeline::take_around(std::vector<CloudAround> clouds) {
   }
 }
 
-std::vector<CloudAround> Pipeline::find_around(const std::vector<ParticleChunk>& chunks) {
+std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& chunks) {
   std::vector<CloudAround> clouds = surroundings_.in_order(list_around(chunks, counts_.around));
   counts_.visible += clouds.size();
   return clouds;
@@ -124,7 +124,7 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   counts_.blocks_left_out += blocks.left_out;
   planes = draw_lists(binner_.count(blocks), std::move(planes));
   // Read last: the device has long counted them.
-  const ParticleCounts particles = projector_.count(blocks);
+  const ParticleCounts particles = projector_.count(blocks, chunk);
   if (ranks_ != nullptr) ranks_->work.splats += particles.visible;
   counts_.visible += particles.visible;
   counts_.bad += particles.bad;
@@ -133,7 +133,7 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
   if (particles.around > 0) {
     // While the device draws the chunk.
     if (chunks_with_around_.empty()) surroundings_.get_programs();
-    chunks_with_around_.push_back(chunk);
+    chunks_with_around_.push_back(particles.chunks_around.front());
   }
   return planes;
 }
@@ -166,7 +166,7 @@ Planes Pipeline::draw_alone(Planes planes) {
   KeyedSplats keyed = project_all();
   take_counts(keyed.particles, keyed.left_out);
   if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) take_around(find_around(particle_chunks()));
+  if (counts_.around > 0) take_around(find_around(keyed.particles.chunks_around));
   place_around(keyed, 0, end_of_keys);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   const std::vector<SplatChunk> chunks =
@@ -185,7 +185,8 @@ Planes Pipeline::draw_windows(Planes planes) {
   counts_.windows = windows.steps();
   if (counts_.too_sharp > 0) return planes;
   const std::uint64_t without_clouds = counts_.visible;
-  if (counts_.around > 0) take_around(find_around(particle_chunks()));
+  if (counts_.around > 0)
+    take_around(find_around(all_blocks(particle_chunks(), context_.device.traits)));
   const std::uint64_t splats = without_clouds + in_lists_.count();
   const std::vector<SplatChunk> chunks =
       splat_chunks(splats, context_.plan.slabs, context_.device.traits);

@@ -84,13 +84,12 @@ class Pipeline {
                      const std::vector<SplatChunk>& chunks, std::size_t& next, Planes planes);
   Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
   Planes end_order(std::uint64_t splats, Planes planes);
-  std::vector<CloudAround> find_around(const std::vector<ParticleChunk>& chunks);
-  std::vector<CloudAround> list_around(const std::vector<ParticleChunk>& chunks,
+  std::vector<CloudAround> find_around(const std::vector<ChunkBlocks>& chunks);
+  std::vector<CloudAround> list_around(const std::vector<ChunkBlocks>& chunks,
                                        std::uint64_t counted);
 
   // Several ranks (pipeline_ranks.cpp).
-  std::vector<CloudAround> gather_around(const std::vector<ParticleChunk>& chunks,
-                                         std::uint64_t own);
+  std::vector<CloudAround> gather_around(const std::vector<ChunkBlocks>& chunks, std::uint64_t own);
   void place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds);
   std::vector<CloudRange> slice_around(const std::vector<KeySlice>& slices) const;
   void add_up_counts();
@@ -123,7 +122,7 @@ class Pipeline {
   const Surroundings surroundings_;
   CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
   CloudLayers around_;      // ... or layers between them
-  std::vector<ParticleChunk> chunks_with_around_;  // of sums
+  std::vector<ChunkBlocks> chunks_with_around_;  // of sums
   DrawCounts counts_;
   std::function<void(double)> progress_;
   FrameRanks* ranks_;                      // null: one process

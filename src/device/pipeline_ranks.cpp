@@ -62,7 +62,7 @@ void Pipeline::add_up_counts() {
                        &counts_.blocks_left_out, &counts_.tile_entries});
 }
 
-std::vector<CloudAround> Pipeline::gather_around(const std::vector<ParticleChunk>& own_chunks,
+std::vector<CloudAround> Pipeline::gather_around(const std::vector<ChunkBlocks>& own_chunks,
                                                  std::uint64_t own) {
   std::vector<CloudAround> clouds =
       surroundings_.in_order(gather_clouds(ranks_->all, list_around(own_chunks, own)));
@@ -111,7 +111,10 @@ Planes Pipeline::draw_slices(Planes planes) {
   exchange.count_keys();
   take_counts(exchange.particles(), exchange.left_out());
   if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) take_around(gather_around(exchange.chunks(), exchange.own_around()));
+  if (counts_.around > 0) {
+    const DeviceTraits& traits = context_.device.traits;
+    take_around(gather_around(all_blocks(exchange.chunks(), traits), exchange.own_around()));
+  }
   const std::uint64_t splats = exchange.particles().visible + in_lists_.count();
   const std::vector<CloudRange> clouds_of = slice_around(exchange.slices());
   const int rank = ranks_->rank(), last = ranks_->size() - 1;

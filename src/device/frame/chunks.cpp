@@ -1,6 +1,7 @@
 #include "device/frame/chunks.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace splotchcl {
 
@@ -51,6 +52,18 @@ std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTrait
       chunks.push_back({c, part.first, part.first + part.count});
   }
   return chunks;
+}
+
+std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
+                                    const DeviceTraits& traits) {
+  const std::uint32_t length = traits.project_block;
+  std::vector<ChunkBlocks> all;
+  for (const ParticleChunk& chunk : chunks) {
+    all.push_back({chunk, std::vector<std::uint32_t>(chunk.count() / length +
+                                                     (chunk.count() % length != 0))});
+    std::iota(all.back().blocks.begin(), all.back().blocks.end(), 0u);
+  }
+  return all;
 }
 
 std::vector<ChunkRange> sum_leaves(std::size_t chunks, const DeviceTraits& traits) {

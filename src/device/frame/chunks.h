@@ -21,6 +21,15 @@ struct ParticleChunk {
 };
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
 
+// A chunk, and which of its blocks of DeviceTraits::project_block particles are looked through.
+struct ChunkBlocks {
+  ParticleChunk chunk;
+  std::vector<std::uint32_t> blocks;
+};
+// All blocks of the chunks.
+std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
+                                    const DeviceTraits& traits);
+
 // The light of a sum's chunks is added up leaf by leaf, and leaves by a fixed binary tree, so that
 // ranks may share them out to the same bits. A leaf has the same number of chunks whoever draws,
 // but for the last; there are never more of them than a tree keeps planes for.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "device/frame/chunks.h"
 #include "device/frame/shared.h"
 #include "device/opencl/buffer_pool.h"
 
@@ -36,6 +37,8 @@ struct ParticleCounts {
   std::uint64_t visible = 0, bad = 0;
   std::uint64_t too_sharp = 0;  // for the frame's precision, in the whole picture
   std::uint64_t around = 0;     // the camera: not among the splats
+  // Where those are, where blocks were counted one by one.
+  std::vector<ChunkBlocks> chunks_around;
 };
 
 // All splats of a frame in component and file order, with their sort keys, which have no gaps.

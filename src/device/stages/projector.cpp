@@ -49,6 +49,15 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   return sum;
 }
 
+// Which of a chunk's blocks have particles around the camera.
+std::vector<std::uint32_t> blocks_around(const shared::BlockCounts* first, std::size_t count) {
+  std::vector<std::uint32_t> blocks;
+  for (std::uint32_t b = 0; b < count; ++b) {
+    if (first[b].around > 0) blocks.push_back(b);
+  }
+  return blocks;
+}
+
 // Of blocks whose particles have a slot each, and of what follows the last.
 std::vector<std::uint32_t> first_slots(std::uint32_t blocks, std::uint32_t stride) {
   std::vector<std::uint32_t> first(std::size_t{blocks} + 1);
@@ -234,8 +243,15 @@ SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
   return blocks;
 }
 
-ParticleCounts Projector::count(const SplatBlocks& blocks) const {
-  return sum_of(context_.device.pool.download(blocks.counts, blocks.block_count));
+ParticleCounts Projector::count(const SplatBlocks& blocks, const ParticleChunk& chunk) const {
+  const std::vector<shared::BlockCounts> found =
+      context_.device.pool.download(blocks.counts, blocks.block_count);
+  ParticleCounts sum = sum_of(found);
+  if (sum.around == 0) return sum;
+  sum.chunks_around =
+      scan_ ? all_blocks({chunk}, context_.device.traits)
+            : std::vector{ChunkBlocks{chunk, blocks_around(found.data(), found.size())}};
+  return sum;
 }
 
 // Of a launch for each component.
@@ -281,9 +297,25 @@ KeyedSplats Projector::project_all_in_groups(const AllParticles& all,
   KeyedSplats keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
   keyed.count = static_cast<std::uint32_t>(found.visible);
   keyed.particles = found;
+  const DeviceTraits& traits = context_.device.traits;
+  keyed.particles.chunks_around = all_blocks(particle_chunks(context_.frame, traits), traits);
   launch_all(ProjectOutput::splats_and_keys, all, particles,
              {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
   return keyed;
+}
+
+// In the chunks that particles are listed in.
+std::vector<ChunkBlocks> Projector::chunks_around(
+    const AllParticles& all, const std::vector<shared::BlockCounts>& found) const {
+  const DeviceTraits& traits = context_.device.traits;
+  std::vector<ChunkBlocks> around;
+  for (ChunkBlocks& chunk : all_blocks(particle_chunks(context_.frame, traits), traits)) {
+    const std::uint64_t first = all.components[chunk.chunk.component].first_block +
+                                chunk.chunk.first / traits.project_block;
+    chunk.blocks = blocks_around(found.data() + first, chunk.blocks.size());
+    if (!chunk.blocks.empty()) around.push_back(std::move(chunk));
+  }
+  return around;
 }
 
 // Each block's splats lie where there is room for all its particles, so that these are projected
@@ -307,6 +339,7 @@ KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
   keyed.particles = sum_of(found);
   keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
   keyed.free_slots = free_slots(found, stride, keyed.particles.around);
+  if (keyed.particles.around > 0) keyed.particles.chunks_around = chunks_around(all, found);
   const std::uint64_t most = keyed.particles.visible + keyed.particles.around;
   keyed.keys = pool.get<std::uint32_t>(most, "sort keys");
   keyed.order = pool.get<std::uint32_t>(most, "order");

@@ -28,7 +28,7 @@ class Projector {
   // One chunk of a sum, block by block. `particles` are those of its component.
   SplatBlocks project(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
   // What became of the chunk's particles; waits for the device.
-  ParticleCounts count(const SplatBlocks& blocks) const;
+  ParticleCounts count(const SplatBlocks& blocks, const ParticleChunk& chunk) const;
 
   // All particles of all components, with sort keys: what an ordered frame needs.
   KeyedSplats project_all(const std::vector<ParticleBuffers>& particles) const;
@@ -54,6 +54,8 @@ class Projector {
                                     const std::vector<ParticleBuffers>& particles) const;
   KeyedSplats project_all_in_groups(const AllParticles& all,
                                     const std::vector<ParticleBuffers>& particles) const;
+  std::vector<ChunkBlocks> chunks_around(const AllParticles& all,
+                                         const std::vector<shared::BlockCounts>& found) const;
   void launch_all(ProjectOutput output, const AllParticles& all,
                   const std::vector<ParticleBuffers>& particles, const Targets& targets) const;
   Buffer<std::uint16_t> key_ends(std::uint32_t slots) const;

@@ -123,10 +123,11 @@ void Surroundings::get_programs() const {
   behind.create_kernel("put_behind");
 }
 
-std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
+std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
                                                     const ParticleBuffers& particles,
                                                     std::uint64_t most) const {
   DeviceContext& device = context_.device;
+  const ParticleChunk& chunk = blocks.chunk;
   shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
   p.block_particles = device.traits.project_block;
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
@@ -134,9 +135,13 @@ std::vector<Surroundings::Found> Surroundings::list(const ParticleChunk& chunk,
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
   const Program program = device.programs.get(context_.specialization.list_around());
   Launch launch(device, "surroundings", program.create_kernel("list_around"));
-  pass_columns(launch.value(p), particles).arg(listed).value(static_cast<cl_uint>(capacity));
+  const Buffer<std::uint32_t> looked_through = device.pool.upload(blocks.blocks, "blocks around");
+  pass_columns(launch.value(p), particles)
+      .arg(looked_through)
+      .arg(listed)
+      .value(static_cast<cl_uint>(capacity));
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
-  launch.run_items((chunk.count() + p.block_particles - 1) / p.block_particles);
+  launch.run_items(blocks.blocks.size());
   const std::uint32_t count = device.pool.download(listed, 1).front();
   if (count > capacity) refuse(device, most, count);
   const std::vector<std::uint32_t> words =
@@ -222,15 +227,15 @@ void Surroundings::end_nearer(std::vector<CloudAround>& clouds) const {
 }
 
 std::vector<CloudAround> Surroundings::list(
-    const std::vector<ParticleChunk>& chunks,
+    const std::vector<ChunkBlocks>& chunks,
     const std::function<ParticleBuffers(const ParticleChunk&)>& get, std::uint64_t counted) const {
   std::vector<CloudAround> clouds;
   std::uint64_t listed = 0;
-  for (const ParticleChunk& chunk : chunks) {
+  for (const ChunkBlocks& blocks : chunks) {
     if (listed == counted) break;
-    const std::vector<Found> found = list(chunk, get(chunk), counted - listed);
+    const std::vector<Found> found = list(blocks, get(blocks.chunk), counted - listed);
     listed += found.size();
-    append(chunk.component, found, clouds);
+    append(blocks.chunk.component, found, clouds);
   }
   if (listed != counted) refuse(context_.device, counted, listed);
   return clouds;

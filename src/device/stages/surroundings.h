@@ -24,9 +24,9 @@ class Surroundings {
   // Of sums that turn out to have some: there they wait for nobody.
   void get_programs() const;
 
-  // Those of the chunks' particles that the projection has left out, `counted` of them, in file
+  // Those of the blocks' particles that the projection has left out, `counted` of them, in file
   // order; `get`: the particles of one chunk.
-  std::vector<CloudAround> list(const std::vector<ParticleChunk>& chunks,
+  std::vector<CloudAround> list(const std::vector<ChunkBlocks>& chunks,
                                 const std::function<ParticleBuffers(const ParticleChunk&)>& get,
                                 std::uint64_t counted) const;
   // All of a frame: nearest first, in file order where keys are equal, and no larger than shows.
@@ -52,7 +52,7 @@ class Surroundings {
   struct Found {
     std::uint64_t particle, depth;
   };
-  std::vector<Found> list(const ParticleChunk& chunk, const ParticleBuffers& particles,
+  std::vector<Found> list(const ChunkBlocks& chunk, const ParticleBuffers& particles,
                           std::uint64_t most) const;
   std::vector<Found> within_limits(std::uint32_t c, const std::vector<Found>& found) const;
   void append(std::uint32_t c, const std::vector<Found>& found,
