@@ -100,14 +100,16 @@ std::string text_of_tolerance(double tolerance) {
 // One row per frame to read, one per point to plot.
 class SpeedAndError {
  public:
-  SpeedAndError(const std::string& device, int runs)
+  SpeedAndError(const std::string& device, int runs, std::string filter)
       : renderer_(RendererOptions{device, CompositeShape::automatic}),
         runs_(runs),
+        filter_(std::move(filter)),
         summary_(summary_columns()) {}
 
   void add_scene(const SceneToTime& scene, LightPlan light) {
-    std::fprintf(stderr, "%s, %s splats, %s\n", scene.name.c_str(), scene.splats.c_str(),
-                 name(light));
+    const std::string title = scene.name + ", " + scene.splats + " splats, " + name(light);
+    if (title.find(filter_) == std::string::npos) return;
+    std::fprintf(stderr, "%s\n", title.c_str());
     Frame frame = scene.frame;
     set_light(frame, light);
     const Stopwatch stopwatch;
@@ -161,6 +163,7 @@ class SpeedAndError {
 
   Renderer renderer_;
   int runs_;
+  std::string filter_;  // of the scenes' titles
   int point_count_ = 0, points_beyond_ = 0;
   Table summary_;
   Table points_{{"scene", "splats", "plan", "tolerance", "promise", "particles", "width", "height",
@@ -176,7 +179,7 @@ void run(const Arguments& arguments) {
   Size size;
   if (arguments.has("quick")) size = {320, 240, 0.1};
   const int runs = arguments.number("runs", 5);
-  SpeedAndError results(device, runs);
+  SpeedAndError results(device, runs, arguments.text("filter", ""));
   for (const SceneToTime& scene : make_scenes(size)) {
     for (const LightPlan light :
          {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
@@ -198,7 +201,9 @@ int main(int count, char** words) {
   return splotchcl::bench::run_main(
       count, words,
       {"quick: small pictures with a tenth of the particles",
-       "runs=COUNT: how often each frame is timed (5)", "device=NAME: part of a device's name",
+       "runs=COUNT: how often each frame is timed (5)",
+       "filter=TEXT: only scenes with this in their title, as in 'universe, all splats, ordered'",
+       "device=NAME: part of a device's name",
        "csv=FILE: where the table goes, for scripts/plot_bench"},
       splotchcl::bench::run);
 }
