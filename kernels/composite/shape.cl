@@ -53,7 +53,7 @@ static inline VALUE mean_of_complements(VALUE left, VALUE of_left, VALUE right, 
 // The same mean for a splat wider than WIDE_MEAN, where that difference would lose digits: the
 // value at the center times the mean of exp(-(2 d t + t^2) / sigma^2) over -1/2 < t < 1/2, by its
 // series up to the sixth derivative of a Gaussian; the next is (2 d / sigma^2)^8 / 9e7.
-#define WIDE_MEAN 4.0f
+#define WIDE_MEAN 3.9f
 static inline VALUE wide_bright_mean(VALUE d, float sigma) {
   const VALUE x = min(fabs(d) / sigma, (VALUE)(9.19f)), slope = x * (2.0f / sigma);
   const VALUE s = slope * slope;

@@ -64,7 +64,9 @@ bool are_bright_means(int octave, int level, const Frame& frame, const FramePlan
 
 // Means of bright splats keep their digits.
 double error_of_means_in(int octave, double widest, const FramePlan& plan) {
-  return light_of(octave, plan) > 0 ? bright_mean_error(widest) : widest * plan.mean_error;
+  const double narrowest = without_widening(narrowest_sigma(octave), plan);
+  return light_of(octave, plan) > 0 ? bright_mean_error(narrowest, widest)
+                                    : widest * plan.mean_error;
 }
 
 // Errors of erf over both axes; and of the widened center value.
@@ -183,9 +185,9 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       peak_side_(cells.peaks.side),
       ending_(ending_of(octave_, frame, plan)),
       peak_error_(error_of_peak(octave_, level_, frame, plan)),
-      bright_mean_(are_bright_means(octave_, level_, frame, plan)
-                       ? without_widening(widest_sigma(octave_), plan)
-                       : 0),
+      are_bright_means_(are_bright_means(octave_, level_, frame, plan)),
+      narrowest_(without_widening(narrowest_sigma(octave_), plan)),
+      widest_(without_widening(widest_sigma(octave_), plan)),
       light_of_means_(light_that_makes_means(octave_, plan)),
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
@@ -308,8 +310,8 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
 }
 
 double OctaveErrors::part_of_itself(double light) const {
-  if (bright_mean_ == 0) return std::numeric_limits<double>::infinity();
-  return part_of_bright_mean(bright_mean_, light);
+  if (!are_bright_means_) return std::numeric_limits<double>::infinity();
+  return part_of_bright_mean(narrowest_, widest_, light);
 }
 
 double OctaveErrors::of_places(const PixelBlock& block) const {

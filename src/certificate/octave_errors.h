@@ -68,7 +68,8 @@ class OctaveErrors {
   int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;
   double ending_, peak_error_;
-  double bright_mean_;  // the widest sigma of splats that are all bright means; 0: not all are
+  bool are_bright_means_;      // all splats of the octave
+  double narrowest_, widest_;  // sigma, without the widening
   double light_of_means_;
   double place_error_, place_share_;  // parts of a peak; the most that one splat errs
   EndingWindow window_;

@@ -49,18 +49,46 @@ double light_of_bright_means(const SplatLimits& limits, double sigma_pixels) {
   return std::exp(wider * wider / 0.853);
 }
 
-// Of 1 - erf at both edges of a pixel, of which none is above 1 where both count from the same
-// side, and with the rounding of the difference. From WIDE_MEAN on the series errs by less.
-double bright_mean_error(double sigma_pixels) {
-  constexpr double of_complements = 6e-7, wide_mean = 4;
-  return 2 * 1.8 * std::clamp(sigma_pixels, 0.5, wide_mean) * of_complements;
+namespace {
+
+constexpr double wide_mean = 3.9;  // WIDE_MEAN of shape.cl
+
+// What the means of both axes err by that are differences of 1 - erf, which is known to that part
+// of itself with the rounding of the difference; and those that are the value at the center, of
+// exp's 3e-7, times a series, by one axis of which 2.5 roundings count.
+constexpr double of_complements = 2 * 6e-7, of_series = 2 * (3e-7 + 2.5 * 0x1p-24);
+
+// The first term that the series leaves out, at the distance where light of so much has faded to 1.
+double end_of_series(double sigma_pixels, double light) {
+  const double slope = 2 * std::sqrt(std::log(std::max(light, 1.0))) / sigma_pixels;
+  return std::pow(slope, 8) / 9e7;
 }
 
-// Beside the peak the difference is as large a part of itself as at the peak or a smaller one, but
-// roundings of the distance in sigma count with its square.
-double part_of_bright_mean(double sigma_pixels, double light) {
-  constexpr double roundings_of_fading = 12 * 0x1p-24;
-  return bright_mean_error(sigma_pixels) + roundings_of_fading * std::log(std::max(light, 1.0));
+}  // namespace
+
+// Of 1 - erf at both edges of a pixel, of which none is above 1 where both count from the same
+// side.
+double bright_mean_error(double narrowest_sigma, double widest_sigma) {
+  constexpr double narrow = 0.5, per_sigma = 1.8;
+  const double widest = std::clamp(widest_sigma, narrow, wide_mean);
+  const double of_means = narrowest_sigma < wide_mean ? per_sigma * widest * of_complements : 0;
+  return std::max(of_means, widest_sigma < wide_mean ? 0 : of_series);
+}
+
+// The sum of both edges is the largest part of their difference where one of them is the center.
+// Roundings of the distance in sigma count with its square.
+double part_of_bright_mean(double narrowest_sigma, double widest_sigma, double light) {
+  constexpr double roundings_of_fading = 12 * 0x1p-24, narrow = 0.5;
+  double part = 0;
+  if (narrowest_sigma < wide_mean) {
+    const double difference = std::erf(1 / std::clamp(widest_sigma, narrow, wide_mean));
+    part = (2 - difference) / difference * of_complements;
+  }
+  if (widest_sigma >= wide_mean) {
+    const double narrowest = std::max(narrowest_sigma, wide_mean);
+    part = std::max(part, of_series + end_of_series(narrowest, light));
+  }
+  return part + roundings_of_fading * std::log(std::max(light, 1.0));
 }
 
 bool takes_pixel_means(const Frame& frame) {

@@ -22,8 +22,8 @@ double light_of_bright_means(const SplatLimits& limits, double sigma_pixels);
 
 // By how much of its peak such a mean errs at most, along both axes together; and by which part of
 // itself, where splats of so much light have not faded below 1.
-double bright_mean_error(double sigma_pixels);
-double part_of_bright_mean(double sigma_pixels, double light);
+double bright_mean_error(double narrowest_sigma, double widest_sigma);
+double part_of_bright_mean(double narrowest_sigma, double widest_sigma, double light);
 
 // What a relative error of every splat does to the picture (error_budget.h), by what is wrong.
 struct Responses {
