@@ -59,10 +59,19 @@ class ComponentSample {
   double least_sigma_;
 };
 
-// In the particles' order. A sample is looked at on all cores: of a file that is mapped, each
+// Columns that are made as they are wanted keep a block of what they made last, and ranks that
+// share particles ask for them one after the other.
+bool are_arrays(const Particles& particles) {
+  const auto columns = particles.columns();
+  return std::all_of(columns.begin(), columns.end(),
+                     [](const Column* column) { return !column->is_array() || !column->source(); });
+}
+
+// In the particles' order. Arrays are looked at on all cores: of a file that is mapped, each
 // particle is a page that the system has to find.
-void append(const ComponentSample& component, std::vector<SampledCloud>& sample) {
-  constexpr std::size_t at_once = 512;
+void append(const ComponentSample& component, bool on_all_cores,
+            std::vector<SampledCloud>& sample) {
+  const std::size_t at_once = on_all_cores ? 512 : std::max<std::size_t>(component.count(), 1);
   std::vector<std::vector<SampledCloud>> blocks(component.count() / at_once + 1);
   for_blocks(component.count(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -80,7 +89,7 @@ std::vector<SampledCloud> sample_clouds(const Frame& frame) {
   const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
   std::vector<SampledCloud> sample;
   for (const DrawnComponent& component : frame.components)
-    append(ComponentSample(component, frame, stride), sample);
+    append(ComponentSample(component, frame, stride), are_arrays(component.particles), sample);
   return sample;
 }
 
