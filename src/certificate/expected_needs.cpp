@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
 #include "certificate/octave_errors.h"
 #include "certificate/peak_cells.h"
+#include "parallel/for_blocks.h"
 #include "scene/plan/cloud_sample.h"
 #include "scene/plan/light_structure.h"
 
@@ -168,7 +171,11 @@ bool can_be_expected(const Frame& frame, const FramePlan& plan) {
 
 std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan) {
   if (!can_be_expected(frame, plan)) return std::nullopt;
-  const std::vector<SampledCloud> clouds = sample_clouds(frame);
+  const std::vector<SampledCloud> clouds =
+      sample_clouds(frame, [](std::size_t count, std::size_t block_size,
+                              const std::function<void(std::size_t, std::size_t)>& work) {
+        for_blocks(count, block_size, work);
+      });
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
   const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
   const double times = is_sample ? margin_of_sample : margin;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "scene/peak_color.h"
 #include "scene/plan/cloud_in_picture.h"
@@ -67,13 +66,12 @@ bool are_arrays(const Particles& particles) {
                      [](const Column* column) { return !column->is_array() || !column->source(); });
 }
 
-// In the particles' order. Arrays are looked at on all cores: of a file that is mapped, each
-// particle is a page that the system has to find.
-void append(const ComponentSample& component, bool on_all_cores,
+// In the particles' order.
+void append(const ComponentSample& component, const BlockLoop& loop,
             std::vector<SampledCloud>& sample) {
-  const std::size_t at_once = on_all_cores ? 512 : std::max<std::size_t>(component.count(), 1);
+  constexpr std::size_t at_once = 512;
   std::vector<std::vector<SampledCloud>> blocks(component.count() / at_once + 1);
-  for_blocks(component.count(), at_once, [&](std::size_t first, std::size_t last) {
+  loop(component.count(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (const std::optional<SampledCloud> cloud = component.cloud(i))
         blocks[first / at_once].push_back(*cloud);
@@ -83,13 +81,22 @@ void append(const ComponentSample& component, bool on_all_cores,
     sample.insert(sample.end(), block.begin(), block.end());
 }
 
+void one_after_the_other(std::size_t count, std::size_t at_once,
+                         const std::function<void(std::size_t, std::size_t)>& work) {
+  for (std::size_t first = 0; first < count; first += at_once)
+    work(first, std::min(first + at_once, count));
+}
+
 }  // namespace
 
-std::vector<SampledCloud> sample_clouds(const Frame& frame) {
+std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores) {
   const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
   std::vector<SampledCloud> sample;
-  for (const DrawnComponent& component : frame.components)
-    append(ComponentSample(component, frame, stride), are_arrays(component.particles), sample);
+  for (const DrawnComponent& component : frame.components) {
+    const bool may_share = on_all_cores && are_arrays(component.particles);
+    append(ComponentSample(component, frame, stride),
+           may_share ? on_all_cores : one_after_the_other, sample);
+  }
   return sample;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "splotchcl/frame.h"
@@ -14,8 +16,13 @@ struct SampledCloud {
   double weight = 1;    // particles that it stands for
 };
 
+// Calls work(first, last) for all blocks of `count` things, in any order.
+using BlockLoop = std::function<void(std::size_t count, std::size_t block_size,
+                                     const std::function<void(std::size_t, std::size_t)>& work)>;
+
 // At most 32768 particles of a frame, those that the whole picture does not show left out. The
-// same in every run, and whatever crop is drawn.
-std::vector<SampledCloud> sample_clouds(const Frame& frame);
+// same in every run, and whatever crop is drawn. Of a file that is mapped each is a page that the
+// system has to find, so columns that are arrays are looked at `on_all_cores`, where that is given.
+std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores = {});
 
 }  // namespace splotchcl
