@@ -48,6 +48,17 @@ class FrameBuffers {
     return blocks * block * splats_per_particle();
   }
 
+  // Where the splats of an ordered frame lie: on a processor each particle has room for its own,
+  // block by block; groups count theirs first.
+  std::uint64_t slots(std::uint64_t splats) const {
+    if (!traits_.rows) return splats;
+    const std::uint64_t block = traits_.project_block;
+    std::uint64_t blocks = 0;
+    for (const DrawnComponent& component : frame_.components)
+      blocks += (component.particles.count + block - 1) / block;
+    return blocks * block * splats_per_particle();
+  }
+
   std::uint64_t splats(std::uint64_t count) const {
     return count * (specialization_.splat_bytes() + specialization_.extended_splat_bytes());
   }
@@ -130,12 +141,14 @@ std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
   constexpr std::uint64_t key = sizeof(std::uint32_t), order = sizeof(std::uint32_t);
   const bool by_depth = frame.sort.by == SortOrder::By::depth;
   const std::uint64_t key_end = by_depth ? sizeof(std::uint16_t) : 0;
-  // Keys and order have a second place each, where they are sorted to.
-  const std::uint64_t sorting = count * (2 * key + 2 * order + key_end);
+  // Keys and order have a second place each, where they are sorted to: of keys on a processor the
+  // one that they were projected to.
+  const std::uint64_t slots = buffers.slots(count);
+  const std::uint64_t sorting = slots * (key + key_end) + count * (key + 2 * order);
   const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
   const std::uint64_t drawing =
       count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
-  return buffers.light() + buffers.splats(count) + std::max(sorting, drawing + buffers.slabs());
+  return buffers.light() + buffers.splats(slots) + std::max(sorting, drawing + buffers.slabs());
 }
 
 }  // namespace
