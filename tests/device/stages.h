@@ -92,11 +92,10 @@ class Stages {
   void project() { keyed_ = pipeline_->project_all(); }
   // After project().
   std::vector<shared::Splat> splats() {
-    const std::vector<std::uint32_t> order = read(keyed_.order, keyed_.count);
-    const std::vector<shared::Splat> slots = splats_in_slots(keyed_.splats, order);
+    const std::vector<shared::Splat> all = splats_in_slots(keyed_.splats, slots());
     std::vector<shared::Splat> splats;
-    for (const std::uint32_t slot : order)
-      splats.push_back(slots[slot]);
+    for (const std::uint32_t slot : slots())
+      splats.push_back(all[slot]);
     return splats;
   }
   // As the sort has them: of 48 bits, or of 32 where a field is the key.
@@ -104,7 +103,7 @@ class Stages {
     const std::vector<std::uint32_t> upper = read(keyed_.keys, keyed_.count);
     std::vector<std::uint64_t> keys(upper.begin(), upper.end());
     if (frame_.sort.by == SortOrder::By::field) return keys;
-    const std::vector<std::uint32_t> slots = read(keyed_.order, keyed_.count);
+    const std::vector<std::uint32_t> slots = this->slots();
     const std::vector<std::uint16_t> ends =
         read(keyed_.key_ends, static_cast<std::size_t>(keyed_.key_ends.size()));
     for (std::size_t i = 0; i < keys.size(); ++i)
@@ -112,6 +111,8 @@ class Stages {
     return keys;
   }
   const KeyedSplats& keyed() const { return keyed_; }
+  // Where its splats lie.
+  std::vector<std::uint32_t> slots() { return read(keyed_.order, keyed_.count); }
 
   // The particles in the device's order, nearest first.
   std::vector<std::uint64_t> sorted_particles() {

@@ -138,7 +138,7 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     const std::size_t floats = stages.context().specialization.splat_bytes() / sizeof(float);
     constexpr std::size_t red_of_splat = sizeof(shared::Splat) / sizeof(float);
     ASSERT_GT(count, 500u);
-    const std::vector<std::uint32_t> slots = stages.read(stages.keyed().order, count);
+    const std::vector<std::uint32_t> slots = stages.slots();
     const std::vector<float> splats =
         stages.read_as<float>(stages.keyed().splats.splats, (slots.back() + 1) * floats);
     std::set<float> reds;

@@ -48,11 +48,13 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
   // With the widths of ellipses behind each.
   const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
   const std::vector<std::uint64_t> keys = stages.keys();
-  const auto values = stages.read_as<float>(stages.keyed().splats.splats, keys.size() * words);
+  const std::vector<std::uint32_t> slots = stages.slots();
   ASSERT_GT(keys.size(), 400u);
+  const auto values =
+      stages.read_as<float>(stages.keyed().splats.splats, (slots.back() + 1) * words);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     shared::Splat splat;
-    std::memcpy(&splat, values.data() + i * words, sizeof(splat));
+    std::memcpy(&splat, values.data() + slots[i] * words, sizeof(splat));
     const auto [first, last] = expected.equal_range(identity_of(splat));
     ASSERT_NE(first, last) << "a particle that the reference leaves out";
     ASSERT_EQ(keys[i], first->second.key) << "particle " << identity_of(splat);

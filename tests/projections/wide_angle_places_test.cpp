@@ -81,11 +81,12 @@ class WideAnglePlaces : public StageTest,
 
   static std::vector<Placed> single_places(Stages& stages) {
     const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
-    const std::size_t count = stages.keyed().count;
-    const auto values = stages.read_as<float>(stages.keyed().splats.splats, count * words);
+    const std::vector<std::uint32_t> slots = stages.slots();
+    const std::size_t end = slots.empty() ? 0 : slots.back() + 1;
+    const auto values = stages.read_as<float>(stages.keyed().splats.splats, end * words);
     const double widening = static_cast<double>(stages.plan().splats.widening);
     std::vector<Placed> places;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const std::size_t i : slots) {
       shared::Splat splat;
       std::memcpy(&splat, &values[i * words], sizeof(splat));
       const auto unwidened = [&](float sigma) {
@@ -107,11 +108,12 @@ class WideAnglePlaces : public StageTest,
     const Specialization& variant = stages.context().specialization;
     const std::size_t words = variant.extended_splat_bytes() / sizeof(float);
     const std::size_t plain = variant.splat_bytes() / sizeof(float);
-    const std::size_t count = stages.keyed().count;
-    const auto values = stages.read_as<float>(stages.keyed().splats.extended, count * words);
-    const auto rounded = stages.read_as<float>(stages.keyed().splats.splats, count * plain);
+    const std::vector<std::uint32_t> slots = stages.slots();
+    const std::size_t end = slots.empty() ? 0 : slots.back() + 1;
+    const auto values = stages.read_as<float>(stages.keyed().splats.extended, end * words);
+    const auto rounded = stages.read_as<float>(stages.keyed().splats.splats, end * plain);
     std::vector<Placed> places;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const std::size_t i : slots) {
       shared::Splat splat;
       std::memcpy(&splat, &rounded[i * plain], sizeof(splat));
       const float* own = &values[i * words];
