@@ -107,9 +107,12 @@ Projector::Projector(const StageContext& context)
   // Asked for, so that they are compiled with those of other stages.
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
-  if (!rows) scan_.emplace(context.device);
-  if (!rows) programs.get(context.specialization.project(ProjectOutput::counts));
-  if (rows && context.plan.needs_sort()) programs.get(Specialization::compact());
+  if (!rows) {
+    scan_.emplace(context.device);
+    programs.get(context.specialization.project(ProjectOutput::counts));
+  } else if (context.plan.needs_sort()) {
+    programs.get(Specialization::compact());
+  }
   if (context.plan.needs_sort()) {
     programs.get(context.specialization.project(ProjectOutput::splats_and_keys));
   } else {
@@ -297,8 +300,10 @@ KeyedSplats Projector::project_all_in_groups(const AllParticles& all,
   KeyedSplats keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
   keyed.count = static_cast<std::uint32_t>(found.visible);
   keyed.particles = found;
-  const DeviceTraits& traits = context_.device.traits;
-  keyed.particles.chunks_around = all_blocks(particle_chunks(context_.frame, traits), traits);
+  if (found.around > 0) {
+    const DeviceTraits& traits = context_.device.traits;
+    keyed.particles.chunks_around = all_blocks(particle_chunks(context_.frame, traits), traits);
+  }
   launch_all(ProjectOutput::splats_and_keys, all, particles,
              {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
   return keyed;
