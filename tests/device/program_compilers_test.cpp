@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -183,8 +184,18 @@ TEST(SharedWork, OfOneThatGivesUpIsThatOneItem) {
 }
 
 TEST(SharedWork, EndsWithTheExceptionOfTheCaller) {
-  EXPECT_THROW(share_work(5, [](std::size_t) { throw std::runtime_error("here"); },
-                          {[](std::size_t) { return true; }}),
+  // The helper waits at its first item, or it might do all of them before the caller takes one.
+  std::promise<void> taken_by_caller;
+  const std::shared_future<void> caller_has_one = taken_by_caller.get_future().share();
+  EXPECT_THROW(share_work(5,
+                          [&](std::size_t) {
+                            taken_by_caller.set_value();
+                            throw std::runtime_error("here");
+                          },
+                          {[caller_has_one](std::size_t) {
+                            caller_has_one.wait();
+                            return true;
+                          }}),
                std::runtime_error);
 }
 
