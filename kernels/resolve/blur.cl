@@ -7,6 +7,19 @@ static inline size_t temporary_stride(const GridPart part) {
   return ((size_t)(part.right_end - part.left) + 7) & ~(size_t)7;
 }
 
+// What eight pixels from `center` on take of those beside them, `stride` floats apart: two of one
+// weight at a time.
+INLINED float8 blurred(__global const float* center, size_t stride, const float* weights,
+                       int half_width) {
+  float8 sum = weights[half_width] * vload8(0, center), behind = (float8)(0.0f);
+  for (int k = 1; k <= half_width; ++k) {
+    const float weight = weights[half_width + k];
+    sum += weight * vload8(0, center - k * stride);
+    behind += weight * vload8(0, center + k * stride);
+  }
+  return sum + behind;
+}
+
 // Work-item (eight pixels, y from half_width above the part on, plane).
 __kernel void blur_columns(const BlurParameters p, __global const Grid* grids,
                            __global const float* planes, __global float* temporary) {
@@ -14,12 +27,10 @@ __kernel void blur_columns(const BlurParameters p, __global const Grid* grids,
   const uint c = (uint)get_global_id(2);
   const int rows = p.part.bottom - p.part.top + 2 * p.half_width;
   if (p.part.left + x >= p.part.right_end || y >= rows) return;
-  __global const float* row = planes + pixel_at(grids[p.source], c, p.part.left + x - p.half_width,
-                                                p.part.top + y - p.half_width);
-  float8 sum = (float8)(0.0f);
-  for (int k = 0; k <= 2 * p.half_width; ++k)
-    sum += p.weights[k] * vload8(0, row + k);
-  vstore8(sum, 0, temporary + ((size_t)c * rows + y) * temporary_stride(p.part) + x);
+  __global const float* pixels =
+      planes + pixel_at(grids[p.source], c, p.part.left + x, p.part.top + y - p.half_width);
+  vstore8(blurred(pixels, 1, p.weights, p.half_width), 0,
+          temporary + ((size_t)c * rows + y) * temporary_stride(p.part) + x);
 }
 
 // Work-item (eight pixels, y, plane) of the part.
@@ -31,10 +42,8 @@ __kernel void blur_rows(const BlurParameters p, __global const Grid* grids, __gl
   const int count = p.part.right_end - p.part.left - x;
   if (count <= 0 || p.part.top + y >= p.part.bottom) return;
   const size_t stride = temporary_stride(p.part);
-  __global const float* column = temporary + ((size_t)c * rows + y) * stride + x;
+  __global const float* pixel = temporary + ((size_t)c * rows + y + p.half_width) * stride + x;
   __global float* pixels = planes + pixel_at(grids[p.target], c, p.part.left + x, p.part.top + y);
-  float8 sum = p.add ? vload8(0, pixels) : (float8)(0.0f);
-  for (int k = 0; k <= 2 * p.half_width; ++k)
-    sum += p.weights[k] * vload8(0, column + k * stride);
-  store_first(sum, count, pixels);
+  const float8 sum = blurred(pixel, stride, p.weights, p.half_width);
+  store_first(p.add ? vload8(0, pixels) + sum : sum, count, pixels);
 }

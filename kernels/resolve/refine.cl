@@ -23,6 +23,24 @@ static inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
   return coarse_place(part.bottom - 1, fine, coarse) + 6 - first_coarse_row(part, fine, coarse);
 }
 
+// Two neighboring pixels of one axis, of which the first is even, lie on one coarse pixel and share
+// those around it. Eight of both.
+typedef struct Pair {
+  float8 even, odd;
+} Pair;
+
+// From where `center` has the coarse ones, those beside them along the axis `stride` floats apart.
+INLINED Pair between(__global const float* center, size_t stride, const float* weights) {
+  Pair pair = {(float8)(0.0f), (float8)(0.0f)};
+#pragma unroll
+  for (int k = -5; k <= 5; ++k) {
+    const float8 beside = vload8(0, center + k * (int)stride);
+    if (k < 5) pair.even += weights[4 - k] * beside;
+    if (k > -5) pair.odd += weights[4 + k] * beside;
+  }
+  return pair;
+}
+
 // Work-item (eight coarse pixels, y of the temporary, plane): sixteen pixels of a row,
 // interpolated along x.
 __kernel void refine_columns(const RefineParameters p, __global const Grid* grids,
@@ -34,38 +52,17 @@ __kernel void refine_columns(const RefineParameters p, __global const Grid* grid
   if (x >= p.part.right_end || y >= rows) return;
   __global const float* row = planes + pixel_at(coarse, c, coarse_place(x, fine, coarse),
                                                 first_coarse_row(p.part, fine, coarse) + y);
-  float8 even = (float8)(0.0f), odd = (float8)(0.0f);
-  for (int k = 0; k < 10; ++k) {
-    even += p.weights[k] * vload8(0, row - (k - 4));
-    odd += p.weights[k] * vload8(0, row + (k - 4));
-  }
+  const Pair sums = between(row, 1, p.weights);
+  const float8 even = sums.even, odd = sums.odd;
   __global float* target =
       temporary + ((size_t)c * rows + y) * temporary_columns(p.part) + (x - first_column(p.part));
   vstore8((float8)(even.s0, odd.s0, even.s1, odd.s1, even.s2, odd.s2, even.s3, odd.s3), 0, target);
   vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
 }
 
-// Two neighboring rows, of which the first is even, lie on one coarse row and share those around
-// it.
-typedef struct RowPair {
-  float8 even, odd;
-} RowPair;
-
 // The first row of the pair that a work-item takes: the part may begin or end within a pair.
 static inline int first_of_pair(const GridPart part, int pair) {
   return (part.top & ~1) + 2 * pair;
-}
-
-// Eight pixels of both, from where `column` has those of their coarse row.
-INLINED RowPair rows_between(__global const float* column, size_t stride, const float* weights) {
-  RowPair pair = {(float8)(0.0f), (float8)(0.0f)};
-#pragma unroll
-  for (int k = -5; k <= 5; ++k) {
-    const float8 row = vload8(0, column + k * (int)stride);
-    if (k < 5) pair.even += weights[4 - k] * row;
-    if (k > -5) pair.odd += weights[4 + k] * row;
-  }
-  return pair;
 }
 
 // Where the temporary has eight pixels of plane c on the coarse row of row y.
@@ -86,8 +83,12 @@ __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
   const int first = first_of_pair(p.part, (int)get_global_id(1));
   const uint c = (uint)get_global_id(2);
   if (x >= p.part.right_end || first >= p.part.bottom) return;
-  const RowPair sums = rows_between(column_of(temporary, p.part, fine, coarse, c, x, first),
-                                    temporary_columns(p.part), p.weights);
+  __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
+  ask_for(column + 6 * temporary_columns(p.part));
+  __global float* below = planes + pixel_at(fine, c, x, first + 2);
+  ask_to_write(below);
+  ask_to_write(below + fine.stride);
+  const Pair sums = between(column, temporary_columns(p.part), p.weights);
   for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
     __global float* target = planes + pixel_at(fine, c, x, y);
     const float8 sum = y == first ? sums.even : sums.odd;

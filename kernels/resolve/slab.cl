@@ -46,6 +46,23 @@ static inline float largest_of_first(float8 values, int count) {
   return largest;
 }
 
+// Planes of a row lie all over memory, more of them than a processor sees coming: what items two
+// lines of the cache further on need that rows above have not fetched.
+#define PIXELS_AHEAD 32
+static inline void ask_for_pixels(__global float* planes, __global const float* columns,
+                                  __global float* before, const RefineParameters p,
+                                  const Grid coarse, const Grid fine, int x, int first) {
+  const size_t last_row = 5 * temporary_columns(p.part) + PIXELS_AHEAD;
+  for (uint c = 0; c < 6; ++c) {
+    ask_for(column_of(columns, p.part, fine, coarse, c, x, first) + last_row);
+    for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+      const size_t place = pixel_at(fine, c, x + PIXELS_AHEAD, y);
+      ask_to_write(planes + place);
+      ask_to_write(before + (place - first_float(fine)));
+    }
+  }
+}
+
 // Work-item (eight pixels, pair of rows) of the part: sums interpolated along y from `columns`
 // (refine_columns), then laid. `before` has the planes as they were before the slab, and takes what
 // they are after it; `errors` the most that any order of the slab's splats could change of eight
@@ -59,12 +76,13 @@ __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __g
   if (x >= p.part.right_end || first >= p.part.bottom) return;
   const int count = p.part.right_end - x;
   const size_t stride = temporary_columns(p.part);
+  ask_for_pixels(planes, columns, before, p, coarse, fine, x, first);
   float8 largest[2] = {(float8)(0.0f), (float8)(0.0f)};
   for (uint c = 0; c < 3; ++c) {
-    const RowPair depth =
-        rows_between(column_of(columns, p.part, fine, coarse, c, x, first), stride, p.weights);
-    const RowPair light =
-        rows_between(column_of(columns, p.part, fine, coarse, c + 3, x, first), stride, p.weights);
+    const Pair depth =
+        between(column_of(columns, p.part, fine, coarse, c, x, first), stride, p.weights);
+    const Pair light =
+        between(column_of(columns, p.part, fine, coarse, c + 3, x, first), stride, p.weights);
     for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
       const int r = y - first;
       const size_t source = pixel_at(fine, c, x, y), opacity = pixel_at(fine, c + 3, x, y);
