@@ -310,8 +310,8 @@ ProgramSource Specialization::join_slab() const {
 
 ProgramSource Specialization::lay_slab() {
   return {define("LANES_8"),
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "prefetch.cl",
-           "refine.cl", "slab.cl"}};
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl",
+           "prefetch.cl", "refine.cl", "slab.cl"}};
 }
 
 ProgramSource Specialization::list_around() const {
