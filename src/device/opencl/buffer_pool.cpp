@@ -25,7 +25,7 @@ PooledMemory::~PooledMemory() {
   if (pool_ != nullptr) pool_->give_back(std::move(memory_));
 }
 
-compute::buffer BufferPool::take(std::uint64_t bytes, const char* what) {
+compute::buffer BufferPool::take(std::uint64_t bytes, const char* what, Filling filling) {
   const std::uint64_t wanted = std::max<std::uint64_t>(bytes, 1) + padding;
   const std::uint64_t largest = context_.get_device().max_memory_alloc_size();
   if (wanted > largest) {
@@ -44,13 +44,18 @@ compute::buffer BufferPool::take(std::uint64_t bytes, const char* what) {
     free_.erase(best);
   } else {
     release_until_it_fits(wanted);
-    memory = compute::buffer(context_, static_cast<std::size_t>(wanted));
+    memory = new_buffer(static_cast<std::size_t>(wanted), filling);
     total_bytes_ += wanted;
     peak_bytes_ = std::max(peak_bytes_, total_bytes_);
   }
   used_bytes_ += memory.size();
   most_used_bytes_ = std::max(most_used_bytes_, used_bytes_);
   return memory;
+}
+
+compute::buffer BufferPool::new_buffer(std::size_t bytes, Filling filling) {
+  if (large_pages_ && filling == Filling::whole) return large_pages_->buffer(context_, bytes);
+  return compute::buffer(context_, bytes);
 }
 
 void BufferPool::give_back(compute::buffer memory) {

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "device/opencl/device_traits.h"
+#include "device/opencl/large_pages.h"
 #include "device/opencl/opencl.h"
 #include "device/opencl/stage_timer.h"
 
@@ -75,22 +78,28 @@ class MappedValues {
   std::size_t size_;
 };
 
+// How much of a buffer is written to. Room of which parts stay as they are has no memory there on a
+// processor, as long as it lies on small pages.
+enum class Filling { whole, in_parts };
+
 // The device's working memory. Buffers that came back are handed out again, and what is held
 // in all never exceeds what has been in use at one time.
 class BufferPool {
  public:
   // `timer` is told of what is copied.
   BufferPool(const compute::context& context, const compute::command_queue& queue,
-             StageTimer& timer)
-      : context_(context), queue_(queue), timer_(timer) {}
+             StageTimer& timer, const DeviceTraits& traits)
+      : context_(context), queue_(queue), timer_(timer) {
+    if (traits.large_pages) large_pages_.emplace();
+  }
   BufferPool(const BufferPool&) = delete;
   BufferPool& operator=(const BufferPool&) = delete;
 
   // Room for `count` values, and 64 bytes more, so that rows of eight may be read across the
   // end. Throws DeviceError, which calls the buffer `what`, where the device has not as much.
   template <class T>
-  Buffer<T> get(std::uint64_t count, const char* what) {
-    return {PooledMemory(*this, take(count * sizeof(T), what)), count};
+  Buffer<T> get(std::uint64_t count, const char* what, Filling filling = Filling::whole) {
+    return {PooledMemory(*this, take(count * sizeof(T), what, filling)), count};
   }
   template <class T>
   Buffer<T> upload(const std::vector<T>& values, const char* what) {
@@ -146,7 +155,8 @@ class BufferPool {
 
  private:
   friend class PooledMemory;
-  compute::buffer take(std::uint64_t bytes, const char* what);
+  compute::buffer take(std::uint64_t bytes, const char* what, Filling filling);
+  compute::buffer new_buffer(std::size_t bytes, Filling filling);
   void give_back(compute::buffer memory);
   void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
   void release_until_it_fits(std::uint64_t wanted);
@@ -154,6 +164,7 @@ class BufferPool {
   compute::context context_;
   compute::command_queue queue_;
   StageTimer& timer_;
+  std::optional<LargePages> large_pages_;
   std::vector<compute::buffer> free_;
   std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free
   std::uint64_t most_used_bytes_ = 0, peak_bytes_ = 0;

@@ -18,6 +18,6 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       traits(traits_of(chosen)),
       memory(memory_of(chosen, traits)),
       programs(context),
-      pool(context, queue, timer) {}
+      pool(context, queue, timer, traits) {}
 
 }  // namespace splotchcl

@@ -1,5 +1,7 @@
 #include "device/opencl/device_traits.h"
 
+#include "device/opencl/program_text.h"
+
 namespace splotchcl {
 namespace {
 
@@ -35,6 +37,8 @@ DeviceTraits traits_of(const compute::device& device) {
   DeviceTraits traits;
   traits.is_gpu = (device.type() & CL_DEVICE_TYPE_GPU) != 0;
   traits.shares_host_memory = device.get_info<cl_bool>(CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
+  // Other processors' runtimes may want whole pages, and make a copy of what is not.
+  traits.large_pages = (device.type() & CL_DEVICE_TYPE_CPU) != 0 && is_pocl(device);
   traits.double_numbers = device.supports_extension("cl_khr_fp64");
   traits.largest_buffer = device.max_memory_alloc_size();
   traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;

@@ -11,6 +11,7 @@ namespace splotchcl {
 struct DeviceTraits {
   bool is_gpu = false;
   bool shares_host_memory = false;   // buffers may lie in the caller's own memory
+  bool large_pages = false;          // working memory is the host's, on large pages (large_pages.h)
   bool rows = true;                  // the shape: eight lanes, rows; not work-groups
   bool rows_of_16 = false;           // registers hold sixteen floats: wide splats take them
   bool double_numbers = false;       // extended numbers are double precision, not pairs

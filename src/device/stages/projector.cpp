@@ -137,12 +137,13 @@ Buffer<shared::WidthNeeds> Projector::upload_needs() const {
   return context_.device.pool.upload(std::vector{needs}, "needs of widths");
 }
 
-SplatMemory Projector::splat_memory(std::uint64_t splats) const {
+SplatMemory Projector::splat_memory(std::uint64_t splats, Filling filling) const {
   BufferPool& pool = context_.device.pool;
   SplatMemory memory;
-  memory.splats = pool.get<std::byte>(splats * context_.specialization.splat_bytes(), "splat");
+  memory.splats =
+      pool.get<std::byte>(splats * context_.specialization.splat_bytes(), "splat", filling);
   memory.extended = pool.get<std::byte>(splats * context_.specialization.extended_splat_bytes(),
-                                        "extended splat");
+                                        "extended splat", filling);
   return memory;
 }
 
@@ -333,11 +334,11 @@ KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
                                static_cast<std::uint32_t>(context_.plan.splats_per_particle);
   const std::uint32_t slots = all.blocks * stride;
   const auto counts = counts_of(all.blocks);
-  const auto keys = pool.get<std::uint32_t>(slots, "sort keys of blocks");
+  const auto keys = pool.get<std::uint32_t>(slots, "sort keys of blocks", Filling::in_parts);
   const auto offsets = pool.upload(first_slots(all.blocks, stride), "block offsets");
   KeyedSplats keyed;
-  keyed.splats = splat_memory(slots);
-  keyed.key_ends = key_ends(slots);
+  keyed.splats = splat_memory(slots, Filling::in_parts);
+  keyed.key_ends = key_ends(slots, Filling::in_parts);
   launch_all(ProjectOutput::splats_and_keys, all, particles,
              {offsets, counts, keyed.splats, keys, keyed.key_ends, unused_});
   const std::vector<shared::BlockCounts> found = pool.download(counts, all.blocks);
@@ -372,9 +373,10 @@ KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
   return keyed;
 }
 
-Buffer<std::uint16_t> Projector::key_ends(std::uint32_t slots) const {
+Buffer<std::uint16_t> Projector::key_ends(std::uint32_t slots, Filling filling) const {
   const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
-  return context_.device.pool.get<std::uint16_t>(by_depth ? slots : 0, "ends of sort keys");
+  return context_.device.pool.get<std::uint16_t>(by_depth ? slots : 0, "ends of sort keys",
+                                                 filling);
 }
 
 Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {

@@ -58,7 +58,7 @@ class Projector {
                                          const std::vector<shared::BlockCounts>& found) const;
   void launch_all(ProjectOutput output, const AllParticles& all,
                   const std::vector<ParticleBuffers>& particles, const Targets& targets) const;
-  Buffer<std::uint16_t> key_ends(std::uint32_t slots) const;
+  Buffer<std::uint16_t> key_ends(std::uint32_t slots, Filling filling = Filling::whole) const;
   Buffer<shared::BlockCounts> counts_of(std::uint32_t blocks) const;
   ParticleCounts download_counts(const Buffer<shared::BlockCounts>& counts,
                                  std::uint32_t blocks) const;
@@ -77,7 +77,7 @@ class Projector {
                                          const KeyedSplats& keyed) const;
   void scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
                    const Buffer<std::uint32_t>& offsets) const;
-  SplatMemory splat_memory(std::uint64_t splats) const;
+  SplatMemory splat_memory(std::uint64_t splats, Filling filling = Filling::whole) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;
   // Per block of the launch: 0, or out of view and how many of it are bad, and 1; or nothing, where

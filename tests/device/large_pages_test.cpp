@@ -1,0 +1,64 @@
+#include "device/opencl/large_pages.h"
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr std::size_t megabyte = 1 << 20;
+
+class Pages : public StageTest {
+ protected:
+  void SetUp() override {
+    if (!device().traits.large_pages) GTEST_SKIP() << "not a processor through PoCL";
+  }
+
+  // Where the device keeps a buffer.
+  std::uintptr_t address_of(const compute::buffer& buffer) {
+    void* const at = device().queue.enqueue_map_buffer(buffer, CL_MAP_READ, 0, buffer.size());
+    device().queue.enqueue_unmap_buffer(buffer, at);
+    device().queue.finish();
+    return reinterpret_cast<std::uintptr_t>(at);
+  }
+};
+
+TEST_F(Pages, KeepWhatIsWrittenToTheirEnds) {
+  std::vector<std::uint32_t> values(5 * megabyte / sizeof(std::uint32_t) + 3);
+  std::iota(values.begin(), values.end(), 7u);
+  const Buffer<std::uint32_t> buffer = device().pool.upload(values, "values");
+  EXPECT_EQ(device().pool.download(buffer, values.size()), values);
+}
+
+TEST_F(Pages, HoldLargeBuffersThatBeginAtDifferentPlacesOfASmallPage) {
+  LargePages pages;
+  std::set<std::uintptr_t> places;
+  for (int k = 0; k < 12; ++k) {
+    const compute::buffer buffer = pages.buffer(device().context, 5 * megabyte);
+    const std::uintptr_t address = address_of(buffer);
+    EXPECT_LT(address % (2 * megabyte), 4096u);
+    EXPECT_EQ(address % 128, 0u);  // OpenCL's largest values
+    places.insert(address % 4096);
+  }
+  EXPECT_EQ(places.size(), 12u);
+}
+
+TEST_F(Pages, GiveTheirMemoryBack) {
+  LargePages pages;
+  const std::size_t before = mallinfo2().hblkhd;
+  {
+    const compute::buffer buffer = pages.buffer(device().context, 64 * megabyte);
+    EXPECT_GE(mallinfo2().hblkhd, before + 64 * megabyte);
+  }
+  EXPECT_LT(mallinfo2().hblkhd, before + 64 * megabyte);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
