@@ -32,27 +32,49 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
 #define CUT_BY_ROWS
 #endif
+// Where values along y are, those of rows are followed by how far from the center columns may lie
+// in each at most, squared: along[LIMITS + k] of row k.
+#define LIMITS (TILE_HEIGHT + 16)
 #ifdef CUT_BY_ROWS
-// `shape` of the pixels of a row, zero outside the cut; with means the pixel that holds the center
-// keeps its light.
 #ifdef ELLIPSES
 #define SQUEEZED(dx) (dx * squeeze)
 #else
 #define SQUEEZED(dx) (dx)
 #endif
+// `shape` of the pixels of row k, zero outside the cut; with means the pixel that holds the center
+// keeps its light.
 #ifdef SAMPLING_MEAN
+#define DISTANCE_OF_COLUMNS(dx) (dx)
 #define BESIDE_CENTER(INTS) (dx <= -0.5f | dx > 0.5f | (INTS)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
-#else
-#define BESIDE_CENTER(INTS) (INTS)(-1)
-#endif
-#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                                \
-  static inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float cut2, float squeeze) { \
-    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) + dy * dy > cut2;                      \
-    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                    \
+#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                             \
+  static inline FLOATS name(FLOATS shape, FLOATS dx, const float* along, int k, float y, \
+                            float squeeze) {                                             \
+    const float dy = y + (float)k;                                                       \
+    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) > along[LIMITS + k];                \
+    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                 \
   }
-DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #else
-#define cut_shape(shape, dx, dy, cut2, squeeze) (shape)
+#define DISTANCE_OF_COLUMNS(dx) (SQUEEZED(dx) * SQUEEZED(dx))
+#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                              \
+  static inline FLOATS name(FLOATS shape, FLOATS dx2, const float* along, int k, float y, \
+                            float squeeze) {                                              \
+    return select(shape, (FLOATS)(0.0f), dx2 > (FLOATS)(along[LIMITS + k]));              \
+  }
+#endif
+DEFINE_CUT_SHAPE(cut_shape, float8, int8)
+
+// The limits of `count` rows, or of a few more, the first one's center at distance `first` - `low`.
+static inline void fill_limits(float* along, float first, float low, int count,
+                               __global const TileSplat* splat) {
+  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
+  for (int k = 0; k < count; k += 8) {
+    const float8 dy = first + (float)k + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low;
+    vstore8(cut2 - dy * dy, 0, along + LIMITS + k);
+  }
+}
+#else
+#define cut_shape(shape, dx, along, k, y, squeeze) (shape)
+#define fill_limits(along, first, low, count, splat)
 #endif
 
 #ifdef LIGHT_ORDERED
@@ -73,10 +95,10 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 
 // The same with two or three terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2
 // + (A^2 / 6) X^3, and nearly every line is one multiplication and addition.
-#define COVERED_BY_TWO_TERMS(c) (shape - (shape * shape) * (0.5f * absorption##c))
+#define COVERED_BY_TWO_TERMS(c) (shape + (shape * shape) * (-0.5f * absorption##c))
 #define COVERED_BY_THREE_TERMS(c) \
-  (shape - (shape * shape) *      \
-               (0.5f * absorption##c - shape * (0.166666667f * absorption##c * absorption##c)))
+  (shape + (shape * shape) *      \
+               (shape * (0.166666667f * absorption##c * absorption##c) - 0.5f * absorption##c))
 #define THIN_CHANNEL(c, COVERED, FLOATS, LOAD_ROW, STORE_ROW) \
   {                                                           \
     float* const source = pixel + c * TILE_PIXELS;            \
@@ -101,11 +123,11 @@ DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 #define NOT_NEGATIVE(shape) (shape)
 #endif
 
-#define LAYER_ROWS(CHANNELS)                                                   \
-  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                       \
-    const float8 product = NOT_NEGATIVE(SHAPE_OF_ROW(k));                      \
-    const float8 shape = cut_shape(product, dx, dy + (float)k, cut2, squeeze); \
-    CHANNELS                                                                   \
+#define LAYER_ROWS(CHANNELS)                                                 \
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                     \
+    const float8 product = NOT_NEGATIVE(SHAPE_OF_ROW(k));                    \
+    const float8 shape = cut_shape(product, columns, along, k, dy, squeeze); \
+    CHANNELS                                                                 \
   }
 
 #define LAYER_CHANNELS(PHI, PASSED) \
@@ -164,15 +186,16 @@ typedef struct Window {
   int x, y, rows;
 } Window;
 
-// Updates the window with across[8] * along[rows]; on a face of a cube with along[rows][8].
+// Updates the window with across[8] * along[rows], where the kernel is cut within the rows' limits;
+// on a face of a cube with along[rows][8].
 static inline void update_window(float* tile, const Window* window, float8 across,
                                  const float* along, __global const TileSplat* splat, int form) {
 #ifdef CUT_BY_ROWS
   const float8 dx =
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
   const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
-  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+  const float8 columns = DISTANCE_OF_COLUMNS(dx);
 #endif
   float* pixel = tile + window->y * ROW + window->x;
 #ifdef LIGHT_ORDERED
@@ -194,7 +217,7 @@ static inline void update_window(float* tile, const Window* window, float8 acros
 #ifdef FACE_OF_CUBE
     const float8 shape = SHAPE_OF_ROW(k);
 #else
-    const float8 shape = cut_shape((float8)(along[k]), dx, dy + (float)k, cut2, squeeze);
+    const float8 shape = cut_shape((float8)(along[k]), columns, along, k, dy, squeeze);
 #endif
     ADD_CHANNELS(load_eight, store_eight)
   }

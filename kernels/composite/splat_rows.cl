@@ -129,9 +129,10 @@ __attribute__((noinline)) static void add_window_of_16(float* tile, int2 rows, i
   const float sigma = splat->sigma;
   const float first_x = (float)column + FIRST_X - splat->x;
   const float first_y = (float)rows.x + FIRST_Y - splat->y;
-  float along[TILE_HEIGHT + 16];
+  float along[2 * LIMITS];
   for (int k = 0; k <= rows.y - rows.x; k += 16)
     store_sixteen(sixteen_of_axis(first_y, LOW_Y(*splat), k, ramp, sigma, mean_sigma), along + k);
+  fill_limits(along, first_y, LOW_Y(*splat), rows.y - rows.x + 1, splat);
   Window window;
   window.x = column;
   const int skipped = set_rows(&window, rows, 16, splat) - rows.x;
@@ -149,12 +150,14 @@ static inline int fits_window_of_16(int columns, int rows, float sigma, float me
 
 static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
                                   int2 columns, float mean_sigma, int form) {
-  float along_x[TILE_WIDTH + 16], along_y[TILE_HEIGHT + 16];
+  float along_x[TILE_WIDTH + 16], along_y[2 * LIMITS];
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
             columns.y - columns.x + 1, sigma_x, mean_sigma);
-  fill_axis(along_y, (float)rows.x + FIRST_Y - splat->y, LOW_Y(*splat), rows.y - rows.x + 1, sigma,
-            mean_sigma);
+  const float first_y = (float)rows.x + FIRST_Y - splat->y;
+  const int rows_count = rows.y - rows.x + 1;
+  fill_axis(along_y, first_y, LOW_Y(*splat), rows_count, sigma, mean_sigma);
+  fill_limits(along_y, first_y, LOW_Y(*splat), rows_count, splat);
   Window window;
   window.x = columns.x;
 #ifdef ROWS_OF_16
@@ -201,8 +204,9 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
     const float8 low = (float8)((float4)(LOW_X(*splat)), (float4)(LOW_Y(*splat)));
     const float8 means = means_between(
         (float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3) - low, sigma);
-    float along[4];
+    float along[2 * LIMITS];
     vstore4(means.hi, 0, along);
+    fill_limits(along, (float)window.y + FIRST_Y - splat->y, LOW_Y(*splat), window.rows, splat);
     update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, form);
     return 1;
   }
@@ -213,9 +217,10 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
     window.rows = rows_count <= 4 ? 4 : 7;
     window.x = columns.x;
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
-    float along[8];
+    float along[2 * LIMITS];
     const float dx = (float)window.x + FIRST_X - splat->x,
                 dy = (float)window.y + FIRST_Y - splat->y;
+    fill_limits(along, dy, LOW_Y(*splat), window.rows, splat);
     const float inverse = inverse_of(sigma);
     float8 across;
     if (sigma < mean_sigma) {
