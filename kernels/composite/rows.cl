@@ -1,8 +1,10 @@
 // Rows of eight pixels of a tile, and how a splat updates a window of them.
 
-// Rows are padded on the right: a row of eight may start at any column.
-#define ROW (TILE_WIDTH + 8)
-// Planes at distances of 4096 bytes would share lines of the cache.
+// No padding: a tile fits the nearest cache with room for its list. Rows of eight that begin where
+// there are no eight columns left add nothing to the first pixels of the next row.
+#define ROW TILE_WIDTH
+// Planes at distances of 4096 bytes would share lines of the cache. Behind the last row there is
+// room for one that begins in it.
 #define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
 // The first pixel's center, from the tile's middle.
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
@@ -185,6 +187,12 @@ static inline int form_of_layer(float deepest, float depth_of_block, const Compo
 typedef struct Window {
   int x, y, rows;
 } Window;
+
+// The first of so many columns that begin at `first`, or farther left, where they would not all
+// fit: columns beside the splat take its tails, which is no less exact.
+static inline int first_column(int first, int count) {
+  return min(first, TILE_WIDTH - count);
+}
 
 // Updates the window with across[8] * along[rows], where the kernel is cut within the rows' limits;
 // on a face of a cube with along[rows][8].

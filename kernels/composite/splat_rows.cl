@@ -141,16 +141,20 @@ __attribute__((noinline)) static void add_window_of_16(float* tile, int2 rows, i
                     along + skipped, splat, form);
 }
 
-// Whether a splat's columns fit a window of sixteen, and its rows the means of one.
-static inline int fits_window_of_16(int columns, int rows, float sigma, float mean_sigma) {
-  if (columns <= 8) return 0;
-  return sigma >= mean_sigma ? columns <= 16 : sigma > 0.0f && max(columns, rows) <= 15;
+// Whether a splat's columns fit a window of sixteen, and its rows the means of one, which has no
+// means for the last column.
+static inline int fits_window_of_16(int2 columns, int rows, float sigma, float mean_sigma) {
+  const int count = columns.y - columns.x + 1;
+  if (count <= 8) return 0;
+  if (sigma >= mean_sigma) return count <= 16;
+  return sigma > 0.0f && max(count, rows) <= 15 && columns.x <= TILE_WIDTH - 16;
 }
 #endif
 
 static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
                                   int2 columns, float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[2 * LIMITS];
+  columns.x = first_column(columns.x, (columns.y - columns.x + 8) & ~7);
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
             columns.y - columns.x + 1, sigma_x, mean_sigma);
@@ -197,7 +201,7 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
   if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
     // A grain: the edges of its pixels along both axes fit one call.
     window.rows = 3;
-    window.x = columns.x;
+    window.x = first_column(columns.x, 3);
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     const float dx = (float)window.x + (FIRST_X - 0.5f) - splat->x;
     const float dy = (float)window.y + (FIRST_Y - 0.5f) - splat->y;
@@ -215,7 +219,8 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
     // Most splats of a large snapshot: one window, and row counts that are easy to predict.
     // Rows beside the splat take its tails, which is no less exact.
     window.rows = rows_count <= 4 ? 4 : 7;
-    window.x = columns.x;
+    // Of means the eighth is 0.
+    window.x = first_column(columns.x, sigma_x < mean_sigma ? 7 : 8);
     window.y = min(rows.x, TILE_HEIGHT - window.rows);
     float along[2 * LIMITS];
     const float dx = (float)window.x + FIRST_X - splat->x,
@@ -239,9 +244,9 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
     return 1;
   }
 #if defined(ROWS_OF_16) && !defined(ELLIPSES)
-  if (fits_window_of_16(columns_count, rows_count, sigma, mean_sigma) && takes_rows_of_16(form)) {
+  if (fits_window_of_16(columns, rows_count, sigma, mean_sigma) && takes_rows_of_16(form)) {
     const float16 ramp = (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-    add_window_of_16(tile, rows, columns.x, ramp, splat, mean_sigma, form);
+    add_window_of_16(tile, rows, first_column(columns.x, 16), ramp, splat, mean_sigma, form);
     return 1;
   }
 #endif
