@@ -374,9 +374,8 @@ KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
 }
 
 Buffer<std::uint16_t> Projector::key_ends(std::uint32_t slots, Filling filling) const {
-  const bool by_depth = context_.frame.sort.by == SortOrder::By::depth;
-  return context_.device.pool.get<std::uint16_t>(by_depth ? slots : 0, "ends of sort keys",
-                                                 filling);
+  const std::uint32_t count = context_.frame.sort.by == SortOrder::By::depth ? slots : 0;
+  return context_.device.pool.get<std::uint16_t>(count, "ends of sort keys", filling);
 }
 
 Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {
