@@ -38,7 +38,7 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, const 
   Window window;
   window.y = rows.x;
   window.rows = rows.y - rows.x + 1;
-  window.x = first_column(columns.x, (columns.y - columns.x + 8) & ~7);
+  window.x = first_of_eights(columns);
   for (; window.x <= columns.y; window.x += 8) {
     fill_rows(values, &window, splat, of_tile);
     update_window(tile, &window, (float8)(1.0f), values, splat, form);

@@ -43,26 +43,18 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #else
 #define SQUEEZED(dx) (dx)
 #endif
-// `shape` of the pixels of row k, zero outside the cut; with means the pixel that holds the center
+// `shape` of the pixels of a row, zero beyond its limit; with means the pixel that holds the center
 // keeps its light.
 #ifdef SAMPLING_MEAN
-#define DISTANCE_OF_COLUMNS(dx) (dx)
 #define BESIDE_CENTER(INTS) (dx <= -0.5f | dx > 0.5f | (INTS)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
-#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                             \
-  static inline FLOATS name(FLOATS shape, FLOATS dx, const float* along, int k, float y, \
-                            float squeeze) {                                             \
-    const float dy = y + (float)k;                                                       \
-    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) > along[LIMITS + k];                \
-    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                 \
-  }
 #else
-#define DISTANCE_OF_COLUMNS(dx) (SQUEEZED(dx) * SQUEEZED(dx))
-#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                              \
-  static inline FLOATS name(FLOATS shape, FLOATS dx2, const float* along, int k, float y, \
-                            float squeeze) {                                              \
-    return select(shape, (FLOATS)(0.0f), dx2 > (FLOATS)(along[LIMITS + k]));              \
-  }
+#define BESIDE_CENTER(INTS) (INTS)(-1)
 #endif
+#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                                 \
+  static inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float limit, float squeeze) { \
+    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) > limit;                                \
+    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                     \
+  }
 DEFINE_CUT_SHAPE(cut_shape, float8, int8)
 
 // The limits of `count` rows, or of a few more, the first one's center at distance `first` - `low`.
@@ -75,7 +67,7 @@ static inline void fill_limits(float* along, float first, float low, int count,
   }
 }
 #else
-#define cut_shape(shape, dx, along, k, y, squeeze) (shape)
+#define cut_shape(shape, dx, dy, limit, squeeze) (shape)
 #define fill_limits(along, first, low, count, splat)
 #endif
 
@@ -125,11 +117,11 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define NOT_NEGATIVE(shape) (shape)
 #endif
 
-#define LAYER_ROWS(CHANNELS)                                                 \
-  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                     \
-    const float8 product = NOT_NEGATIVE(SHAPE_OF_ROW(k));                    \
-    const float8 shape = cut_shape(product, columns, along, k, dy, squeeze); \
-    CHANNELS                                                                 \
+#define LAYER_ROWS(CHANNELS)                                                                \
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                    \
+    const float8 product = NOT_NEGATIVE(SHAPE_OF_ROW(k));                                   \
+    const float8 shape = cut_shape(product, dx, dy + (float)k, along[LIMITS + k], squeeze); \
+    CHANNELS                                                                                \
   }
 
 #define LAYER_CHANNELS(PHI, PASSED) \
@@ -194,6 +186,11 @@ static inline int first_column(int first, int count) {
   return min(first, TILE_WIDTH - count);
 }
 
+// The same of columns that are drawn in whole eights.
+static inline int first_of_eights(int2 columns) {
+  return first_column(columns.x, (columns.y - columns.x + 8) & ~7);
+}
+
 // Updates the window with across[8] * along[rows], where the kernel is cut within the rows' limits;
 // on a face of a cube with along[rows][8].
 static inline void update_window(float* tile, const Window* window, float8 across,
@@ -203,7 +200,6 @@ static inline void update_window(float* tile, const Window* window, float8 acros
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
   const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
-  const float8 columns = DISTANCE_OF_COLUMNS(dx);
 #endif
   float* pixel = tile + window->y * ROW + window->x;
 #ifdef LIGHT_ORDERED
@@ -225,7 +221,8 @@ static inline void update_window(float* tile, const Window* window, float8 acros
 #ifdef FACE_OF_CUBE
     const float8 shape = SHAPE_OF_ROW(k);
 #else
-    const float8 shape = cut_shape((float8)(along[k]), columns, along, k, dy, squeeze);
+    const float8 shape =
+        cut_shape((float8)(along[k]), dx, dy + (float)k, along[LIMITS + k], squeeze);
 #endif
     ADD_CHANNELS(load_eight, store_eight)
   }

@@ -154,7 +154,7 @@ static inline int fits_window_of_16(int2 columns, int rows, float sigma, float m
 static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
                                   int2 columns, float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[2 * LIMITS];
-  columns.x = first_column(columns.x, (columns.y - columns.x + 8) & ~7);
+  columns.x = first_of_eights(columns);
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
             columns.y - columns.x + 1, sigma_x, mean_sigma);

@@ -14,14 +14,14 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #ifdef CUT_BY_ROWS
 DEFINE_CUT_SHAPE(cut_shape_of_16, float16, int16)
 #else
-#define cut_shape_of_16(shape, dx, along, k, y, squeeze) (shape)
+#define cut_shape_of_16(shape, dx, dy, limit, squeeze) (shape)
 #endif
 
-#define LAYER_ROWS_OF_16(COVERED)                                                   \
-  for (int k = 0; k < rows; ++k, pixel += ROW) {                                    \
-    const float16 product = NOT_NEGATIVE(across * along[k]);                        \
-    const float16 shape = cut_shape_of_16(product, columns, along, k, dy, squeeze); \
-    THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                       \
+#define LAYER_ROWS_OF_16(COVERED)                                                                  \
+  for (int k = 0; k < rows; ++k, pixel += ROW) {                                                   \
+    const float16 product = NOT_NEGATIVE(across * along[k]);                                       \
+    const float16 shape = cut_shape_of_16(product, dx, dy + (float)k, along[LIMITS + k], squeeze); \
+    THIN_LAYER(COVERED, float16, load_sixteen, store_sixteen)                                      \
   }
 
 // update_window() (rows.cl) of a window that is sixteen pixels wide.
@@ -33,7 +33,6 @@ INLINED void update_rows_of_16(float* tile, const Window* window, float16 across
                      LOW_X(*splat);
   const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
-  const float16 columns = DISTANCE_OF_COLUMNS(dx);
 #endif
   const int rows = window->rows;
   float* pixel = tile + window->y * ROW + window->x;
@@ -49,7 +48,8 @@ INLINED void update_rows_of_16(float* tile, const Window* window, float16 across
 #else
   SUMMED_CHANNELS(float16)
   for (int k = 0; k < rows; ++k, pixel += ROW) {
-    const float16 shape = cut_shape_of_16((float16)(along[k]), columns, along, k, dy, squeeze);
+    const float16 shape =
+        cut_shape_of_16((float16)(along[k]), dx, dy + (float)k, along[LIMITS + k], squeeze);
     ADD_CHANNELS(load_sixteen, store_sixteen)
   }
 #endif
