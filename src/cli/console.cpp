@@ -16,6 +16,8 @@
 #include <system_error>
 #include <thread>
 
+#include "common/quiet_errors.h"
+
 namespace splotchcl::cli {
 namespace {
 
@@ -52,8 +54,11 @@ std::string printable(std::string text) {
   return text;
 }
 
+// Where libraries cannot be heard while they work, the program can.
+using ErrorSink = spdlog::sinks::stdout_sink_base<spdlog::details::console_mutex>;
+
 struct Console::Log {
-  spdlog::logger logger{"splotchcl", std::make_shared<spdlog::sinks::stderr_sink_mt>()};
+  spdlog::logger logger{"splotchcl", std::make_shared<ErrorSink>(error_stream())};
 };
 
 // Tells from time to time what is being done, also while nothing calls the console.
@@ -149,8 +154,8 @@ void Console::show_status(const std::string& text) {
     return;
   }
   // Back to the start of the line, and erase it.
-  std::fprintf(stderr, "\r\033[K%s", text.c_str());
-  std::fflush(stderr);
+  std::fprintf(error_stream(), "\r\033[K%s", text.c_str());
+  std::fflush(error_stream());
   has_status_ = true;
 }
 
@@ -170,7 +175,7 @@ void Console::done(const std::string& text) {
   reporter_.reset();
   clear_status();
   if (is_terminal_) {
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(error_stream(), "%s\n", text.c_str());
   } else if (verbosity_ == Verbosity::verbose) {
     log_->logger.info("{:.2f} s: {}", seconds_since(start_), one_line(text));
   }
@@ -178,7 +183,7 @@ void Console::done(const std::string& text) {
 
 void Console::clear_status() {
   if (!has_status_) return;
-  std::fputs("\r\033[K", stderr);
+  std::fputs("\r\033[K", error_stream());
   has_status_ = false;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdio>
+
 namespace splotchcl {
 
 // Libraries write lines of their own to standard error (libpng, OpenCL compilers), beside the one
@@ -13,10 +15,12 @@ class QuietErrors {
   QuietErrors& operator=(const QuietErrors&) = delete;
 };
 
-// Called once, from main.
+// Called once, from main, before there are other threads.
 void let_errors_be_quiet();
 
-// Standard error as the program was given it, for signal handlers.
+// Standard error as the program was given it, also while errors are quiet: for what the program
+// says itself, and the descriptor for signal handlers.
+std::FILE* error_stream();
 int error_descriptor();
 
 }  // namespace splotchcl

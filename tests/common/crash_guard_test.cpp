@@ -65,5 +65,17 @@ TEST(QuietErrors, AreHeardAgainAfterwards) {
       ExitedWithCode(0), "^heard\n$");
 }
 
+TEST(QuietErrors, LeaveTheProgramItsVoice) {
+  EXPECT_EXIT(
+      {
+        let_errors_be_quiet();
+        const QuietErrors quiet;
+        std::fputs("a library's own line\n", stderr);
+        std::fputs("the program's\n", error_stream());
+        std::exit(0);
+      },
+      ExitedWithCode(0), "^the program's\n$");
+}
+
 }  // namespace
 }  // namespace splotchcl
