@@ -23,11 +23,15 @@ class DitherPlaces {
         width_(places.width > 0 ? places.width : std::max(1, image.width)),
         height_(places.height > 0 ? places.height : std::max(1, image.height)) {}
 
-  // Between 0 and 1, neither of which it is: whole numbers and their roundings stay.
-  float threshold(std::size_t x, std::size_t y) const {
-    const std::size_t column = along(places_.left, x, width_), row = along(places_.top, y, height_);
-    const auto rank = static_cast<float>(blue_noise_ranks[row * blue_noise_side + column]);
-    return (rank + 0.5F) / static_cast<float>(blue_noise_ranks.size());
+  // Of the pixels of a row, between 0 and 1, neither of which they are: whole numbers and their
+  // roundings stay.
+  void thresholds(std::size_t y, std::vector<float>& of_row) const {
+    const std::uint16_t* ranks =
+        blue_noise_ranks.data() + along(places_.top, y, height_) * blue_noise_side;
+    for (std::size_t x = 0; x < of_row.size(); ++x) {
+      const auto rank = static_cast<float>(ranks[along(places_.left, x, width_)]);
+      of_row[x] = (rank + 0.5F) / static_cast<float>(blue_noise_ranks.size());
+    }
   }
 
  private:
@@ -48,7 +52,7 @@ class DitherPlaces {
                   std::to_string(bits) + " bits cannot hold; an .exr file can");
 }
 
-constexpr std::size_t pixels_of_block = 1 << 14;
+constexpr std::size_t rows_of_block = 16;
 
 // The first pixel of those that threads find, in whatever order.
 class FirstPixel {
@@ -75,10 +79,8 @@ std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const
   const bool dithers = options.dithers && !options.truncates;
   const float scale = options.truncates ? 256 : 255;
   const DitherPlaces places(options.places, image);
-  const auto width = static_cast<std::size_t>(std::max(1, image.width));
-  const auto store = [&](std::size_t pixel) {
-    float added = options.truncates ? 0 : 0.5F;
-    if (dithers) added = places.threshold(pixel % width, pixel / width);
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto store = [&](std::size_t pixel, float added) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const float value = image.pixels[4 * pixel + channel];
       if (std::isnan(value)) return false;
@@ -90,11 +92,16 @@ std::vector<std::uint8_t> display_bytes(const std::filesystem::path& path, const
     return true;
   };
   FirstPixel refused(pixels);
-  for_blocks(pixels, pixels_of_block, [&](std::size_t first, std::size_t last) {
-    for (std::size_t pixel = first; pixel < last; ++pixel) {
-      if (!store(pixel)) return refused.take(pixel);
-    }
-  });
+  for_blocks(static_cast<std::size_t>(image.height), rows_of_block,
+             [&](std::size_t first, std::size_t last) {
+               std::vector<float> added(width, options.truncates ? 0.0F : 0.5F);
+               for (std::size_t y = first; y < last; ++y) {
+                 if (dithers) places.thresholds(y, added);
+                 for (std::size_t x = 0; x < width; ++x) {
+                   if (!store(y * width + x, added[x])) return refused.take(y * width + x);
+                 }
+               }
+             });
   if (refused.get() < pixels) refuse_not_a_number(path, image, refused.get(), 8);
   return bytes;
 }
