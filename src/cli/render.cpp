@@ -188,7 +188,6 @@ void write_all(const RenderOptions& options, const std::filesystem::path& output
   report.write_seconds = writing.seconds();
   if (!options.stats) return;
   report.scene = options.scene.string();
-  report.snapshot = source.snapshot->info().files.front().string();
   report.output = output.string();
   report.reference = options.reference;
   write_stats(*options.stats, report);
@@ -239,10 +238,17 @@ int run_render(const RenderOptions& options, Console& console) {
   for (const std::string& note : drawn.all_notes())
     console.note(note);
   report.draw_seconds = drawing.seconds();
-  // To give so much memory back takes as long as to write a picture. Not of several processes: MPI
-  // may allow calls by one thread only.
+  report.snapshot = source.snapshot->info().files.front().string();
+  // To give so much memory back, the device's and that of files, takes as long as to write a
+  // picture. Not of several processes: MPI may allow calls by one thread only.
   std::future<void> given_back;
-  if (!ranks) given_back = std::async(std::launch::async, [&drawer] { drawer.reset(); });
+  if (!ranks) {
+    given_back = std::async(std::launch::async, [&] {
+      drawer.reset();
+      report.frame.components.clear();
+      opened->snapshot.reset();
+    });
+  }
   agree(ranks.get(), [&] {
     if (writes) write_all(options, *output, source, drawn, report, console);
   });
