@@ -67,7 +67,12 @@ Planes Pipeline::draw_sums() {
   const std::vector<ParticleChunk> chunks = particle_chunks();
   const std::vector<ChunkRange> leaves = sum_leaves(chunks.size(), context_.device.traits);
   LeafSums sums(context_, leaves.size(), ranks_, transfer_ ? &*transfer_ : nullptr);
-  sums.draw([&](std::size_t leaf) { return draw_leaf(chunks, leaves[leaf]); });
+  std::vector<SplatLight> room = room_beside(sums.own_leaves());
+  std::size_t drawn = 0;
+  sums.draw([&](std::size_t leaf) {
+    if (drawn++ > 0 && !room.empty()) room.pop_back();
+    return draw_leaf(chunks, leaves[leaf]);
+  });
   const std::uint64_t own_around = counts_.around;
   add_up_counts();
   if (leaves.empty() || counts_.too_sharp > 0) return compositor_.start();
@@ -79,6 +84,15 @@ Planes Pipeline::draw_sums() {
   certifier_.put_cells(std::move(light.cells));
   if (is_first()) surroundings_.draw(around, light.planes);
   return std::move(light.planes);
+}
+
+// Memory for the light that is held while leaves are drawn, before it is needed: taken between two
+// leaves, it would cost the pool free memory that the next one uses again.
+std::vector<SplatLight> Pipeline::room_beside(std::size_t leaves) const {
+  std::vector<SplatLight> room;
+  for (std::size_t held = 1; held < most_held_leaves(leaves); ++held)
+    room.push_back({compositor_.room(), certifier_.room()});
+  return room;
 }
 
 SplatLight Pipeline::draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf) {

@@ -72,6 +72,7 @@ class Pipeline {
  private:
   bool is_first() const { return ranks_ == nullptr || ranks_->rank() == 0; }
   Planes add_chunk(const ParticleChunk& chunk, Planes planes);
+  std::vector<SplatLight> room_beside(std::size_t leaves) const;
   SplatLight draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf);
   Planes draw_sums();
   Planes draw_ordered(Planes planes);

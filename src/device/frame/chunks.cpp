@@ -46,9 +46,13 @@ std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const Devic
 }
 
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits) {
+  const std::uint32_t block = traits.project_block;
   std::vector<ParticleChunk> chunks;
   for (std::uint32_t c = 0; c < frame.components.size(); ++c) {
-    for (const SplatChunk& part : cut(frame.components[c].particles.count, traits.chunk_length()))
+    const std::uint64_t count = frame.components[c].particles.count;
+    const std::uint64_t blocks = (count + block - 1) / block;
+    const std::uint32_t length = block * equal_length(blocks, traits.chunk_length() / block);
+    for (const SplatChunk& part : cut(count, length))
       chunks.push_back({c, part.first, part.first + part.count});
   }
   return chunks;

@@ -9,6 +9,9 @@ namespace splotchcl {
 namespace {
 
 constexpr std::uint64_t padding = 64;
+// One part of so many may lie idle beside what has been in use: otherwise a little more that is
+// wanted would cost large buffers that are needed again.
+constexpr std::uint64_t idle_part = 32;
 
 // A buffer serves for less, unless it is more than twice as large: that much would lie idle.
 bool serves(const compute::buffer& memory, std::uint64_t wanted) {
@@ -72,7 +75,8 @@ void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::u
 }
 
 void BufferPool::release_until_it_fits(std::uint64_t wanted) {
-  const std::uint64_t most = std::max(most_used_bytes_, used_bytes_ + wanted);
+  const std::uint64_t in_use = std::max(most_used_bytes_, used_bytes_ + wanted);
+  const std::uint64_t most = in_use + in_use / idle_part;
   if (total_bytes_ + wanted <= most || free_.empty()) return;
   // Memory goes when the commands that use it have ended.
   queue_.finish();

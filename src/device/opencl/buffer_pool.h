@@ -83,7 +83,7 @@ class MappedValues {
 enum class Filling { whole, in_parts };
 
 // The device's working memory. Buffers that came back are handed out again, and what is held
-// in all never exceeds what has been in use at one time.
+// in all never exceeds what has been in use at one time by more than a thirty-second part.
 class BufferPool {
  public:
   // `timer` is told of what is copied.

@@ -22,6 +22,7 @@ class LeafSums {
   LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks* ranks,
            const LightTransfer* transfer);
 
+  std::size_t own_leaves() const { return own_.end - own_.first; }
   // This rank's leaves, one after the other, joined as far as that goes. Of few nodes at a time the
   // light is held: no more than the tree is high.
   void draw(const DrawLeaf& draw_leaf);

@@ -90,11 +90,15 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
     parameters_.blur[i] = pyramid.is_blurred ? static_cast<float>(pyramid.blur[i]) : 0.0f;
 }
 
+Buffer<float> Certifier::room() const {
+  if (context_.plan.is_extended()) return {};
+  return context_.device.pool.get<float>(
+      std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile, "peak cells");
+}
+
 void Certifier::start() {
-  const std::uint64_t floats =
-      std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile;
-  cells_ = context_.device.pool.get<float>(floats, "peak cells");
-  clear_memory(context_.device, "certify", cells_.memory(), 0, floats * sizeof(float));
+  cells_ = room();
+  clear_memory(context_.device, "certify", cells_.memory(), 0, cells_.size() * sizeof(float));
 }
 
 Buffer<float> Certifier::take_cells() {

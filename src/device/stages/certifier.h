@@ -23,6 +23,8 @@ class Certifier {
   // The same as it lies on the device, tile by tile, none where there were no lists: begins anew,
   // or goes on with what was taken.
   Buffer<float> take_cells();
+  // Memory for as much, of which nothing has been written to; none in extended precision.
+  Buffer<float> room() const;
   // Of no lists yet, where there are none.
   const Buffer<float>& begin_cells();
   void put_cells(Buffer<float> cells);

@@ -38,9 +38,14 @@ void Compositor::take_clouds(const CloudTables& clouds) {
   layers_.clouds = &clouds;
 }
 
-Planes Compositor::start() const {
+Planes Compositor::room() const {
   Planes planes;
   planes.light = context_.device.pool.get<float>(context_.layout.plane_floats + padding, "planes");
+  return planes;
+}
+
+Planes Compositor::start() const {
+  Planes planes = room();
   clear_grid(0, planes);
   return planes;
 }

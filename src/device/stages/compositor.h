@@ -14,6 +14,8 @@ class Compositor {
   // Lists have clouds around the camera from now on. The tables outlive it.
   void take_clouds(const CloudTables& clouds);
 
+  // Planes of which nothing has been written to.
+  Planes room() const;
   // No light at all, on the picture's own grid.
   Planes start() const;
   // `splats` are those that the lists were made of.
