@@ -31,6 +31,9 @@ struct FrameDrawerOptions {
   // As in RendererOptions. All ranks draw the same scenes and have the same pictures.
   std::shared_ptr<Communicator> ranks = nullptr;
   StartCompiler start_compiler = {};  // as in RendererOptions
+  // The device is opened while the caller goes on. What is wrong with it is thrown by the first
+  // draw(), not by the constructor. Not with ranks.
+  bool opens_later = false;
 };
 
 // One frame of a scene, drawn, and what is to be told of it.
@@ -61,6 +64,9 @@ class FrameDrawer {
   ~FrameDrawer();
   FrameDrawer(FrameDrawer&&) noexcept;
   FrameDrawer& operator=(FrameDrawer&&) noexcept;
+
+  // Of a device that opens later: throws what was wrong with it, if that is known by now.
+  void check_device() const;
 
   // Throws as load_frame and Renderer::render do.
   DrawnFrame draw(const Scene& scene, const Snapshot& snapshot);

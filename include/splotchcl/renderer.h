@@ -131,6 +131,10 @@ class Renderer {
   // The same with a plan that was made of this frame already (plan.h).
   Image render(const Frame& frame, const FramePlan& plan);
 
+  // The plan with which render(frame) begins, for a frame whose particles are all here: looks at a
+  // sample of them, and needs no device. Throws UsageError where the frame's parts do not fit.
+  static FramePlan first_plan(const Frame& frame, const PlanOptions& options);
+
   const RenderStats& stats() const;  // of the last frame
 
  private:

@@ -76,10 +76,17 @@ LoadProgress show_progress(Console& console) {
   return [&console](const std::string& what, double fraction) { console.progress(what, fraction); };
 }
 
-Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options, Console& console) {
+// A device that does not open ends the reading, which may take minutes.
+Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options,
+                 const std::optional<FrameDrawer>& drawer, Console& console) {
+  const LoadProgress show = show_progress(console);
+  const LoadProgress progress = [&](const std::string& what, double fraction) {
+    if (drawer) drawer->check_device();
+    show(what, fraction);
+  };
   console.status("reading " + source.snapshot->info().files.front().filename().string());
   std::vector<std::string> notes = source.snapshot->info().notes;
-  Frame frame = load_frame(source.scene, *source.snapshot, notes, show_progress(console));
+  Frame frame = load_frame(source.scene, *source.snapshot, notes, progress);
   for (const std::string& note : notes)
     console.note(note);
   frame.crop = choose_crop(options.crop, frame.width, frame.height);
@@ -168,6 +175,7 @@ FrameDrawerOptions drawer_options(const RenderOptions& options,
                                options.shape,          false,
                                options.memory_bytes};
   of_drawer.ranks = ranks;
+  of_drawer.opens_later = !ranks;
   of_drawer.start_compiler = compiler_processes(ranks);
   return of_drawer;
 }
@@ -207,18 +215,20 @@ int run_render(const RenderOptions& options, Console& console) {
   std::optional<SceneWithSnapshot> opened;
   std::optional<FrameDrawer> drawer;
   RenderReport report;
+  // One process opens the device while it reads.
+  if (output && !ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {
     if (options.reference) expect_one_process(ranks.get(), "--reference");
     opened.emplace(open_checked(options, output, ranks, console));
   });
   const SceneWithSnapshot& source = *opened;
-  if (output) {
-    if (!options.reference) console.status("starting the device");
+  if (output && ranks) {
+    console.status("starting the device");
     drawer.emplace(drawer_options(options, ranks, console));
   }
   agree(ranks.get(), [&] {
     const Stopwatch reading;
-    report.frame = read_frame(source, options, console);
+    report.frame = read_frame(source, options, drawer, console);
     report.read_seconds = reading.seconds();
     if (options.explain || options.stats) {
       PlanOptions plan;

@@ -92,13 +92,6 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
 }
 
-// The plan of the first drawing.
-FramePlan first_plan(const Frame& frame, const PlanOptions& options) {
-  const FramePlan plan = make_plan(frame, options);
-  const std::optional<SplatNeeds> needs = expected_needs(frame, plan);
-  return needs ? refine_plan(frame, plan, *needs) : plan;
-}
-
 // Whether all ranks that have particles draw.
 void check_ranks(const Frame& frame, const Communicator* ranks) {
   if (!frame.spread) return;
@@ -336,14 +329,17 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
+FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options) {
+  check_frame(frame);
+  const FramePlan plan = make_plan(frame, options);
+  const std::optional<SplatNeeds> needs = expected_needs(frame, plan);
+  return needs ? refine_plan(frame, plan, *needs) : plan;
+}
+
 Image Renderer::render(const Frame& frame) {
-  if (!frame.spread) {
-    check_frame(frame);
-    return render(frame, first_plan(frame, state_->plan_options));
-  }
+  if (!frame.spread) return render(frame, first_plan(frame, state_->plan_options));
   FramePlan plan;
   frame.spread->agree_on([&] {
-    check_frame(frame);
     check_ranks(frame, state_->ranks.get());
     plan = first_plan(frame, state_->plan_options);
   });

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <future>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -115,29 +117,49 @@ std::vector<std::string> DrawnFrame::all_notes() const {
 
 struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
-    if (!options.by_reference) {
-      const QuietErrors quiet;
-      RendererOptions of_renderer;
-      of_renderer.device = options.device;
-      of_renderer.certify = options.certify;
-      of_renderer.shape = options.shape;
-      of_renderer.columns_stay = options.columns_stay;
-      of_renderer.memory_bytes = options.memory_bytes;
-      of_renderer.ranks = options.ranks;
-      of_renderer.start_compiler = options.start_compiler;
-      of_renderer.progress = [this](double fraction) {
-        if (progress) progress("drawing", fraction);
-      };
-      renderer.emplace(of_renderer);
-    }
+    plan_options.certify = options.certify;
+    if (options.by_reference) return;
+    renderer = std::async(options.opens_later ? std::launch::async : std::launch::deferred,
+                          [of_renderer = renderer_options(options)] {
+                            const QuietErrors quiet;
+                            return std::make_shared<Renderer>(of_renderer);
+                          })
+                   .share();
+    if (!options.opens_later) renderer.get();
+  }
+
+  RendererOptions renderer_options(const FrameDrawerOptions& options) {
+    RendererOptions of_renderer;
+    of_renderer.device = options.device;
+    of_renderer.certify = options.certify;
+    of_renderer.shape = options.shape;
+    of_renderer.columns_stay = options.columns_stay;
+    of_renderer.memory_bytes = options.memory_bytes;
+    of_renderer.ranks = options.ranks;
+    of_renderer.start_compiler = options.start_compiler;
+    of_renderer.progress = [this](double fraction) {
+      if (progress) progress("drawing", fraction);
+    };
+    return of_renderer;
   }
 
   Image draw_view(const Frame& view, RenderStats& total) {
-    if (!renderer) return draw_with_reference(view, total);
+    if (!renderer.valid()) return draw_with_reference(view, total);
     const QuietErrors quiet;
-    Image image = renderer->render(view);
-    add(renderer->stats(), total);
+    Image image = draw_with_device(view);
+    add(renderer.get()->stats(), total);
     return image;
+  }
+
+  bool is_open() const {
+    return renderer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+
+  Image draw_with_device(const Frame& view) const {
+    if (is_open()) return renderer.get()->render(view);
+    // While the device is opened.
+    const FramePlan plan = Renderer::first_plan(view, plan_options);
+    return renderer.get()->render(view, plan);
   }
 
   Image draw_with_reference(const Frame& view, RenderStats& total) const {
@@ -175,8 +197,9 @@ struct FrameDrawer::State {
     return drawn;
   }
 
-  std::optional<Renderer> renderer;  // none: the reference draws
   std::function<void(const std::string&, double)> progress;
+  PlanOptions plan_options;
+  std::shared_future<std::shared_ptr<Renderer>> renderer;  // none: the reference draws
 };
 
 FrameDrawer::FrameDrawer(const FrameDrawerOptions& options)
@@ -184,6 +207,10 @@ FrameDrawer::FrameDrawer(const FrameDrawerOptions& options)
 FrameDrawer::~FrameDrawer() = default;
 FrameDrawer::FrameDrawer(FrameDrawer&&) noexcept = default;
 FrameDrawer& FrameDrawer::operator=(FrameDrawer&&) noexcept = default;
+
+void FrameDrawer::check_device() const {
+  if (state_->renderer.valid() && state_->is_open()) state_->renderer.get();
+}
 
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot) {
   OtherScenes none_kept;
