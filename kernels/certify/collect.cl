@@ -1,16 +1,79 @@
 // The sums of collected.cl: one work-item takes all of a tile's list, in order.
 
+// What work-items know of their tile.
+typedef struct TileOfCells {
+  __global const Grid* grid;
+  int column, row;
+  GridOfCells of_grid;
+  Reach reach;
+  __global float* cells;
+} TileOfCells;
+
 INLINED void add(const Contribution added, __global float* cells) {
   cells[added.peak_cell] += added.peak;
   cells[added.ending_cell] += added.ending;
 }
 
-// A call: hardly any splats are only listed.
-__attribute__((noinline)) static void collect_listed(__global const TileSplat* splat,
-                                                     const Collected* c, const CertifyParameters* p,
-                                                     __global const Grid* grid, int column, int row,
-                                                     __global float* cells) {
-  add(contribution_of_listed(splat, c, p, grid, column, row), cells);
+// LANES splats as they were measured.
+typedef struct Batch {
+  Entries entries;
+  int counts[LANES];  // whether they do: in this tile
+  int x[LANES], y[LANES], octave[LANES];
+  float peak[LANES], width2[LANES];
+} Batch;
+
+INLINED Measured one_of(const Batch* batch, int i) {
+  Measured m;
+  m.x = batch->x[i];
+  m.y = batch->y[i];
+  m.octave = batch->octave[i];
+  m.peak = batch->peak[i];
+  m.width2 = batch->width2[i];
+  return m;
+}
+
+// A call: of most batches no splat is bright or only listed.
+__attribute__((noinline)) static void add_one_by_one(const Batch* batch, int count,
+                                                     const TileOfCells* tile,
+                                                     const CertifyParameters* p) {
+  const GridOfCells of_grid = tile->of_grid;
+  for (int i = 0; i < count; ++i) {
+    __global const TileSplat* splat = batch->entries.lane[i];
+    const Measured m = one_of(batch, i);
+    if (splat->radius < 0.0f) {
+      add(contribution_of_listed(splat, m, p, of_grid.level, tile->grid, tile->column, tile->row),
+          tile->cells);
+    } else if (batch->counts[i] && m.peak > p->edge_peak) {
+      add(contribution_of_bright(m, splat->radius, of_grid.most_peak, p, of_grid.level),
+          tile->cells);
+    } else if (batch->counts[i]) {
+      add(contribution_of_drawn(m, of_grid.most_peak, p), tile->cells);
+    }
+  }
+}
+
+INLINED void collect_batch(__global const TileSplat* entries, int count, const TileOfCells* tile,
+                           const CertifyParameters* p) {
+  Batch batch;
+  batch.entries = entries_from(entries, count);
+  const MeasuredLanes m = measured(batch.entries, p, tile->of_grid, tile->reach);
+  const INTEGER is_there = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < count;
+  const INTEGER is_listed = (OF_ENTRIES(batch.entries, radius) < 0.0f) & is_there;
+  const INTEGER counts = m.counts_here & is_there;
+  STORE(m.x, batch.x);
+  STORE(m.y, batch.y);
+  STORE(m.octave, batch.octave);
+  if (ANY(is_listed | (counts & (m.peak > p->edge_peak)))) {
+    STORE(counts, batch.counts);
+    STORE(m.peak, batch.peak);
+    STORE(m.width2, batch.width2);
+    add_one_by_one(&batch, count, tile, p);
+    return;
+  }
+  // Those that do not count add nothing, which takes less than to leave them out.
+  STORE(choose((VALUE)(0.0f), m.peak, counts), batch.peak);
+  for (int i = 0; i < LANES; ++i)
+    add(contribution_of_drawn(one_of(&batch, i), tile->of_grid.most_peak, p), tile->cells);
 }
 
 // The cells of each tile one after the other.
@@ -19,26 +82,22 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
                       __global float* cells) {
   const uint id = get_global_id(0);
   if (id >= p.segment_count) return;
-  const uint tile = segments[id].tile;
-  if (id > 0 && segments[id - 1].tile == tile) return;
-  const uint g = grid_of_tile(grids, p.grid_count, tile);
+  const uint number = segments[id].tile;
+  if (id > 0 && segments[id - 1].tile == number) return;
+  const uint g = grid_of_tile(grids, p.grid_count, number);
   const Grid grid = grids[g];
-  const uint in_grid = tile - grid.first_tile;
-  const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
-  const Reach reach = reach_of(grid, column, row);
-  const GridOfCells of_grid = grid_of_cells(&p, g, grid);
-  __global float* own_cells = cells + (size_t)tile * p.cells_per_tile;
-  for (uint s = id; s < p.segment_count && segments[s].tile == tile; ++s) {
-    own_cells[p.listed] += (float)(segments[s].end - segments[s].begin);
-    for (uint k = segments[s].begin; k < segments[s].end; ++k) {
-      __global const TileSplat* splat = entries + k;
-      if (splat->radius < 0.0f) {
-        const Collected listed = measured(splat, &p, of_grid);
-        collect_listed(splat, &listed, &p, grids + g, column, row, own_cells);
-      } else if (counts_here(splat, reach)) {
-        const Collected drawn = measured(splat, &p, of_grid);
-        add(contribution_of_drawn(splat, drawn, &p, of_grid.level, of_grid.most_peak), own_cells);
-      }
-    }
+  const uint in_grid = number - grid.first_tile;
+  TileOfCells tile;
+  tile.grid = grids + g;
+  tile.column = (int)(in_grid % (uint)grid.tiles_x);
+  tile.row = (int)(in_grid / (uint)grid.tiles_x);
+  tile.of_grid = grid_of_cells(&p, g, grid);
+  tile.reach = reach_of(grid, tile.column, tile.row);
+  tile.cells = cells + (size_t)number * p.cells_per_tile;
+  for (uint s = id; s < p.segment_count && segments[s].tile == number; ++s) {
+    const uint end = segments[s].end;
+    tile.cells[p.listed] += (float)(end - segments[s].begin);
+    for (uint k = segments[s].begin; k < end; k += LANES)
+      collect_batch(entries + k, end - k < LANES ? (int)(end - k) : LANES, &tile, &p);
   }
 }

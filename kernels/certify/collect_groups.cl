@@ -40,13 +40,14 @@ INLINED Contribution contribution_of(__global const TileSplat* splat, const Cert
   const uint in_grid = tile - grid.first_tile;
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const GridOfCells of_grid = grid_of_cells(p, g, grid);
-  if (splat->radius < 0.0f) {
-    const Collected listed = measured(splat, p, of_grid);
-    return contribution_of_listed(splat, &listed, p, grids + g, column, row);
-  }
-  if (counts_here(splat, reach_of(grid, column, row))) {
-    return contribution_of_drawn(splat, measured(splat, p, of_grid), p, of_grid.level,
-                                 of_grid.most_peak);
+  const MeasuredLanes lane = measured(entries_from(splat, 1), p, of_grid, reach_of(grid, column, row));
+  const Measured m = {lane.x, lane.y, lane.octave, lane.peak, lane.width2};
+  if (splat->radius < 0.0f)
+    return contribution_of_listed(splat, m, p, of_grid.level, grids + g, column, row);
+  if (lane.counts_here) {
+    return m.peak > p->edge_peak
+               ? contribution_of_bright(m, splat->radius, of_grid.most_peak, p, of_grid.level)
+               : contribution_of_drawn(m, of_grid.most_peak, p);
   }
   Contribution none;
   none.peak_cell = none.ending_cell = NO_CELL;

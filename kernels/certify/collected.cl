@@ -8,16 +8,22 @@ static inline float smaller(float a, float b) {
 static inline float larger(float a, float b) {
   return a > b ? a : b;
 }
-static inline float largest(__global const float* values) {
-  return larger(values[0], larger(values[1], values[2]));
+INLINED VALUE smaller_of(VALUE a, VALUE b) {
+  return choose(b, a, a < b);
+}
+INLINED VALUE larger_of(VALUE a, VALUE b) {
+  return choose(b, a, a > b);
 }
 
-// The brightest channel at the splat's center.
-static inline float amplitude_of(__global const TileSplat* splat, float light_behind) {
+#define LARGEST_CHANNEL(s, color) \
+  larger_of(OF_ENTRIES(s, color[0]), larger_of(OF_ENTRIES(s, color[1]), OF_ENTRIES(s, color[2])))
+
+// The brightest channel at the splats' centers.
+INLINED VALUE amplitudes_of(const Entries s, float light_behind) {
 #ifdef LIGHT_ORDERED
-  return larger(largest(splat->emission), light_behind * largest(splat->absorption));
+  return larger_of(LARGEST_CHANNEL(s, emission), light_behind * LARGEST_CHANNEL(s, absorption));
 #else
-  return largest(splat->summed);
+  return LARGEST_CHANNEL(s, summed);
 #endif
 }
 
@@ -44,6 +50,9 @@ INLINED uint cell_at(const OctaveCells cells, int x, int y) {
 
 static inline int nearest_pixel(float center, float first, float last) {
   return (int)smaller(larger(center, first), last);
+}
+INLINED INTEGER pixel_of(VALUE center, int last) {
+  return TO_INTEGER(smaller_of(larger_of(center, (VALUE)(0.0f)), (VALUE)((float)last)));
 }
 
 // What splats leave out where they end is added up as peaks of splats that end where others of
@@ -100,25 +109,47 @@ INLINED PictureInTile picture_in_tile(__global const Grid* grid, int column, int
   return part;
 }
 
-// Of a splat: its octave of widths here, and of that in the picture; what limits its errors.
-typedef struct Collected {
-  int octave, in_picture;
-  float peak, width2;
-} Collected;
+// Of splats: where they are in the tile, their octave of widths here, and what limits their errors.
+typedef struct MeasuredLanes {
+  INTEGER counts_here;
+  INTEGER x, y;  // the pixel of the center, or the tile's nearest
+  INTEGER octave;
+  VALUE peak, width2;
+} MeasuredLanes;
 
-INLINED Collected measured(__global const TileSplat* splat, const CertifyParameters* p,
-                           const GridOfCells grid) {
-  const float sigma = fabs(splat->sigma), sigma_x = fabs(SIGMA_X(*splat));
-  const int by_mean = splat->sigma < grid.mean_sigma;
-  const float area = sigma * sigma_x, flux = 3.15f * area;
-  Collected c;
+// The same of one.
+typedef struct Measured {
+  int x, y, octave;
+  float peak, width2;
+} Measured;
+
+INLINED MeasuredLanes measured(const Entries s, const CertifyParameters* p, const GridOfCells grid,
+                               const Reach reach) {
+  const VALUE x = OF_ENTRIES(s, x), y = OF_ENTRIES(s, y), drawn_sigma = OF_ENTRIES(s, sigma);
+  const VALUE sigma = fabs(drawn_sigma);
+#ifdef ELLIPSES
+  const VALUE area = sigma * fabs(OF_ENTRIES(s, along_x.sigma));
+#else
+  const VALUE area = sigma * sigma;
+#endif
+  const INTEGER by_mean = drawn_sigma < grid.mean_sigma;
+  MeasuredLanes m;
+  m.counts_here = (x >= reach.x0) & (x < reach.x1) & (y >= reach.y0) & (y < reach.y1);
+  m.x = pixel_of(x + 0.5f * TILE_WIDTH, TILE_WIDTH - 1);
+  m.y = pixel_of(y + 0.5f * TILE_HEIGHT, TILE_HEIGHT - 1);
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
-  c.peak = amplitude_of(splat, p->light_behind) * (by_mean && flux < 1.0f ? flux : 1.0f);
-  c.width2 = larger(sigma * sigma, area) + (by_mean ? p->widening : grid.blur);
-  const int power = ((as_int(c.width2) >> 23) - 127) >> 1;
-  c.octave = power < -1 ? 0 : power > WIDTH_OCTAVES - 2 ? WIDTH_OCTAVES - 1 : power + 1;
-  c.in_picture = c.octave + grid.level < WIDTH_OCTAVES ? c.octave + grid.level : WIDTH_OCTAVES - 1;
-  return c;
+  const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
+  m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
+  m.width2 = larger_of(sigma * sigma, area) +
+             choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
+  const INTEGER octave = (((AS_INTEGER(m.width2) >> 23) - 127) >> 1) + 1;
+  const INTEGER at_least = octave < 0 ? (INTEGER)(0) : octave;
+  m.octave = at_least >= WIDTH_OCTAVES ? (INTEGER)(WIDTH_OCTAVES - 1) : at_least;
+  return m;
+}
+
+INLINED int octave_in_picture(int octave, int level) {
+  return octave + level < WIDTH_OCTAVES ? octave + level : WIDTH_OCTAVES - 1;
 }
 
 // What a splat adds to two of its tile's cells.
@@ -128,41 +159,40 @@ typedef struct Contribution {
 } Contribution;
 
 // Hardly any splats are only listed. What they leave out is left out at the picture's edge.
-INLINED Contribution contribution_of_listed(__global const TileSplat* splat, const Collected* c,
-                                            const CertifyParameters* p, __global const Grid* grid,
-                                            int column, int row) {
+INLINED Contribution contribution_of_listed(__global const TileSplat* splat, const Measured m,
+                                            const CertifyParameters* p, int level,
+                                            __global const Grid* grid, int column, int row) {
   const PictureInTile part = picture_in_tile(grid, column, row);
   const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, part.x0, part.x1);
   const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, part.y0, part.y1);
   Contribution added;
-  added.peak_cell = cell_at(p->peaks[c->octave], x, y);
-  added.peak = smaller(c->peak, p->bright_peak);
-  added.ending_cell = cell_at(p->endings[c->octave], x, y);
-  added.ending = listed_ending(splat, p, p->extent2[c->in_picture], c->peak, c->width2);
+  added.peak_cell = cell_at(p->peaks[m.octave], x, y);
+  added.peak = smaller(m.peak, p->bright_peak);
+  added.ending_cell = cell_at(p->endings[m.octave], x, y);
+  added.ending = listed_ending(splat, p, p->extent2[octave_in_picture(m.octave, level)], m.peak,
+                               m.width2);
   return added;
 }
 
-INLINED Contribution contribution_of_drawn(__global const TileSplat* splat, const Collected c,
-                                           const CertifyParameters* p, int level, float most_peak) {
-  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, 0.0f, (float)(TILE_WIDTH - 1));
-  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, 0.0f, (float)(TILE_HEIGHT - 1));
+INLINED Contribution contribution_of_drawn(const Measured m, float most_peak,
+                                           const CertifyParameters* p) {
   Contribution added;
-  added.peak_cell = cell_at(p->peaks[c.octave], x, y);
-  added.peak = smaller(c.peak, most_peak);
-  if (c.peak <= p->edge_peak) {
-    added.ending_cell = cell_at(p->endings[c.octave], x, y);
-    added.ending = c.peak;
-    return added;
-  }
-  const int as_far = octave_of_ending(splat->radius - 0.5f, c.octave, level, p);
-  const int of_ending = as_far + level < WIDTH_OCTAVES ? as_far + level : WIDTH_OCTAVES - 1;
-  const float part =
-      as_far == c.octave ? 1.0f : exp(p->extent2[of_ending] - p->extent2[c.in_picture]);
-  added.ending_cell = cell_at(p->endings[as_far], x, y);
+  added.peak_cell = cell_at(p->peaks[m.octave], m.x, m.y);
+  added.peak = smaller(m.peak, most_peak);
+  added.ending_cell = cell_at(p->endings[m.octave], m.x, m.y);
+  added.ending = m.peak;
+  return added;
+}
+
+// Of one whose peak is above edge_peak.
+INLINED Contribution contribution_of_bright(const Measured m, float radius, float most_peak,
+                                            const CertifyParameters* p, int level) {
+  const int as_far = octave_of_ending(radius - 0.5f, m.octave, level, p);
+  const float part = as_far == m.octave ? 1.0f
+                                        : exp(p->extent2[octave_in_picture(as_far, level)] -
+                                              p->extent2[octave_in_picture(m.octave, level)]);
+  Contribution added = contribution_of_drawn(m, most_peak, p);
+  added.ending_cell = cell_at(p->endings[as_far], m.x, m.y);
   added.ending = p->edge_peak * part;
   return added;
-}
-
-INLINED int counts_here(__global const TileSplat* splat, const Reach reach) {
-  return splat->x >= reach.x0 && splat->x < reach.x1 && splat->y >= reach.y0 && splat->y < reach.y1;
 }

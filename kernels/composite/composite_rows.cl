@@ -210,7 +210,10 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   const float* const own_front = is_one_block ? 0 : front;
   if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) end = segment.begin;
 #endif
+  EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
+    const int in_batch = (int)((k - segment.begin) % LANES);
+    if (in_batch == 0) find_windows(entries + k, (int)min((uint)LANES, end - k), &windows);
     if (asked < ROWS_OF_TILE) {
       ask_for_rows(planes, grid, corner, asked, rows_at_a_time);
       asked += rows_at_a_time;
@@ -221,7 +224,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
       if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &depth_of_block, &p)) continue;
     } else
 #endif
-        if (!add_splat(tile, entries + k, &tile_of_splats, &depth_of_block, &p))
+        if (!add_splat(tile, entries + k, rows_of_entry(&windows, in_batch),
+                       columns_of_entry(&windows, in_batch), &tile_of_splats, &depth_of_block, &p))
       continue;
     ++drawn;
 #ifdef LIGHT_ORDERED

@@ -23,10 +23,9 @@ static inline void fill_rows(float* values, const Window* window, __global const
 }
 
 // Whether it touches the tile: as in splat_rows.cl.
-static inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
-                            float* depth_of_block, const CompositeParameters* p) {
-  const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
-  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
+static inline int add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                            const SplatTile* of_tile, float* depth_of_block,
+                            const CompositeParameters* p) {
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   int form = 0;
 #ifdef LIGHT_ORDERED

@@ -181,11 +181,10 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 
 // Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
 // Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
-static inline int add_splat(float* tile, __global const TileSplat* splat, const SplatTile* of_tile,
-                            float* depth_of_block, const CompositeParameters* p) {
+static inline int add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                            const SplatTile* of_tile, float* depth_of_block,
+                            const CompositeParameters* p) {
   const float mean_sigma = of_tile->mean_sigma;
-  const int2 rows = pixel_range(splat->y, splat->radius, FIRST_Y, TILE_HEIGHT);
-  const int2 columns = pixel_range(splat->x, RADIUS_X(*splat), FIRST_X, TILE_WIDTH);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   int form = 0;

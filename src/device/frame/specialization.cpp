@@ -265,7 +265,7 @@ std::vector<std::string> Specialization::composite_files() const {
   files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(), {"rows.cl", "wide_rows.cl"});
+    files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "wide_rows.cl"});
     files.push_back(face_of_cube_ ? "face_rows.cl" : "splat_rows.cl");
     files.insert(files.end(), {"prefetch.cl", "composite_rows.cl"});
   } else {
@@ -335,13 +335,16 @@ ProgramSource Specialization::behind() const {
 }
 
 ProgramSource Specialization::certify() const {
-  const std::string defines = tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
+  const std::string defines =
+      define_if(rows_, "LANES_8") + tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
   if (rows_) {
-    return {defines, {"splat.h", "bin.h", "certify.h", "common.cl", "collected.cl", "collect.cl"}};
+    return {defines,
+            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "entry_lanes.cl",
+             "collected.cl", "collect.cl"}};
   }
   return {defines,
-          {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "collected.cl",
-           "collect_groups.cl"}};
+          {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "lanes.cl",
+           "entry_lanes.cl", "collected.cl", "collect_groups.cl"}};
 }
 
 ProgramSource Specialization::coarse_grids() {
