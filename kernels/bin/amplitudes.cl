@@ -2,16 +2,16 @@
 
 // Vectors, since what a loop writes to an array goes through memory in pieces, which a processor
 // cannot forward to the copy of the whole entry.
-INLINED float3 knot_at(__global const float* knot) {
-  return (float3)(knot[0], knot[1], knot[2]);
+INLINED float4 knot_at(__global const float* knots, uint number) {
+  return vload4(number, knots);
 }
 
 INLINED float3 sample_knots(__global const float* knots, uint first, uint count, float position) {
-  const float place = position * (float)(count - 1u);
-  const uint below = min((uint)place, count - 1u);
+  const float place = position * (float)(int)(count - 1u);
+  const uint below = min((uint)(int)place, count - 1u);
   const uint above = min(below + 1u, count - 1u);
-  const float3 color = knot_at(knots + (size_t)(first + below) * 3);
-  return color + (place - (float)below) * (knot_at(knots + (size_t)(first + above) * 3) - color);
+  const float4 color = knot_at(knots, first + below);
+  return (color + (place - (float)(int)below) * (knot_at(knots, first + above) - color)).xyz;
 }
 
 #ifdef VECTOR_COLORS

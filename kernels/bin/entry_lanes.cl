@@ -4,9 +4,9 @@ typedef struct Entries {
 } Entries;
 
 #ifdef LANES_8
-#define OF_ENTRIES(entries, field)                                                          \
-  ((VALUE)((entries).lane[0]->field, (entries).lane[1]->field, (entries).lane[2]->field,    \
-           (entries).lane[3]->field, (entries).lane[4]->field, (entries).lane[5]->field,    \
+#define OF_ENTRIES(entries, field)                                                       \
+  ((VALUE)((entries).lane[0]->field, (entries).lane[1]->field, (entries).lane[2]->field, \
+           (entries).lane[3]->field, (entries).lane[4]->field, (entries).lane[5]->field, \
            (entries).lane[6]->field, (entries).lane[7]->field))
 #else
 #define OF_ENTRIES(entries, field) ((entries).lane[0]->field)

@@ -113,9 +113,10 @@ struct ExtendedSplat {
 #define ABSORPTION_FACTOR 2
 #define ABSORPTION_GRAY 3
 
-// One component's colors: knots of three floats lie in a table, emission at first_knot,
-// absorption at first_absorption_knot. Where the palette has none of its own,
-// absorption_knot_count is 0.
+// One component's colors: knots lie in a table, emission at first_knot, absorption at
+// first_absorption_knot. Where the palette has none of its own, absorption_knot_count is 0. A knot
+// is three floats and one of padding, which a processor fetches at once.
+#define KNOT_FLOATS 4
 struct ComponentColors {
   unsigned int first_knot, knot_count;
   unsigned int first_absorption_knot, absorption_knot_count;

@@ -81,8 +81,8 @@ static inline void extended_knots(__global const float* knots, uint first, uint 
   if (below > 0u && extended_less(place, extended_of((float)below))) --below;
   const uint above = min(below + 1u, count - 1u);
   const Extended fraction = extended_difference(place, extended_of((float)below));
-  __global const float* a = knots + (size_t)(first + below) * 3;
-  __global const float* b = knots + (size_t)(first + above) * 3;
+  __global const float* a = knots + (size_t)(first + below) * KNOT_FLOATS;
+  __global const float* b = knots + (size_t)(first + above) * KNOT_FLOATS;
   for (int c = 0; c < 3; ++c) {
     const Extended step = extended_difference(extended_of(b[c]), extended_of(a[c]));
     color[c] = extended_sum(extended_of(a[c]), extended_product(fraction, step));

@@ -1,6 +1,7 @@
 #include "certificate/octave_errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -171,6 +172,18 @@ std::vector<double> peak_weights_of(int octave, int level, const CellSums& cells
   return weights;
 }
 
+// Of values that are not negative. Four at a time: each of a single row would wait for the last.
+double largest_of(const double* begin, const double* end) {
+  std::array<double, 4> largest{};
+  for (; end - begin >= 4; begin += 4) {
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      largest[i] = std::max(largest[i], begin[i]);
+  }
+  for (; begin < end; ++begin)
+    largest[0] = std::max(largest[0], *begin);
+  return *std::max_element(largest.begin(), largest.end());
+}
+
 }  // namespace
 
 OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan)
@@ -295,16 +308,21 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
   const CellRange here = cells_of(block, peak_side_);
   const CellRange squares = {std::max(range.x0 - 1, -1), std::min(range.x1, squares_across_ - 1),
                              std::max(range.y0 - 1, -1), std::min(range.y1, squares_along_ - 1)};
-  const auto away = [](int square, int first, int end) {
-    return std::max({0, first - square - 1, square - end + 1});
+  const auto weight = [&](int rows, int columns) {
+    return peak_weights_[static_cast<std::size_t>(std::max(rows, columns))];
   };
+  // Squares that hold a cell of the block's columns, and those so many cells to either side.
+  const int first = here.x0 - 1, end = here.x1;
+  const int left = std::clamp(first, squares.x0, squares.x1);
+  const int right = std::clamp(end, left, squares.x1);
   for (int y = squares.y0; y < squares.y1; ++y) {
-    const int rows = away(y, here.y0, here.y1);
+    const int rows = std::max({0, here.y0 - y - 1, y - here.y1 + 1});
     const double* const uneven = uneven_peaks_.data() + std::ptrdiff_t{y + 1} * squares_across_ + 1;
-    for (int x = squares.x0; x < squares.x1; ++x) {
-      const int cells = std::max(rows, away(x, here.x0, here.x1));
-      largest = std::max(largest, peak_weights_[static_cast<std::size_t>(cells)] * uneven[x]);
-    }
+    largest = std::max(largest, weight(rows, 0) * largest_of(uneven + left, uneven + right));
+    for (int x = squares.x0; x < left; ++x)
+      largest = std::max(largest, weight(rows, first - x) * uneven[x]);
+    for (int x = right; x < squares.x1; ++x)
+      largest = std::max(largest, weight(rows, x - end + 1) * uneven[x]);
   }
   return peak_error_ * largest;
 }

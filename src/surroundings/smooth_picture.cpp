@@ -70,8 +70,11 @@ class SmoothPicture::Nodes {
         channels_(static_cast<std::size_t>(channels)),
         values_(static_cast<std::size_t>(x_.count) * static_cast<std::size_t>(y_.count) *
                 channels_) {
-    for (int phase = 0; phase < spacing; ++phase)
+    for (int phase = 0; phase < spacing; ++phase) {
       weights_.push_back(lagrange_weights(static_cast<double>(phase) / spacing));
+      for (std::size_t k = 0; k < taps; ++k)
+        weights_of_taps_[k].push_back(weights_.back()[k]);
+    }
   }
 
   // Of nodes that are twice as far apart those that are known are taken.
@@ -109,8 +112,13 @@ class SmoothPicture::Nodes {
     channels.resize(channels_ * width);
     std::vector<double> between(static_cast<std::size_t>(x_.count) * channels_);
     interpolate_row(part.y + y, between);
-    for (std::size_t x = 0; x < width; ++x)
-      along_row(between, part.x + static_cast<int>(x), channels.data() + x, width);
+    // Pixels between the same two nodes at a time.
+    for (int x = 0; x < part.width;) {
+      const int phase = x_.phase(part.x + x);
+      const int count = std::min(x_.spacing - phase, part.width - x);
+      interpolate_between(between, x_.base(part.x + x), phase, count, channels.data() + x, width);
+      x += count;
+    }
   }
 
  private:
@@ -149,20 +157,24 @@ class SmoothPicture::Nodes {
     }
   }
 
-  // The pixel's channels, `plane` numbers apart.
-  void along_row(const std::vector<double>& row, int x, double* pixel, std::size_t plane) const {
-    const double* nodes = row.data() + static_cast<std::size_t>(x_.base(x)) * channels_;
+  // The channels of `count` pixels from this phase on, `plane` numbers apart.
+  void interpolate_between(const std::vector<double>& row, int base, int phase, int count,
+                           double* pixels, std::size_t plane) const {
+    const double* nodes = row.data() + static_cast<std::size_t>(base) * channels_;
     if (x_.spacing == 1) {
       for (std::size_t c = 0; c < channels_; ++c)
-        pixel[c * plane] = nodes[c];
+        pixels[c * plane] = nodes[c];
       return;
     }
-    const Weights& own = weights(x_.phase(x));
     for (std::size_t c = 0; c < channels_; ++c) {
-      double sum = 0;
-      for (std::size_t k = 0; k < own.size(); ++k)
-        sum += own[k] * nodes[k * channels_ + c];
-      pixel[c * plane] = sum;
+      double* const of_channel = pixels + c * plane;
+      std::fill_n(of_channel, count, 0.0);
+      for (std::size_t k = 0; k < taps; ++k) {
+        const double node = nodes[k * channels_ + c];
+        const double* const weights = weights_of_taps_[k].data() + phase;
+        for (int i = 0; i < count; ++i)
+          of_channel[i] += weights[i] * node;
+      }
     }
   }
 
@@ -198,7 +210,8 @@ class SmoothPicture::Nodes {
   Axis x_, y_;
   std::size_t channels_;
   std::vector<double> values_;
-  std::vector<Weights> weights_;  // of each phase
+  std::vector<Weights> weights_;                           // of each phase
+  std::array<std::vector<double>, taps> weights_of_taps_;  // the same, tap by tap
 };
 
 SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel)

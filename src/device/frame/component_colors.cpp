@@ -21,9 +21,9 @@ int kind_number(Absorption::Kind kind) {
 
 // Returns the number of the first of them in the table.
 std::uint32_t append_knots(const std::vector<Rgb>& added, std::vector<float>& table) {
-  const auto first = static_cast<std::uint32_t>(table.size() / 3);
+  const auto first = static_cast<std::uint32_t>(table.size() / KNOT_FLOATS);
   for (const Rgb& knot : added)
-    table.insert(table.end(), knot.begin(), knot.end());
+    table.insert(table.end(), {knot[0], knot[1], knot[2], 0});
   return first;
 }
 

@@ -9,7 +9,7 @@ namespace splotchcl {
 // The palettes of a frame's components on the device.
 struct ComponentColorTable {
   Buffer<shared::ComponentColors> components;
-  Buffer<float> knots;  // three floats each
+  Buffer<float> knots;  // KNOT_FLOATS each
 };
 
 ComponentColorTable upload_component_colors(const Frame& frame, BufferPool& pool);
