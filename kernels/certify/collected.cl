@@ -140,8 +140,8 @@ INLINED MeasuredLanes measured(const Entries s, const CertifyParameters* p, cons
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
   const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
   m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
-  m.width2 = larger_of(sigma * sigma, area) +
-             choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
+  m.width2 =
+      larger_of(sigma * sigma, area) + choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
   const INTEGER octave = (((AS_INTEGER(m.width2) >> 23) - 127) >> 1) + 1;
   const INTEGER at_least = octave < 0 ? (INTEGER)(0) : octave;
   m.octave = at_least >= WIDTH_OCTAVES ? (INTEGER)(WIDTH_OCTAVES - 1) : at_least;
@@ -169,8 +169,8 @@ INLINED Contribution contribution_of_listed(__global const TileSplat* splat, con
   added.peak_cell = cell_at(p->peaks[m.octave], x, y);
   added.peak = smaller(m.peak, p->bright_peak);
   added.ending_cell = cell_at(p->endings[m.octave], x, y);
-  added.ending = listed_ending(splat, p, p->extent2[octave_in_picture(m.octave, level)], m.peak,
-                               m.width2);
+  added.ending =
+      listed_ending(splat, p, p->extent2[octave_in_picture(m.octave, level)], m.peak, m.width2);
   return added;
 }
 

@@ -11,8 +11,7 @@ INLINED void fill_range(VALUE center, VALUE radius, float first_center, int size
   const VALUE none = (VALUE)(0.0f), end = (VALUE)((float)size);
   const VALUE low = center - radius - first_center, high = center + radius - first_center;
   const VALUE from = choose(none, choose(end, low, low < end), low > none);
-  const VALUE to =
-      choose(end - 1.0f, choose(none - 1.0f, high, high > -1.0f), high < end - 1.0f);
+  const VALUE to = choose(end - 1.0f, choose(none - 1.0f, high, high > -1.0f), high < end - 1.0f);
   const INTEGER truncated_from = TO_INTEGER(from), truncated_to = TO_INTEGER(to);
   // A vector's comparison gives -1.
   STORE(truncated_from - (TO_VALUE(truncated_from) < from), first);
