@@ -22,6 +22,7 @@ class Splotchcl(CMakePackage):
     depends_on("openimageio@2.3:")
     depends_on("openexr@3:")
     depends_on("libpng@1.6:")
+    depends_on("zlib-api")
     depends_on("jpeg")
     depends_on("libtiff@4.5:")
     depends_on("stb")

@@ -1,4 +1,4 @@
-// One way to draw a frame: what comes back of it, with the oracle, which needs no device.
+// One way to draw a frame: what comes back of it, mostly with the oracle, which needs no device.
 #include "splotchcl/frame_drawer.h"
 
 #include <gmock/gmock.h>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "splotchcl/array_snapshot.h"
+#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "temporary_folder.h"
 
@@ -17,6 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
 
 constexpr const char* scene_text = R"(
 snapshot = "arrays"
@@ -115,6 +117,32 @@ TEST_F(FrameDrawing, WritesEachPictureToItsFile) {
   EXPECT_TRUE(std::filesystem::exists(folder / "a_left.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "a_right.png"));
   EXPECT_EQ(folder.count_files(), 2U);
+}
+
+// By a device.
+class LaterOpening : public FrameDrawing {
+ protected:
+  DrawnFrame draw_with(FrameDrawer& drawer) { return drawer.draw(scene(), arrays_); }
+
+  static FrameDrawerOptions later(const std::string& device = "") {
+    FrameDrawerOptions options{device, false, {}};
+    options.opens_later = true;
+    return options;
+  }
+};
+
+TEST_F(LaterOpening, DrawsWhatADeviceDrawsThatIsOpen) {
+  FrameDrawer waits, goes_on(later());
+  EXPECT_EQ(draw_with(goes_on).pictures[0].image.pixels, draw_with(waits).pictures[0].image.pixels);
+  EXPECT_NO_THROW(goes_on.check_device());
+}
+
+TEST_F(LaterOpening, TellsEachTimeOfADeviceThatIsNotThere) {
+  FrameDrawer drawer(later("no such device"));
+  const auto tells = ThrowsMessage<UsageError>(HasSubstr("'no such device'"));
+  EXPECT_THAT([&] { draw_with(drawer); }, tells);
+  EXPECT_THAT([&] { draw_with(drawer); }, tells);
+  EXPECT_THAT([&] { drawer.check_device(); }, tells);
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+// Working memory that is kept from use to use.
+#include "device/opencl/buffer_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "device/stages.h"
+
+namespace splotchcl::test {
+namespace {
+
+constexpr std::uint64_t megabyte = 1 << 20;
+
+class Pool : public StageTest {
+ protected:
+  Pool() : own_(device().context, device().queue, device().timer, device().traits) {}
+
+  std::optional<Buffer<std::byte>> get(std::uint64_t bytes) {
+    return own_.get<std::byte>(bytes, "test");
+  }
+  // Which memory it is: alive as long as the pool or the buffer keeps it.
+  static cl_mem memory_of(const std::optional<Buffer<std::byte>>& buffer) {
+    return buffer->memory().get();
+  }
+
+  BufferPool own_;
+};
+
+TEST_F(Pool, HandsOutMemoryThatCameBack) {
+  auto buffer = get(10 * megabyte);
+  const cl_mem memory = memory_of(buffer);
+  buffer.reset();
+  buffer = get(9 * megabyte);
+  EXPECT_EQ(memory_of(buffer), memory);
+}
+
+TEST_F(Pool, KeepsALargeBufferWhenALittleMoreIsWanted) {
+  auto large = get(40 * megabyte);
+  const cl_mem memory = memory_of(large);
+  large.reset();
+  const auto little = get(megabyte);
+  large = get(40 * megabyte);
+  EXPECT_EQ(memory_of(large), memory);
+}
+
+TEST_F(Pool, GivesFreeMemoryBackRatherThanHoldMuchMoreThanWasInUse) {
+  auto large = get(40 * megabyte);
+  large.reset();
+  own_.reset_peak();
+  const auto other = get(10 * megabyte);
+  EXPECT_LE(own_.peak_bytes(), 42 * megabyte);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
