@@ -6,6 +6,7 @@ INLINED float4 knot_at(__global const float* knots, uint number) {
   return vload4(number, knots);
 }
 
+// Numbers are converted as signed ones, which most processors do in one step.
 INLINED float3 sample_knots(__global const float* knots, uint first, uint count, float position) {
   const float place = position * (float)(int)(count - 1u);
   const uint below = min((uint)(int)place, count - 1u);

@@ -19,6 +19,7 @@ struct ParticleChunk {
   std::uint64_t first = 0, end = 0;
   std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
 };
+// As few of each component as are no longer than a chunk may be, all of one length but the last.
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
 
 // A chunk, and which of its blocks of DeviceTraits::project_block particles are looked through.
