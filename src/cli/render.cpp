@@ -253,7 +253,8 @@ int run_render(const RenderOptions& options, Console& console) {
   // picture. Not of several processes: MPI may allow calls by one thread only.
   std::future<void> given_back;
   if (!ranks) {
-    given_back = std::async(std::launch::async, [&] {
+    // Never, where there is no thread to be had: the end of the program does it then.
+    given_back = std::async(std::launch::async | std::launch::deferred, [&] {
       drawer.reset();
       report.frame.components.clear();
       opened->snapshot.reset();

@@ -119,12 +119,15 @@ struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
     plan_options.certify = options.certify;
     if (options.by_reference) return;
-    renderer = std::async(options.opens_later ? std::launch::async : std::launch::deferred,
-                          [of_renderer = renderer_options(options)] {
-                            const QuietErrors quiet;
-                            return std::make_shared<Renderer>(of_renderer);
-                          })
-                   .share();
+    // Where there is no thread to be had, it is opened when it is needed.
+    constexpr std::launch later = std::launch::async | std::launch::deferred;
+    renderer =
+        std::async(options.opens_later ? later : std::launch::deferred, [of_renderer =
+                                                                             renderer_options(
+                                                                                 options)] {
+          const QuietErrors quiet;
+          return std::make_shared<Renderer>(of_renderer);
+        }).share();
     if (!options.opens_later) renderer.get();
   }
 
