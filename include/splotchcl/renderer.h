@@ -132,8 +132,10 @@ class Renderer {
   Image render(const Frame& frame, const FramePlan& plan);
 
   // The plan with which render(frame) begins, for a frame whose particles are all here: looks at a
-  // sample of them, and needs no device. Throws UsageError where the frame's parts do not fit.
-  static FramePlan first_plan(const Frame& frame, const PlanOptions& options);
+  // sample of them, on all cores or by the calling thread alone, and needs no device. Throws
+  // UsageError where the frame's parts do not fit.
+  static FramePlan first_plan(const Frame& frame, const PlanOptions& options,
+                              bool on_all_cores = true);
 
   const RenderStats& stats() const;  // of the last frame
 

@@ -169,13 +169,14 @@ bool can_be_expected(const Frame& frame, const FramePlan& plan) {
 
 }  // namespace
 
-std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan) {
+std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan,
+                                         bool on_all_cores) {
   if (!can_be_expected(frame, plan)) return std::nullopt;
-  const std::vector<SampledCloud> clouds =
-      sample_clouds(frame, [](std::size_t count, std::size_t block_size,
-                              const std::function<void(std::size_t, std::size_t)>& work) {
-        for_blocks(count, block_size, work);
-      });
+  const BlockLoop loop = [](std::size_t count, std::size_t block_size,
+                            const std::function<void(std::size_t, std::size_t)>& work) {
+    for_blocks(count, block_size, work);
+  };
+  const std::vector<SampledCloud> clouds = sample_clouds(frame, on_all_cores ? loop : BlockLoop());
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
   const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
   const double times = is_sample ? margin_of_sample : margin;

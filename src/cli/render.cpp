@@ -215,17 +215,15 @@ int run_render(const RenderOptions& options, Console& console) {
   std::optional<SceneWithSnapshot> opened;
   std::optional<FrameDrawer> drawer;
   RenderReport report;
-  // One process opens the device while it reads.
+  // One process opens the device while it reads; the console's thread is made before.
+  if (output) console.status("starting the device");
   if (output && !ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {
     if (options.reference) expect_one_process(ranks.get(), "--reference");
     opened.emplace(open_checked(options, output, ranks, console));
   });
   const SceneWithSnapshot& source = *opened;
-  if (output && ranks) {
-    console.status("starting the device");
-    drawer.emplace(drawer_options(options, ranks, console));
-  }
+  if (output && ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {
     const Stopwatch reading;
     report.frame = read_frame(source, options, drawer, console);

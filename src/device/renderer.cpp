@@ -329,10 +329,10 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options) {
+FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, bool on_all_cores) {
   check_frame(frame);
   const FramePlan plan = make_plan(frame, options);
-  const std::optional<SplatNeeds> needs = expected_needs(frame, plan);
+  const std::optional<SplatNeeds> needs = expected_needs(frame, plan, on_all_cores);
   return needs ? refine_plan(frame, plan, *needs) : plan;
 }
 

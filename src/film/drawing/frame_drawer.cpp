@@ -160,8 +160,9 @@ struct FrameDrawer::State {
 
   Image draw_with_device(const Frame& view) const {
     if (is_open()) return renderer.get()->render(view);
-    // While the device is opened.
-    const FramePlan plan = Renderer::first_plan(view, plan_options);
+    // While the device is opened. Alone: glibc makes no thread while another loads a library.
+    constexpr bool on_all_cores = false;
+    const FramePlan plan = Renderer::first_plan(view, plan_options, on_all_cores);
     return renderer.get()->render(view, plan);
   }
 
