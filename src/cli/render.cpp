@@ -216,7 +216,7 @@ int run_render(const RenderOptions& options, Console& console) {
   std::optional<FrameDrawer> drawer;
   RenderReport report;
   // One process opens the device while it reads; the console's thread is made before.
-  if (output) console.status("starting the device");
+  if (output && !options.reference) console.status("starting the device");
   if (output && !ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {
     if (options.reference) expect_one_process(ranks.get(), "--reference");

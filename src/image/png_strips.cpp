@@ -55,7 +55,8 @@ std::vector<unsigned char> compress(std::vector<unsigned char> bytes, bool is_la
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = compressed.data();
   stream.avail_out = static_cast<uInt>(compressed.size());
-  deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
+  const int done = deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
+  if (done != (is_last ? Z_STREAM_END : Z_OK) || stream.avail_in > 0) throw std::bad_alloc();
   compressed.resize(stream.total_out);
   return compressed;
 }

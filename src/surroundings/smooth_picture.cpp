@@ -71,9 +71,9 @@ class SmoothPicture::Nodes {
         values_(static_cast<std::size_t>(x_.count) * static_cast<std::size_t>(y_.count) *
                 channels_) {
     for (int phase = 0; phase < spacing; ++phase) {
-      weights_.push_back(lagrange_weights(static_cast<double>(phase) / spacing));
+      const Weights of_phase = lagrange_weights(static_cast<double>(phase) / spacing);
       for (std::size_t k = 0; k < taps; ++k)
-        weights_of_taps_[k].push_back(weights_.back()[k]);
+        weights_[k].push_back(of_phase[k]);
     }
   }
 
@@ -139,7 +139,9 @@ class SmoothPicture::Nodes {
     return at(column, row);
   }
 
-  const Weights& weights(int phase) const { return weights_[static_cast<std::size_t>(phase)]; }
+  double weight_of(int tap, int phase) const {
+    return weights_[static_cast<std::size_t>(tap)][static_cast<std::size_t>(phase)];
+  }
 
   // All columns of nodes, at the pixel's height.
   void interpolate_row(int y, std::vector<double>& row) const {
@@ -150,7 +152,7 @@ class SmoothPicture::Nodes {
     }
     std::fill(row.begin(), row.end(), 0.0);
     for (int k = 0; k < taps; ++k) {
-      const double weight = weights(y_.phase(y))[static_cast<std::size_t>(k)];
+      const double weight = weight_of(k, y_.phase(y));
       const double* nodes = at(0, base + k);
       for (std::size_t i = 0; i < row.size(); ++i)
         row[i] += weight * nodes[i];
@@ -171,7 +173,7 @@ class SmoothPicture::Nodes {
       std::fill_n(of_channel, count, 0.0);
       for (std::size_t k = 0; k < taps; ++k) {
         const double node = nodes[k * channels_ + c];
-        const double* const weights = weights_of_taps_[k].data() + phase;
+        const double* const weights = weights_[k].data() + phase;
         for (int i = 0; i < count; ++i)
           of_channel[i] += weights[i] * node;
       }
@@ -198,8 +200,7 @@ class SmoothPicture::Nodes {
     std::fill_n(channels, channels_, 0.0);
     for (int k = 0; k < taps; ++k) {
       for (int i = 0; i < taps; ++i) {
-        const double weight = weights(y_.phase(y))[static_cast<std::size_t>(k)] *
-                              weights(x_.phase(x))[static_cast<std::size_t>(i)];
+        const double weight = weight_of(k, y_.phase(y)) * weight_of(i, x_.phase(x));
         const double* node = at(column + i, row + k);
         for (std::size_t c = 0; c < channels_; ++c)
           channels[c] += weight * node[c];
@@ -210,8 +211,7 @@ class SmoothPicture::Nodes {
   Axis x_, y_;
   std::size_t channels_;
   std::vector<double> values_;
-  std::vector<Weights> weights_;                           // of each phase
-  std::array<std::vector<double>, taps> weights_of_taps_;  // the same, tap by tap
+  std::array<std::vector<double>, taps> weights_;  // of each tap, phase by phase
 };
 
 SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel)

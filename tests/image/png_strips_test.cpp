@@ -41,30 +41,27 @@ std::vector<unsigned char> read(const std::vector<std::vector<unsigned char>>& s
   return bytes;
 }
 
+// How many they are of these rows, which are read as they were.
+std::size_t strips_of(const std::vector<unsigned char>& bytes, std::size_t row_bytes,
+                      std::size_t pixel_bytes) {
+  const PngRows picture = {bytes.data(), row_bytes, bytes.size() / row_bytes, pixel_bytes};
+  const std::vector<std::vector<unsigned char>> strips = png_strips(picture);
+  EXPECT_EQ(read(strips, picture), bytes);
+  return strips.size();
+}
+
 TEST(PngStrips, AreOneStreamOfAllRows) {
   constexpr std::size_t row_bytes = 3 * 731, rows = 600;
-  const std::vector<unsigned char> bytes = noise(row_bytes * rows);
-  const PngRows picture = {bytes.data(), row_bytes, rows, 3};
-  const std::vector<std::vector<unsigned char>> strips = png_strips(picture);
-  EXPECT_GT(strips.size(), 4U);
-  EXPECT_EQ(read(strips, picture), bytes);
+  EXPECT_GT(strips_of(noise(row_bytes * rows), row_bytes, 3), 4U);
 }
 
 TEST(PngStrips, HoldRowsThatAreLongerThanAStrip) {
   constexpr std::size_t row_bytes = 6 * 60000, rows = 3;
-  const std::vector<unsigned char> bytes = noise(row_bytes * rows);
-  const PngRows picture = {bytes.data(), row_bytes, rows, 6};
-  const std::vector<std::vector<unsigned char>> strips = png_strips(picture);
-  EXPECT_EQ(strips.size(), 3U);
-  EXPECT_EQ(read(strips, picture), bytes);
+  EXPECT_EQ(strips_of(noise(row_bytes * rows), row_bytes, 6), 3U);
 }
 
 TEST(PngStrips, AreOneForASinglePixel) {
-  const std::vector<unsigned char> bytes = {1, 200, 3};
-  const PngRows picture = {bytes.data(), 3, 1, 3};
-  const std::vector<std::vector<unsigned char>> strips = png_strips(picture);
-  EXPECT_EQ(strips.size(), 1U);
-  EXPECT_EQ(read(strips, picture), bytes);
+  EXPECT_EQ(strips_of({1, 200, 3}, 3, 3), 1U);
 }
 
 }  // namespace
