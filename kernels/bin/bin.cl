@@ -27,6 +27,7 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
+  WaitingSplats waiting = no_waiting_splats();
   const uint begin = p.first + block * p.stride;
   const uint end = min(begin + p.length, p.end);
   for (uint slot = begin; slot < end; ++slot) {
@@ -40,8 +41,9 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
     const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, splat, grid, count);
+    count_in_tiles(touched, splat, grid, count, &waiting);
   }
+  count_waiting(&waiting, count);
 }
 #endif
 

@@ -99,12 +99,23 @@ static inline uint pack_tiles(int4 range) {
          (uint)rows << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
 }
 
+static inline uint first_column_of_tiles(uint packed) {
+  return packed & ((1u << FIRST_TILE_BITS) - 1u);
+}
+static inline uint first_row_of_tiles(uint packed) {
+  return packed >> FIRST_TILE_BITS & ((1u << FIRST_TILE_BITS) - 1u);
+}
+static inline uint columns_of_tiles(uint packed) {
+  return packed >> 2 * FIRST_TILE_BITS & ((1u << TILE_COUNT_BITS) - 1u);
+}
+static inline uint rows_of_tiles(uint packed) {
+  return packed >> (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
+}
+
 INLINED int4 unpack_tiles(uint packed, const Splat splat, const Grid grid) {
   if (packed == FOUND_AGAIN) return tile_range(splat, grid);
-  const uint first = (1u << FIRST_TILE_BITS) - 1u, count = (1u << TILE_COUNT_BITS) - 1u;
-  const int x = (int)(packed & first), y = (int)(packed >> FIRST_TILE_BITS & first);
-  const int columns = (int)(packed >> 2 * FIRST_TILE_BITS & count);
-  const int rows = (int)(packed >> (2 * FIRST_TILE_BITS + TILE_COUNT_BITS));
+  const int x = (int)first_column_of_tiles(packed), y = (int)first_row_of_tiles(packed);
+  const int columns = (int)columns_of_tiles(packed), rows = (int)rows_of_tiles(packed);
   return (int4)(x, x + columns - 1, y, y + rows - 1);
 }
 
@@ -119,19 +130,60 @@ INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid gr
   return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
 }
 
-// Counts the splat in the tiles that it touches.
+// Splats that touch several tiles, which are counted some at a time: a processor does not foresee
+// which splats these are.
+#define MOST_WAITING 8
+typedef struct WaitingSplats {
+  uint count;
+  uint tiles[MOST_WAITING], corner[MOST_WAITING], tiles_x[MOST_WAITING];
+} WaitingSplats;
+
+INLINED WaitingSplats no_waiting_splats(void) {
+  WaitingSplats waiting;
+  waiting.count = 0;
+  return waiting;
+}
+
+// In all tiles but the first, which has counted them.
+INLINED void count_waiting(WaitingSplats* waiting, __global uint* count) {
+  for (uint i = 0; i < waiting->count; ++i) {
+    const uint tiles = waiting->tiles[i], tiles_x = waiting->tiles_x[i];
+    __global uint* first = count + waiting->corner[i];
+    const uint columns = columns_of_tiles(tiles), rows = rows_of_tiles(tiles);
+    // Most have two, the last of which is the second.
+    ++first[(rows - 1) * tiles_x + columns - 1];
+    if (columns + rows == 3) continue;
+    const uint others = columns * rows - 1;
+    uint x = 1 % columns, y = 1 / columns;
+    for (uint k = 1; k < others; ++k) {
+      ++first[y * tiles_x + x];
+      const uint is_last = x == columns - 1;
+      x = is_last ? 0 : x + 1;
+      y += is_last;
+    }
+  }
+  waiting->count = 0;
+}
+
+// Counts the splat in the tiles that it touches, at the latest when those that wait are counted.
 INLINED void count_in_tiles(uint tiles, const Splat splat, __global const Grid* grid,
-                            __global uint* count) {
-  // Most splats of a large snapshot.
-  if (tiles >> 2 * FIRST_TILE_BITS == (1u | 1u << TILE_COUNT_BITS)) {
-    const uint first = (1u << FIRST_TILE_BITS) - 1u;
-    const uint column = tiles & first, row = tiles >> FIRST_TILE_BITS & first;
-    ++count[grid->corner_tile + row * (uint)grid->tiles_x + column];
+                            __global uint* count, WaitingSplats* waiting) {
+  if (tiles == FOUND_AGAIN) {
+    const int4 range = tile_range(splat, *grid);
+    for (int ty = range.z; ty <= range.w; ++ty) {
+      for (int tx = range.x; tx <= range.y; ++tx)
+        ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
+    }
     return;
   }
-  const int4 range = unpack_tiles(tiles, splat, *grid);
-  for (int ty = range.z; ty <= range.w; ++ty) {
-    for (int tx = range.x; tx <= range.y; ++tx)
-      ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
-  }
+  const uint tiles_x = (uint)grid->tiles_x;
+  const uint corner =
+      grid->corner_tile + first_row_of_tiles(tiles) * tiles_x + first_column_of_tiles(tiles);
+  ++count[corner];
+  const uint last = waiting->count;
+  waiting->tiles[last] = tiles;
+  waiting->corner[last] = corner;
+  waiting->tiles_x[last] = tiles_x;
+  waiting->count = last + (tiles >> 2 * FIRST_TILE_BITS != (1u | 1u << TILE_COUNT_BITS));
+  if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
 }

@@ -4,6 +4,7 @@
 #undef INTEGER
 #undef AS_VALUE
 #undef AS_INTEGER
+#undef ANY
 #ifdef LANES_8
 #define LANES 8
 #define VALUE float8
@@ -19,7 +20,15 @@
 #define TO_UNSIGNED_WIDE convert_ulong8
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
+// Two instructions, where PoCL's any() looks at one lane after the other.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define ANY(mask) (__builtin_reduce_or(mask) != 0)
+#endif
+#endif
+#ifndef ANY
 #define ANY(mask) any(mask)
+#endif
 #else
 #define LANES 1
 #define VALUE float

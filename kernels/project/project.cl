@@ -33,6 +33,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
   __global uint* count = tile_counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
+  WaitingSplats waiting = no_waiting_splats();
 #endif
   if (p.leaves_out_blocks && left_out[block] != 0) {
     counts[numbered].visible = 0;
@@ -130,7 +131,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
         const uint touched = tiles_of(listed, *grid);
         tiles[slot] = touched;
 #endif
-        count_in_tiles(touched, listed, grid, count);
+        count_in_tiles(touched, listed, grid, count, &waiting);
 #endif
         ++slot;
 #ifdef COPIES
@@ -138,6 +139,9 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #endif
     }
   }
+#ifdef COUNT_TILES
+  count_waiting(&waiting, count);
+#endif
   counts[numbered].visible = slot - first_slot;
   counts[numbered].bad = bad_count;
   counts[numbered].too_sharp = too_sharp_count;
