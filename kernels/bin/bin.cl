@@ -83,6 +83,82 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
   }
 }
 
+#ifndef EXTENDED_NUMBERS
+// What lists of a band are filled from and where.
+typedef struct ListedBand {
+  uint first_tile, tiles;
+  __global const uint* starts;
+  __global uint* count;  // of the block's entries in each tile so far
+  __global TileSplat* entries;
+} ListedBand;
+
+// A place for the next entry of a tile, if it is of the band; else null.
+INLINED __global TileSplat* next_entry(const ListedBand band, uint tile) {
+  if (tile - band.first_tile >= band.tiles) return 0;
+  return band.entries + (band.starts[tile] + band.count[tile]++);
+}
+
+// A call: hardly any splats have to have their tiles found again, or units of a pixel and more.
+__attribute__((noinline)) static void list_far_or_wide(
+    const BinParameters* p, const ListedBand* band, __global const Grid* grids,
+    __global const Splat* from, uint touched, __global const ComponentColors* component_colors,
+    __global const float* knots) {
+  const Splat splat = *from;
+  const Grid grid = grids[grid_of(splat)];
+  const int4 range = unpack_tiles(touched, splat, grid);
+  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
+  for (int ty = range.z; ty <= range.w; ++ty) {
+    for (int tx = range.x; tx <= range.y; ++tx) {
+      __global TileSplat* to = next_entry(*band, grid.corner_tile + (uint)(ty * grid.tiles_x + tx));
+      if (!to) continue;
+      set_place(&entry, splat, grid, tx * TILE_WIDTH + TILE_WIDTH / 2,
+                ty * TILE_HEIGHT + TILE_HEIGHT / 2, place_bits_of(splat, grid),
+                unit_of(splat, grid));
+      *to = entry;
+    }
+  }
+}
+
+INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global const Grid* grids,
+                        __global const Splat* from, uint touched,
+                        __global const ComponentColors* component_colors,
+                        __global const float* knots) {
+  const Splat splat = *from;
+  __global const Grid* grid = grids + grid_of(splat);
+  const int bits = place_bits_of(splat, *grid);
+  if (touched == FOUND_AGAIN || bits <= 0) {
+    list_far_or_wide(p, band, grids, from, touched, component_colors, knots);
+    return;
+  }
+  const float unit = unit_of(splat, *grid);
+  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
+  const uint column = first_column_of_tiles(touched), row = first_row_of_tiles(touched);
+  const uint columns = columns_of_tiles(touched), tiles_x = (uint)grid->tiles_x;
+  // From the middle of the first tile, and between those of two.
+  const int2 middle = (int2)(grid->middle_x, grid->middle_y);
+  const int2 first = (int2)((int)column, (int)row) * (int2)(TILE_WIDTH, TILE_HEIGHT) +
+                     (int2)(TILE_WIDTH / 2, TILE_HEIGHT / 2) - middle;
+  int2 units = (int2)(splat.x, splat.y) - (first << bits);
+  uint tile = grid->corner_tile + row * tiles_x + column, in_row = 0;
+  // One loop: most splats are in one tile, and it ends where a processor expects it to.
+  for (uint left = columns * rows_of_tiles(touched);;) {
+    __global TileSplat* to = next_entry(*band, tile);
+    if (to) {
+      set_units(&entry, splat, units, unit);
+      *to = entry;
+      ask_to_write(to + ENTRIES_AHEAD);
+    }
+    if (--left == 0) return;
+    ++in_row;
+    const int is_last = in_row == columns;
+    const int back = is_last ? (int)columns : 0;
+    tile += is_last ? tiles_x - columns + 1 : 1;
+    in_row -= (uint)back;
+    units -= (int2)((1 - back) * TILE_WIDTH, is_last ? TILE_HEIGHT : 0) << bits;
+  }
+}
+#endif
+
 __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const Splat* splats, __global const uint* order,
                           __global const BlockCounts* blocks, __global uint* counts,
@@ -93,48 +169,42 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   const uint end = slots_end(p, blocks, block);
+#ifndef EXTENDED_NUMBERS
+  ListedBand band;
+  band.first_tile = p.first_tile;
+  band.tiles = p.end_tile - p.first_tile;
+  band.starts = starts;
+  band.count = count;
+  band.entries = entries;
+#endif
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef BLOCKS_OF_PROJECTION
-    const Splat splat = splats[slot];
+    __global const Splat* from = splats + slot;
 #else
-    const Splat splat = in_order[slot - p.first];
+    __global const Splat* from = in_order + (slot - p.first);
 #endif
-    const Grid grid = grids[grid_of(splat)];
 #if defined(BLOCKS_OF_PROJECTION) && defined(TILES_IN_SPLAT)
-    const uint touched = tiles_with_memory(splat.tiles, splat, grid);
+    const uint touched = tiles_with_memory(from->tiles, *from, grids[grid_of(*from)]);
 #else
     const uint touched = tiles[slot - p.first];
 #endif
-    const int4 range = unpack_tiles(touched, splat, grid);
 #ifdef EXTENDED_NUMBERS
-    TileSplat entry;
+    const Splat splat = *from;
+    const Grid grid = grids[grid_of(splat)];
+    const int4 range = unpack_tiles(touched, splat, grid);
+    for (int ty = range.z; ty <= range.w; ++ty) {
+      for (int tx = range.x; tx <= range.y; ++tx) {
+        const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
+        if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
 #ifdef LIGHT_ORDERED
-    entry.slot = order[slot];
+        entries[starts[tile] + count[tile]++].slot = order[slot];
 #else
-    entry.slot = slot;
+        entries[starts[tile] + count[tile]++].slot = slot;
 #endif
-#else
-    const int bits = place_bits_of(splat, grid);
-    const float unit = unit_of(splat, grid);
-    TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
-#endif
-    // One loop: most splats are in one tile, and it ends where a processor expects it to.
-    int tx = range.x, ty = range.z;
-    for (int left = (range.y - range.x + 1) * (range.w - range.z + 1); left > 0; --left) {
-      const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
-      // Of the band that lists are made of.
-      if (tile - p.first_tile < p.end_tile - p.first_tile) {
-#ifndef EXTENDED_NUMBERS
-        set_place(&entry, splat, grid, tx * TILE_WIDTH + TILE_WIDTH / 2,
-                  ty * TILE_HEIGHT + TILE_HEIGHT / 2, bits, unit);
-#endif
-        __global TileSplat* to = entries + (size_t)starts[tile] + count[tile]++;
-        *to = entry;
-        ask_to_write(to + ENTRIES_AHEAD);
       }
-      const int is_last = tx == range.y;
-      tx = is_last ? range.x : tx + 1;
-      ty += is_last;
     }
+#else
+    list_splat(&p, &band, grids, from, touched, component_colors, knots);
+#endif
   }
 }

@@ -41,4 +41,15 @@ INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int
       rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
 #endif
 }
+
+// The same where the place is known in so many units from the middle of the tile.
+INLINED void set_units(TileSplat* entry, const Splat splat, int2 units, float unit) {
+  const float2 place = convert_float2(units) * unit;
+  entry->x = place.x;
+  entry->y = place.y;
+#ifdef FINE_PLACES
+  entry->x_low = rest_of_units(units.x, fraction_of_x(splat), unit);
+  entry->y_low = rest_of_units(units.y, fraction_of_y(splat), unit);
+#endif
+}
 #endif

@@ -87,13 +87,17 @@ INLINED float fraction_of_y(const Splat splat) {
   return (float)((int)splat.place_fractions >> 16) * 0x1p-16f;
 }
 
+// What a float of so many units does not hold of them, and the fraction of a unit.
+INLINED float rest_of_units(int units, float fraction, float unit) {
+  return ((float)(units - convert_int_sat((float)units)) + fraction) * unit;
+}
+
 // What from_pixel() rounds off, and the fraction of a unit.
 INLINED float rest_from_pixel(int place, float fraction, int pixel, int middle, int place_bits,
                               float unit) {
   const int from_middle = pixel - middle;
   if (place_bits <= 0) return 0.0f;
-  const int units = place - (from_middle << place_bits);
-  return ((float)(units - convert_int_sat((float)units)) + fraction) * unit;
+  return rest_of_units(place - (from_middle << place_bits), fraction, unit);
 }
 #endif
 

@@ -228,3 +228,40 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   }
 #endif
 }
+
+#if !defined(LIGHT_ORDERED) && SUMMED == 3 && !defined(FACE_OF_CUBE)
+#define WINDOW_PAIRS
+// update_window() of two windows side by side, with the rows of the first, to the same bits: what
+// they share is done once.
+INLINED void update_two_windows(float* tile, const Window* window, float8 across_first,
+                                float8 across_second, const float* along,
+                                __global const TileSplat* splat) {
+#ifdef CUT_BY_ROWS
+  const float8 dx_first =
+      (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
+  const float8 dx_second = (float)(window->x + 8) + FIRST_X - splat->x +
+                           (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
+  const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
+  const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+#endif
+  float* pixel = tile + window->y * ROW + window->x;
+  const float8 first0 = across_first * splat->summed[0], second0 = across_second * splat->summed[0];
+  const float8 first1 = across_first * splat->summed[1], second1 = across_second * splat->summed[1];
+  const float8 first2 = across_first * splat->summed[2], second2 = across_second * splat->summed[2];
+#define ADD_PAIR(c)                                                               \
+  store_eight(load_eight(pixel + c * TILE_PIXELS) + shape_first * first##c,       \
+              pixel + c * TILE_PIXELS);                                           \
+  store_eight(load_eight(pixel + c * TILE_PIXELS + 8) + shape_second * second##c, \
+              pixel + c * TILE_PIXELS + 8);
+  for (int k = 0; k < window->rows; ++k, pixel += ROW) {
+    const float8 shape_first =
+        cut_shape((float8)(along[k]), dx_first, dy + (float)k, along[LIMITS + k], squeeze);
+    const float8 shape_second =
+        cut_shape((float8)(along[k]), dx_second, dy + (float)k, along[LIMITS + k], squeeze);
+    ADD_PAIR(0)
+    ADD_PAIR(1)
+    ADD_PAIR(2)
+  }
+#undef ADD_PAIR
+}
+#endif

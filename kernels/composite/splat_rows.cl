@@ -16,6 +16,14 @@ static inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
 }
 
+// The shape at the centers of `count` pixels, as fill_axis() has it; the inverse as for gaussian().
+INLINED void fill_center_values(float* values, float first, float low, int count, float inverse) {
+  const float8 begin = first + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low;
+  float8 farther = (float8)(0.0f);
+  for (int k = 0; k < count; k += 8, farther += 8.0f)
+    store_eight(gaussian(begin + farther, inverse), values + k);
+}
+
 // fill_axis() of a bright splat.
 static inline void fill_bright_axis(float* values, float first, float low, int count, float sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -50,10 +58,7 @@ static inline void fill_axis(float* values, float first, float low, int count, f
     return;
   }
   if (sigma >= mean_sigma) {
-    const float inverse = inverse_of(sigma);
-    for (int k = 0; k < count; k += 8) {
-      vstore8(gaussian(first + (float)k + ramp - low, inverse), 0, values + k);
-    }
+    fill_center_values(values, first, low, count, inverse_of(sigma));
     return;
   }
   // Neighbouring pixels share an edge.
@@ -115,7 +120,7 @@ static inline int set_rows(Window* window, int2 rows, int width, __global const 
 INLINED float16 sixteen_of_axis(float first, float low, int begin, float16 ramp, float sigma,
                                 float mean_sigma) {
   const float16 eights = (float)begin + (float16)((float8)(0.0f), (float8)(8.0f));
-  if (sigma >= mean_sigma) return gaussian(first + eights + ramp - low, inverse_of(sigma));
+  if (sigma >= mean_sigma) return gaussian((first + ramp - low) + eights, inverse_of(sigma));
   const float16 edges = (first - 0.5f + eights + ramp - low) * (1.0f / sigma);
   const float16 within = error_function(edges);
   return (within.s123456789abcdeff - within) * (PIXEL_MEAN_SCALE * sigma);
@@ -151,16 +156,31 @@ static inline int fits_window_of_16(int2 columns, int rows, float sigma, float m
 }
 #endif
 
+// Both axes of a wide splat: `first` as in fill_axis().
+INLINED void fill_axes(float* along_x, float first_x, int columns, float* along_y, float first_y,
+                       int rows, __global const TileSplat* splat, float mean_sigma) {
+  const float sigma = splat->sigma;
+#ifndef ELLIPSES
+  // Most wide splats: no call, and one inverse for both.
+  if (sigma >= mean_sigma) {
+    const float inverse = inverse_of(sigma);
+    fill_center_values(along_x, first_x, LOW_X(*splat), columns, inverse);
+    fill_center_values(along_y, first_y, LOW_Y(*splat), rows, inverse);
+    return;
+  }
+#endif
+  fill_axis(along_x, first_x, LOW_X(*splat), columns, SIGMA_X(*splat), mean_sigma);
+  fill_axis(along_y, first_y, LOW_Y(*splat), rows, sigma, mean_sigma);
+}
+
 static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
                                   int2 columns, float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[2 * LIMITS];
   columns.x = first_of_eights(columns);
-  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
-  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
-            columns.y - columns.x + 1, sigma_x, mean_sigma);
   const float first_y = (float)rows.x + FIRST_Y - splat->y;
   const int rows_count = rows.y - rows.x + 1;
-  fill_axis(along_y, first_y, LOW_Y(*splat), rows_count, sigma, mean_sigma);
+  fill_axes(along_x, (float)columns.x + FIRST_X - splat->x, columns.y - columns.x + 1, along_y,
+            first_y, rows_count, splat, mean_sigma);
   fill_limits(along_y, first_y, LOW_Y(*splat), rows_count, splat);
   Window window;
   window.x = columns.x;
@@ -172,10 +192,16 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
                           splat, form);
     }
   }
+#elif defined(WINDOW_PAIRS)
+  for (; columns.y - window.x >= 8; window.x += 16) {
+    const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
+    const float* across = along_x + (window.x - columns.x);
+    update_two_windows(tile, &window, load_eight(across), load_eight(across + 8), along, splat);
+  }
 #endif
   for (; window.x <= columns.y; window.x += 8) {
     const float* along = along_y + (set_rows(&window, rows, 8, splat) - rows.x);
-    update_window(tile, &window, vload8(0, along_x + (window.x - columns.x)), along, splat, form);
+    update_window(tile, &window, load_eight(along_x + (window.x - columns.x)), along, splat, form);
   }
 }
 
