@@ -6,13 +6,15 @@ INLINED float4 knot_at(__global const float* knots, uint number) {
   return vload4(number, knots);
 }
 
-// Numbers are converted as signed ones, which most processors do in one step.
+// A position is in [0, 1], so that the knot below is one of them. Behind the last there is one more
+// in memory, of which nothing is taken. Numbers are converted as signed ones, which most processors
+// do in one step.
 INLINED float3 sample_knots(__global const float* knots, uint first, uint count, float position) {
   const float place = position * (float)(int)(count - 1u);
-  const uint below = min((uint)(int)place, count - 1u);
-  const uint above = min(below + 1u, count - 1u);
-  const float4 color = knot_at(knots, first + below);
-  return (color + (place - (float)(int)below) * (knot_at(knots, first + above) - color)).xyz;
+  const int below = (int)place;
+  const float4 color = knot_at(knots, first + (uint)below);
+  const float4 above = knot_at(knots, first + (uint)below + 1u);
+  return (color + (place - (float)below) * (above - color)).xyz;
 }
 
 #ifdef VECTOR_COLORS

@@ -33,15 +33,16 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   for (uint slot = begin; slot < end; ++slot) {
     ask_for(splats + order[min(slot + SPLATS_AHEAD, end - 1)]);
     const Splat splat = splats[order[slot]];
-    in_order[slot - p.first] = splat;
+    __global Splat* kept = in_order + (slot - p.first);
+    *kept = splat;
     __global const Grid* grid = grids + grid_of(splat);
 #ifdef TILES_IN_SPLAT
-    const uint touched = tiles_with_memory(splat.tiles, splat, *grid);
+    const uint touched = tiles_in_lists(splat.tiles, kept, grid);
 #else
     const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, splat, grid, count, &waiting);
+    count_in_tiles(touched, kept, grid, count, &waiting);
   }
   count_waiting(&waiting, count);
 }
@@ -184,7 +185,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     __global const Splat* from = in_order + (slot - p.first);
 #endif
 #if defined(BLOCKS_OF_PROJECTION) && defined(TILES_IN_SPLAT)
-    const uint touched = tiles_with_memory(from->tiles, *from, grids[grid_of(*from)]);
+    const uint touched = tiles_in_lists(from->tiles, from, grids + grid_of(*from));
 #else
     const uint touched = tiles[slot - p.first];
 #endif

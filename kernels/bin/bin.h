@@ -34,6 +34,9 @@ struct TileSplat {
 #endif
 };
 
+// Lists are read some entries at a time (entry_lanes.cl): so many may be looked at behind the last.
+#define ENTRIES_BEHIND 7
+
 // Which splats a binning pass takes: work-item b walks the slots first + b * stride ...
 // of at most `length` splats.
 struct BinParameters {

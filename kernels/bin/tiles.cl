@@ -130,6 +130,30 @@ INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid gr
   return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
 }
 
+// What is listed of a splat whose tiles in the whole picture are known. A call, as the next one:
+// hardly any splats of a whole picture need them.
+__attribute__((noinline)) static uint tiles_found_again(uint in_picture,
+                                                        __global const Splat* splat,
+                                                        __global const Grid* grid) {
+  return tiles_with_memory(in_picture, *splat, *grid);
+}
+
+INLINED uint tiles_in_lists(uint in_picture, __global const Splat* splat,
+                            __global const Grid* grid) {
+  if (in_picture != FOUND_AGAIN && !grid->is_part) return in_picture;
+  return tiles_found_again(in_picture, splat, grid);
+}
+
+__attribute__((noinline)) static void count_one_by_one(__global const Splat* splat,
+                                                       __global const Grid* grid,
+                                                       __global uint* count) {
+  const int4 range = tile_range(*splat, *grid);
+  for (int ty = range.z; ty <= range.w; ++ty) {
+    for (int tx = range.x; tx <= range.y; ++tx)
+      ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
+  }
+}
+
 // Splats that touch several tiles, which are counted some at a time: a processor does not foresee
 // which splats these are.
 #define MOST_WAITING 8
@@ -166,14 +190,10 @@ INLINED void count_waiting(WaitingSplats* waiting, __global uint* count) {
 }
 
 // Counts the splat in the tiles that it touches, at the latest when those that wait are counted.
-INLINED void count_in_tiles(uint tiles, const Splat splat, __global const Grid* grid,
+INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
                             __global uint* count, WaitingSplats* waiting) {
   if (tiles == FOUND_AGAIN) {
-    const int4 range = tile_range(splat, *grid);
-    for (int ty = range.z; ty <= range.w; ++ty) {
-      for (int tx = range.x; tx <= range.y; ++tx)
-        ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
-    }
+    count_one_by_one(splat, grid, count);
     return;
   }
   const uint tiles_x = (uint)grid->tiles_x;

@@ -16,7 +16,7 @@ INLINED void add(const Contribution added, __global float* cells) {
 
 // LANES splats as they were measured.
 typedef struct Batch {
-  Entries entries;
+  __global const TileSplat* entries;
   int counts[LANES];  // whether they do: in this tile
   int x[LANES], y[LANES], octave[LANES];
   float peak[LANES], width2[LANES];
@@ -38,7 +38,7 @@ __attribute__((noinline)) static void add_one_by_one(const Batch* batch, int cou
                                                      const CertifyParameters* p) {
   const GridOfCells of_grid = tile->of_grid;
   for (int i = 0; i < count; ++i) {
-    __global const TileSplat* splat = batch->entries.lane[i];
+    __global const TileSplat* splat = batch->entries + i;
     const Measured m = one_of(batch, i);
     if (splat->radius < 0.0f) {
       add(contribution_of_listed(splat, m, p, of_grid.level, tile->grid, tile->column, tile->row),
@@ -55,7 +55,7 @@ __attribute__((noinline)) static void add_one_by_one(const Batch* batch, int cou
 INLINED void collect_batch(__global const TileSplat* entries, int count, const TileOfCells* tile,
                            const CertifyParameters* p) {
   Batch batch;
-  batch.entries = entries_from(entries, count);
+  batch.entries = entries;
   const MeasuredLanes m = measured(batch.entries, p, tile->of_grid, tile->reach);
   const INTEGER is_there = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < count;
   const INTEGER is_listed = (OF_ENTRIES(batch.entries, radius) < 0.0f) & is_there;

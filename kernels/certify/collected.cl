@@ -19,7 +19,7 @@ INLINED VALUE larger_of(VALUE a, VALUE b) {
   larger_of(OF_ENTRIES(s, color[0]), larger_of(OF_ENTRIES(s, color[1]), OF_ENTRIES(s, color[2])))
 
 // The brightest channel at the splats' centers.
-INLINED VALUE amplitudes_of(const Entries s, float light_behind) {
+INLINED VALUE amplitudes_of(__global const TileSplat* s, float light_behind) {
 #ifdef LIGHT_ORDERED
   return larger_of(LARGEST_CHANNEL(s, emission), light_behind * LARGEST_CHANNEL(s, absorption));
 #else
@@ -123,8 +123,8 @@ typedef struct Measured {
   float peak, width2;
 } Measured;
 
-INLINED MeasuredLanes measured(const Entries s, const CertifyParameters* p, const GridOfCells grid,
-                               const Reach reach) {
+INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParameters* p,
+                               const GridOfCells grid, const Reach reach) {
   const VALUE x = OF_ENTRIES(s, x), y = OF_ENTRIES(s, y), drawn_sigma = OF_ENTRIES(s, sigma);
   const VALUE sigma = fabs(drawn_sigma);
 #ifdef ELLIPSES

@@ -213,7 +213,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
     const int in_batch = (int)((k - segment.begin) % LANES);
-    if (in_batch == 0) find_windows(entries + k, (int)min((uint)LANES, end - k), &windows);
+    if (in_batch == 0) find_windows(entries + k, &windows);
     if (asked < ROWS_OF_TILE) {
       ask_for_rows(planes, grid, corner, asked, rows_at_a_time);
       asked += rows_at_a_time;

@@ -18,8 +18,7 @@ INLINED void fill_range(VALUE center, VALUE radius, float first_center, int size
   STORE(truncated_to + (TO_VALUE(truncated_to) > to), last);
 }
 
-INLINED void find_windows(__global const TileSplat* first, int count, EntryWindows* windows) {
-  const Entries entries = entries_from(first, count);
+INLINED void find_windows(__global const TileSplat* entries, EntryWindows* windows) {
   const VALUE radius = OF_ENTRIES(entries, radius);
 #ifdef ELLIPSES
   const VALUE radius_x = OF_ENTRIES(entries, along_x.radius);

@@ -129,12 +129,14 @@ static inline INTEGER is_color(VALUE v) {
   return v >= 0.0f & v <= FLT_MAX;
 }
 
-// What reference::count_bad counts is not good; `offset` is the position less the camera's.
+// What reference::count_bad counts is not good; `offset` is the position less the camera's. Zero
+// times a number is zero, times anything else it is not: one comparison for all that are to be
+// finite.
 INLINED INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
-  INTEGER good = is_finite(offset.x) & is_finite(offset.y) & is_finite(offset.z) &
-                 is_finite(particles.h) & particles.h > 0.0f & is_finite(particles.weight) &
-                 particles.weight >= 0.0f & is_finite(particles.color) &
-                 is_finite(particles.intensity) & is_finite(particles.sort_field);
+  const VALUE nothing = offset.x * 0.0f + offset.y * 0.0f + offset.z * 0.0f + particles.h * 0.0f +
+                        particles.weight * 0.0f + particles.color * 0.0f +
+                        particles.intensity * 0.0f + particles.sort_field * 0.0f;
+  INTEGER good = nothing == 0.0f & particles.h > 0.0f & particles.weight >= 0.0f;
 #ifdef VECTOR_COLORS
   good &= is_color(particles.own_color.x) & is_color(particles.own_color.y) &
           is_color(particles.own_color.z);

@@ -104,7 +104,8 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #else
         const Splat listed = splat;
 #endif
-        STORE_SPLAT(found, k, listed, slot);
+        __global Splat* kept = splats + slot;
+        STORE_SPLAT(found, k, listed, kept);
 #ifdef EXTENDED_NUMBERS
 #ifdef COPIES
         extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
@@ -126,12 +127,12 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #ifdef COUNT_TILES
         __global const Grid* grid = grids + grid_of(listed);
 #ifdef TILES_IN_SPLAT
-        const uint touched = tiles_with_memory(listed.tiles, listed, *grid);
+        const uint touched = tiles_in_lists(listed.tiles, kept, grid);
 #else
         const uint touched = tiles_of(listed, *grid);
         tiles[slot] = touched;
 #endif
-        count_in_tiles(touched, listed, grid, count, &waiting);
+        count_in_tiles(touched, kept, grid, count, &waiting);
 #endif
         ++slot;
 #ifdef COPIES

@@ -60,15 +60,20 @@ INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
   const float8 light0 = first_words(s.weight, s.color), light2 = last_words(s.weight, s.color);
   const float8 lists0 = first_words(grid, touched), lists2 = last_words(grid, touched);
   // Of splats 0 and 4, 1 and 5 ...: their first four words, and their last.
-  const float8 first[4] = {first_pairs(xy0, widths0), last_pairs(xy0, widths0),
-                           first_pairs(xy2, widths2), last_pairs(xy2, widths2)};
-  const float8 last[4] = {first_pairs(light0, lists0), last_pairs(light0, lists0),
-                          first_pairs(light2, lists2), last_pairs(light2, lists2)};
+  const float8 first04 = first_pairs(xy0, widths0), first15 = last_pairs(xy0, widths0);
+  const float8 first26 = first_pairs(xy2, widths2), first37 = last_pairs(xy2, widths2);
+  const float8 last04 = first_pairs(light0, lists0), last15 = last_pairs(light0, lists0);
+  const float8 last26 = first_pairs(light2, lists2), last37 = last_pairs(light2, lists2);
+  // Without a loop, which compilers leave, and then put pieces of these in memory.
   float* words = (float*)splats;
-  for (uint k = 0; k < 4; ++k) {
-    vstore8((float8)(first[k].lo, last[k].lo), k, words);
-    vstore8((float8)(first[k].hi, last[k].hi), k + 4, words);
-  }
+  vstore8((float8)(first04.lo, last04.lo), 0, words);
+  vstore8((float8)(first15.lo, last15.lo), 1, words);
+  vstore8((float8)(first26.lo, last26.lo), 2, words);
+  vstore8((float8)(first37.lo, last37.lo), 3, words);
+  vstore8((float8)(first04.hi, last04.hi), 4, words);
+  vstore8((float8)(first15.hi, last15.hi), 5, words);
+  vstore8((float8)(first26.hi, last26.hi), 6, words);
+  vstore8((float8)(first37.hi, last37.hi), 7, words);
 }
 #endif
 
@@ -118,10 +123,10 @@ INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
 
 #ifdef SPLATS_OF_EIGHT_WORDS
 // In one piece: a structure is copied in pieces.
-#define STORE_SPLAT(found, k, splat, slot) \
-  vstore8(vload8(k, (const float*)(found).splats), 0, (__global float*)(splats + slot))
+#define STORE_SPLAT(found, k, splat, to) \
+  vstore8(vload8(k, (const float*)(found).splats), 0, (__global float*)(to))
 #else
-#define STORE_SPLAT(found, k, splat, slot) splats[slot] = splat
+#define STORE_SPLAT(found, k, splat, to) *(to) = splat
 #endif
 
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)

@@ -44,6 +44,8 @@ ComponentColorTable upload_component_colors(const Frame& frame, BufferPool& pool
     entry.absorption_factor = static_cast<float>(component.absorption.factor);
     components.push_back(entry);
   }
+  // Behind the last knot of a palette the kernels look at one more, of which they take nothing.
+  knots.insert(knots.end(), KNOT_FLOATS, 0.0f);
   return {pool.upload(components, "component colors"), pool.upload(knots, "palette knots")};
 }
 

@@ -177,7 +177,8 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
   lists.segments = device.pool.get<shared::Segment>(parameters.segment_capacity, "segment");
   // Always the same size, so that the pool's serves again; a processor touches what it fills.
   lists.entries = device.pool.get<std::byte>(
-      entry_capacity_ * context_.specialization.tile_splat_bytes(), "tile entries");
+      (entry_capacity_ + ENTRIES_BEHIND) * context_.specialization.tile_splat_bytes(),
+      "tile entries");
   Launch(device, "bin", program_.create_kernel("bin_scan_tiles"))
       .value(parameters)
       .arg(counted.tile_lengths)
