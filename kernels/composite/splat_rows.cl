@@ -160,8 +160,8 @@ static inline int fits_window_of_16(int2 columns, int rows, float sigma, float m
 INLINED void fill_axes(float* along_x, float first_x, int columns, float* along_y, float first_y,
                        int rows, __global const TileSplat* splat, float mean_sigma) {
   const float sigma = splat->sigma;
-#ifndef ELLIPSES
-  // Most wide splats: no call, and one inverse for both.
+#if defined(WINDOW_PAIRS) && !defined(ELLIPSES)
+  // Most wide splats: no call, and one inverse for both. Layers have no registers to spare for it.
   if (sigma >= mean_sigma) {
     const float inverse = inverse_of(sigma);
     fill_center_values(along_x, first_x, LOW_X(*splat), columns, inverse);
