@@ -84,8 +84,7 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
   }
 }
 
-#ifndef EXTENDED_NUMBERS
-// What lists of a band are filled from and where.
+// Where entries of a band's lists go.
 typedef struct ListedBand {
   uint first_tile, tiles;
   __global const uint* starts;
@@ -99,6 +98,7 @@ INLINED __global TileSplat* next_entry(const ListedBand band, uint tile) {
   return band.entries + (band.starts[tile] + band.count[tile]++);
 }
 
+#ifndef EXTENDED_NUMBERS
 // A call: hardly any splats have to have their tiles found again, or units of a pixel and more.
 __attribute__((noinline)) static void list_far_or_wide(
     const BinParameters* p, const ListedBand* band, __global const Grid* grids,
@@ -112,9 +112,8 @@ __attribute__((noinline)) static void list_far_or_wide(
     for (int tx = range.x; tx <= range.y; ++tx) {
       __global TileSplat* to = next_entry(*band, grid.corner_tile + (uint)(ty * grid.tiles_x + tx));
       if (!to) continue;
-      set_place(&entry, splat, grid, tx * TILE_WIDTH + TILE_WIDTH / 2,
-                ty * TILE_HEIGHT + TILE_HEIGHT / 2, place_bits_of(splat, grid),
-                unit_of(splat, grid));
+      set_place(&entry, splat, grid,
+                (int2)(tx * TILE_WIDTH + TILE_WIDTH / 2, ty * TILE_HEIGHT + TILE_HEIGHT / 2));
       *to = entry;
     }
   }
@@ -170,14 +169,12 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
   const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   const uint end = slots_end(p, blocks, block);
-#ifndef EXTENDED_NUMBERS
   ListedBand band;
   band.first_tile = p.first_tile;
   band.tiles = p.end_tile - p.first_tile;
   band.starts = starts;
   band.count = count;
   band.entries = entries;
-#endif
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef BLOCKS_OF_PROJECTION
     __global const Splat* from = splats + slot;
@@ -195,12 +192,13 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     const int4 range = unpack_tiles(touched, splat, grid);
     for (int ty = range.z; ty <= range.w; ++ty) {
       for (int tx = range.x; tx <= range.y; ++tx) {
-        const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
-        if (tile - p.first_tile >= p.end_tile - p.first_tile) continue;
+        __global TileSplat* to =
+            next_entry(band, grid.corner_tile + (uint)(ty * grid.tiles_x + tx));
+        if (!to) continue;
 #ifdef LIGHT_ORDERED
-        entries[starts[tile] + count[tile]++].slot = order[slot];
+        to->slot = order[slot];
 #else
-        entries[starts[tile] + count[tile]++].slot = slot;
+        to->slot = slot;
 #endif
       }
     }

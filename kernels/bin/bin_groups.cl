@@ -141,8 +141,7 @@ INLINED TileSplat entry_of(const BinParameters p, const Splat splat, const Grid 
   const int middle_x = grid.first_x + column * TILE_WIDTH + TILE_WIDTH / 2;
   const int middle_y = grid.first_y + row * TILE_HEIGHT + TILE_HEIGHT / 2;
   TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
-  set_place(&entry, splat, grid, middle_x, middle_y, place_bits_of(splat, grid),
-            unit_of(splat, grid));
+  set_place(&entry, splat, grid, (int2)(middle_x, middle_y));
   return entry;
 }
 #endif

@@ -29,20 +29,8 @@ INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors c
   return entry;
 }
 
-// From the middle of the tile at these pixels of the grid.
-INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int middle_x,
-                       int middle_y, int bits, float unit) {
-  entry->x = from_pixel(splat.x, middle_x, grid.middle_x, bits, unit);
-  entry->y = from_pixel(splat.y, middle_y, grid.middle_y, bits, unit);
-#ifdef FINE_PLACES
-  entry->x_low =
-      rest_from_pixel(splat.x, fraction_of_x(splat), middle_x, grid.middle_x, bits, unit);
-  entry->y_low =
-      rest_from_pixel(splat.y, fraction_of_y(splat), middle_y, grid.middle_y, bits, unit);
-#endif
-}
-
-// The same where the place is known in so many units from the middle of the tile.
+// The place in so many units from the middle of the tile: exact in integers, so that near by no
+// digit is lost.
 INLINED void set_units(TileSplat* entry, const Splat splat, int2 units, float unit) {
   const float2 place = convert_float2(units) * unit;
   entry->x = place.x;
@@ -50,6 +38,24 @@ INLINED void set_units(TileSplat* entry, const Splat splat, int2 units, float un
 #ifdef FINE_PLACES
   entry->x_low = rest_of_units(units.x, fraction_of_x(splat), unit);
   entry->y_low = rest_of_units(units.y, fraction_of_y(splat), unit);
+#endif
+}
+
+// From the middle of the tile at this pixel of the grid.
+INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int2 tile_middle) {
+  const int2 place = (int2)(splat.x, splat.y);
+  const int2 from_middle = tile_middle - (int2)(grid.middle_x, grid.middle_y);
+  const int bits = place_bits_of(splat, grid);
+  const float unit = unit_of(splat, grid);
+  if (bits > 0) {
+    set_units(entry, splat, place - (from_middle << bits), unit);
+    return;
+  }
+  // A splat of units of a pixel and more is wider than they are by far.
+  entry->x = (float)place.x * unit - (float)from_middle.x;
+  entry->y = (float)place.y * unit - (float)from_middle.y;
+#ifdef FINE_PLACES
+  entry->x_low = entry->y_low = 0.0f;
 #endif
 }
 #endif

@@ -123,21 +123,17 @@ INLINED uint tiles_of(const Splat splat, const Grid grid) {
   return pack_tiles(tile_range(splat, grid));
 }
 
-// Of a splat whose tiles in the whole picture are known, unless they are FOUND_AGAIN.
-INLINED uint tiles_with_memory(uint in_picture, const Splat splat, const Grid grid) {
+// Where those in the whole picture are not known, or not all of them are in memory. A call, as the
+// next but one: hardly any splats of a whole picture need them.
+__attribute__((noinline)) static uint tiles_found_again(uint in_picture, __global const Splat* from,
+                                                        __global const Grid* of_splat) {
+  const Splat splat = *from;
+  const Grid grid = *of_splat;
   if (in_picture == FOUND_AGAIN) return tiles_of(splat, grid);
-  if (!grid.is_part) return in_picture;
   return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
 }
 
-// What is listed of a splat whose tiles in the whole picture are known. A call, as the next one:
-// hardly any splats of a whole picture need them.
-__attribute__((noinline)) static uint tiles_found_again(uint in_picture,
-                                                        __global const Splat* splat,
-                                                        __global const Grid* grid) {
-  return tiles_with_memory(in_picture, *splat, *grid);
-}
-
+// Of a splat whose tiles in the whole picture are known, unless they are FOUND_AGAIN.
 INLINED uint tiles_in_lists(uint in_picture, __global const Splat* splat,
                             __global const Grid* grid) {
   if (in_picture != FOUND_AGAIN && !grid->is_part) return in_picture;

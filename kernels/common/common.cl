@@ -70,15 +70,6 @@ INLINED float unit_of(const Splat splat, const Grid grid) {
   return as_float(as_uint(grid.unit) + ((splat.component_and_grid >> 24) << 23));
 }
 
-// How far from the corner of `pixel` a splat lies along one axis, in pixels, with these units:
-// exact in integers, so that near by no digit is lost.
-INLINED float from_pixel(int place, int pixel, int middle, int place_bits, float unit) {
-  const int from_middle = pixel - middle;
-  // A splat of units of a pixel and more is wider than they are by far.
-  if (place_bits <= 0) return (float)place * unit - (float)from_middle;
-  return (float)(place - (from_middle << place_bits)) * unit;
-}
-
 #ifdef FINE_PLACES
 INLINED float fraction_of_x(const Splat splat) {
   return (float)((int)(splat.place_fractions << 16) >> 16) * 0x1p-16f;
@@ -90,14 +81,6 @@ INLINED float fraction_of_y(const Splat splat) {
 // What a float of so many units does not hold of them, and the fraction of a unit.
 INLINED float rest_of_units(int units, float fraction, float unit) {
   return ((float)(units - convert_int_sat((float)units)) + fraction) * unit;
-}
-
-// What from_pixel() rounds off, and the fraction of a unit.
-INLINED float rest_from_pixel(int place, float fraction, int pixel, int middle, int place_bits,
-                              float unit) {
-  const int from_middle = pixel - middle;
-  if (place_bits <= 0) return 0.0f;
-  return rest_of_units(place - (from_middle << place_bits), fraction, unit);
 }
 #endif
 
