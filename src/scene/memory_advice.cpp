@@ -10,11 +10,15 @@
 namespace splotchcl {
 namespace {
 
-// Advice may be refused, and changes nothing but time: nobody need know.
+std::uintptr_t page_bytes() {
+  return static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Advice may be refused, and nobody need know.
 void advise(const Column& column, std::size_t begin, std::size_t end, int advice) {
   // What is made is not mapped, and need not be made for this.
   if (!column.is_array() || column.source() != nullptr || begin >= end) return;
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const std::uintptr_t page = page_bytes();
   const auto first = reinterpret_cast<std::uintptr_t>(column.data() + begin) / page * page;
   const auto last = reinterpret_cast<std::uintptr_t>(column.data() + end);
   ::posix_madvise(reinterpret_cast<void*>(first), last - first, advice);
@@ -28,6 +32,15 @@ void expect_few_values(const Column& column) {
 
 void read_ahead(const Column& column, std::size_t begin, std::size_t end) {
   advise(column, begin, end, POSIX_MADV_WILLNEED);
+}
+
+void expect_all_written(void* memory, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const std::uintptr_t page = page_bytes(), begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + page - 1) / page * page,
+                       last = (begin + bytes) / page * page;
+  if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace splotchcl

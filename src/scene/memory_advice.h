@@ -4,14 +4,21 @@
 
 #include "splotchcl/particles.h"
 
-// What the system is told of columns that lie in mapped files, so that it reads no more of these
-// than is wanted. For other columns this does nothing.
+// What the system is told of memory beforehand. Advice: where it is refused nothing but time
+// changes.
 namespace splotchcl {
+
+// Of columns that lie in mapped files, so that it reads no more of these than is wanted. For other
+// columns this does nothing.
 
 // Single values will be asked for, here and there: reads nothing beside them.
 void expect_few_values(const Column& column);
 
 // Values [begin, end) will be asked for soon: begins to read them.
 void read_ahead(const Column& column, std::size_t begin, std::size_t end);
+
+// New memory that will be written to from end to end: on pages of 2 MiB, where the system has such,
+// it is made with a five-hundredth of the interruptions that small ones take.
+void expect_all_written(void* memory, std::size_t bytes);
 
 }  // namespace splotchcl

@@ -1,10 +1,10 @@
 #include "device/opencl/large_pages.h"
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
+
+#include "scene/memory_advice.h"
 
 namespace splotchcl {
 namespace {
@@ -32,10 +32,7 @@ compute::buffer LargePages::buffer(const compute::context& context, std::size_t 
   const std::size_t whole_pages = (begin + bytes + large_page - 1) / large_page * large_page;
   std::unique_ptr<void, Free> memory(std::aligned_alloc(large_page, whole_pages));
   if (!memory) throw compute::opencl_error(CL_MEM_OBJECT_ALLOCATION_FAILURE);
-#ifdef MADV_HUGEPAGE
-  // Advice: where it is refused nothing but time changes.
-  ::madvise(memory.get(), whole_pages, MADV_HUGEPAGE);
-#endif
+  expect_all_written(memory.get(), whole_pages);
   compute::buffer buffer(context, bytes, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
                          static_cast<std::byte*>(memory.get()) + begin);
   // Commands that still use the buffer keep it, and with it its memory.

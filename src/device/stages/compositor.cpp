@@ -13,6 +13,15 @@ namespace {
 // Refining and blurring read up to eight pixels past a row's last.
 constexpr std::uint64_t padding = 16;
 
+// To a power of two: the parts of lists are others in each chunk, and what the pool has serves
+// again.
+std::uint64_t rounded_up(std::uint64_t count) {
+  std::uint64_t power = 1;
+  while (power < count)
+    power *= 2;
+  return power;
+}
+
 }  // namespace
 
 Compositor::Compositor(const StageContext& context) : context_(context) {
@@ -66,9 +75,10 @@ Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
     if ((lists.used_grids & bit) && !(planes.used_grids & bit)) clear_grid(g, planes);
   }
   const Specialization& specialization = context_.specialization;
-  const auto partials = context_.device.pool.get<float>(
-      std::uint64_t{specialization.planes()} * specialization.tile_pixels() * lists.partial_count,
-      "partial layers");
+  const auto partials = context_.device.pool.get<float>(std::uint64_t{specialization.planes()} *
+                                                            specialization.tile_pixels() *
+                                                            rounded_up(lists.partial_count),
+                                                        "partial layers");
   // Of an ordered plan the picture's own grid has layers, coarse ones have sums.
   const std::uint32_t end_of_layers =
       context_.plan.slabs > 0 ? lists.picture_segments : lists.segment_count;

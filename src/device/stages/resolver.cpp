@@ -7,11 +7,24 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "scene/memory_advice.h"
 #include "scene/plan/blur_filter.h"
 #include "splotchcl/frame_check.h"
 
 namespace splotchcl {
 namespace {
+
+// All values are 0. A picture is as large as the planes of its sums.
+Image image_on_large_pages(int width, int height) {
+  const std::size_t values = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.pixels.reserve(values);
+  expect_all_written(image.pixels.data(), values * sizeof(float));
+  image.pixels.resize(values);
+  return image;
+}
 
 std::size_t strips(std::size_t pixels, std::size_t per_item) {
   return (pixels + per_item - 1) / per_item;
@@ -264,7 +277,7 @@ Image Resolver::resolve(Planes light) const {
   const bool has_coarse_grids = light.used_grids > 1;
   const Planes planes =
       has_coarse_grids ? collect(std::move(light), 0, room_for_columns()) : std::move(light);
-  Image image(parameters_.width, parameters_.height);
+  Image image = image_on_large_pages(parameters_.width, parameters_.height);
   if (context_.device.traits.shares_host_memory) {
     resolve_in_place(planes, image);
   } else {
