@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace splotchcl {
@@ -11,81 +12,102 @@ namespace {
 // A rectangle's blocks, those at x1 and y1 not among them.
 struct Blocks {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int area() const { return (x1 - x0) * (y1 - y0); }
+  int area() const { return std::max(0, x1 - x0) * std::max(0, y1 - y0); }
 };
 
-class Failing {
- public:
-  Failing(const BlockErrors& blocks, double promise) : blocks_(blocks), promise_(promise) {}
+constexpr Blocks no_blocks = {std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0,
+                              0};
 
-  bool at(int x, int y) const {
-    const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_.columns) +
-                       static_cast<std::size_t>(x);
-    return static_cast<double>(blocks_.errors[index]) > promise_;
-  }
+Blocks together(const Blocks& a, const Blocks& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
 
-  // The smallest rectangle that has all that fail within this one.
-  std::optional<Blocks> bounds(const Blocks& within) const {
-    Blocks found = {within.x1, within.y1, within.x0, within.y0};
-    for (int y = within.y0; y < within.y1; ++y) {
-      for (int x = within.x0; x < within.x1; ++x) {
-        if (!at(x, y)) continue;
-        found = {std::min(found.x0, x), std::min(found.y0, y), std::max(found.x1, x + 1),
-                 std::max(found.y1, y + 1)};
-      }
+// The smallest rectangles that have all that fail within each column of a rectangle, and each row.
+struct Bounds {
+  std::vector<Blocks> of_columns, of_rows;
+};
+
+Bounds bounds_within(const BlockErrors& blocks, double promise, const Blocks& within) {
+  Bounds bounds;
+  bounds.of_columns.assign(static_cast<std::size_t>(within.x1 - within.x0), no_blocks);
+  bounds.of_rows.assign(static_cast<std::size_t>(within.y1 - within.y0), no_blocks);
+  for (int y = within.y0; y < within.y1; ++y) {
+    for (int x = within.x0; x < within.x1; ++x) {
+      const std::size_t place =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks.columns) +
+          static_cast<std::size_t>(x);
+      if (static_cast<double>(blocks.errors[place]) <= promise) continue;
+      const Blocks block = {x, y, x + 1, y + 1};
+      Blocks& column = bounds.of_columns[static_cast<std::size_t>(x - within.x0)];
+      Blocks& row = bounds.of_rows[static_cast<std::size_t>(y - within.y0)];
+      column = together(column, block);
+      row = together(row, block);
     }
-    if (found.x0 >= found.x1) return std::nullopt;
-    return found;
   }
+  return bounds;
+}
 
-  // The two smallest that a cut along an axis makes of it.
-  std::pair<Blocks, Blocks> cut(const Blocks& whole) const {
-    std::pair<Blocks, Blocks> best = {whole, {}};
-    const auto try_cut = [&](const Blocks& first, const Blocks& second) {
-      const std::pair<Blocks, Blocks> parts = {*bounds(first), *bounds(second)};
-      if (parts.first.area() + parts.second.area() < best.first.area() + best.second.area())
-        best = parts;
-    };
-    // Both parts have some that fail: the whole is their bounds.
-    for (int x = whole.x0 + 1; x < whole.x1; ++x)
-      try_cut({whole.x0, whole.y0, x, whole.y1}, {x, whole.y0, whole.x1, whole.y1});
-    for (int y = whole.y0 + 1; y < whole.y1; ++y)
-      try_cut({whole.x0, whole.y0, whole.x1, y}, {whole.x0, y, whole.x1, whole.y1});
-    return best;
+Blocks all_of(const std::vector<Blocks>& lines) {
+  return std::accumulate(lines.begin(), lines.end(), no_blocks, together);
+}
+
+using Halves = std::pair<Blocks, Blocks>;
+
+// The two smallest rectangles that a cut between two lines makes.
+void cut_between(const std::vector<Blocks>& lines, Halves& best) {
+  std::vector<Blocks> behind(lines.size() + 1, no_blocks);
+  for (std::size_t i = lines.size(); i-- > 0;)
+    behind[i] = together(lines[i], behind[i + 1]);
+  Blocks before = no_blocks;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    before = together(before, lines[i]);
+    if (before.area() + behind[i + 1].area() < best.first.area() + best.second.area())
+      best = {before, behind[i + 1]};
   }
+}
 
- private:
-  const BlockErrors& blocks_;
-  double promise_;
+// A rectangle and what it could be cut into.
+struct Part {
+  Blocks whole;
+  Halves halves;
+  int saved() const { return whole.area() - halves.first.area() - halves.second.area(); }
 };
+
+Part part_of(const BlockErrors& blocks, double promise, const Blocks& whole) {
+  const Bounds bounds = bounds_within(blocks, promise, whole);
+  Part part = {whole, {whole, no_blocks}};
+  cut_between(bounds.of_columns, part.halves);
+  cut_between(bounds.of_rows, part.halves);
+  return part;
+}
+
+bool saves_less(const Part& a, const Part& b) {
+  return a.saved() < b.saved();
+}
 
 }  // namespace
 
 std::vector<Rectangle> failing_parts(const BlockErrors& blocks, double promise, int width,
-                                     int height) {
-  constexpr std::size_t most_parts = 4;
+                                     int height, double pixels_of_part) {
+  constexpr std::size_t most_parts = 64;
   constexpr int side = BlockErrors::block_pixels;
-  const Failing failing(blocks, promise);
-  const std::optional<Blocks> all = failing.bounds({0, 0, blocks.columns, blocks.rows});
-  if (!all) return {};
-  std::vector<Blocks> parts = {*all};
+  const Blocks all =
+      all_of(bounds_within(blocks, promise, {0, 0, blocks.columns, blocks.rows}).of_rows);
+  if (all.area() == 0) return {};
+  std::vector<Part> parts = {part_of(blocks, promise, all)};
   while (parts.size() < most_parts) {
-    const auto largest =
-        std::max_element(parts.begin(), parts.end(),
-                         [](const Blocks& a, const Blocks& b) { return a.area() < b.area(); });
-    const auto [first, second] = failing.cut(*largest);
-    // Another part has all particles projected again, which takes about a tenth of a frame.
-    constexpr double worth_it = 0.1;
-    const int saved = largest->area() - first.area() - second.area();
-    if (saved < worth_it * blocks.columns * blocks.rows) break;
-    *largest = first;
-    parts.push_back(second);
+    const auto most = std::max_element(parts.begin(), parts.end(), saves_less);
+    if (most->saved() * side * side <= pixels_of_part) break;
+    const Halves halves = most->halves;
+    *most = part_of(blocks, promise, halves.first);
+    parts.push_back(part_of(blocks, promise, halves.second));
   }
   std::vector<Rectangle> rectangles;
-  for (const Blocks& part : parts) {
-    rectangles.push_back({part.x0 * side, part.y0 * side,
-                          std::min(part.x1 * side, width) - part.x0 * side,
-                          std::min(part.y1 * side, height) - part.y0 * side});
+  for (const Part& part : parts) {
+    const Blocks& whole = part.whole;
+    rectangles.push_back({whole.x0 * side, whole.y0 * side,
+                          std::min(whole.x1 * side, width) - whole.x0 * side,
+                          std::min(whole.y1 * side, height) - whole.y0 * side});
   }
   return rectangles;
 }

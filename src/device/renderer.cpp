@@ -92,6 +92,22 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
 }
 
+// What a part of the picture takes that is drawn again, besides its pixels, as so many pixels of
+// all that are: all particles are projected anew. Where the whole would be drawn in order, in place
+// of slabs, its list entries are not known.
+double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
+  constexpr double of_order = 0.006;
+  // Nanoseconds of two cores (docs/performance.md, "Slabs").
+  constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20, pixel = 50;
+  const auto particles = static_cast<double>(particle_count(frame));
+  if (plan.slabs > 0) return of_order * particles;
+  const auto entries = static_cast<double>(counts.tile_entries);
+  const double pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
+  const double whole = plan.needs_sort() ? (project + sort) * particles + entry_in_order * entries
+                                         : project * particles + entry_of_sum * entries;
+  return pixels * project * particles / (whole + pixel * pixels);
+}
+
 // Whether all ranks that have particles draw.
 void check_ranks(const Frame& frame, const Communicator* ranks) {
   if (!frame.spread) return;
@@ -133,8 +149,10 @@ struct Renderer::State {
   bool is_first() const { return !ranks || ranks->rank() == 0; }
   // Draws until the promise is kept.
   DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan);
-  // Draws those parts of the picture in order that slabs did not suffice for, where they are small.
-  bool mend_in_order(const Frame& frame, const FramePlan& plan, DrawnPicture& picture);
+  // Draws those parts of a picture of `plan` again that do not keep the promise, by the plan
+  // `of_parts`, where that takes less than all of it.
+  bool mend(const Frame& frame, const FramePlan& plan, const FramePlan& of_parts,
+            double pixels_of_part, DrawnPicture& picture);
   // Draws, and what was drawn.
   Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
   void note(const DrawCounts& counts);
@@ -223,34 +241,36 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
     check_seconds += thread_seconds() - before;
     note_check(picture.certificate, stats.check);
     if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
-    if (drawn.slabs > 0 && mend_in_order(frame, drawn, picture)) {
+    const FramePlan next = next_plan(frame, drawn, picture.certificate, drawings);
+    const FramePlan of_parts = drawn.slabs > 0 ? in_order_plan(frame, drawn) : next;
+    const double pixels = pixels_of_part(frame, drawn, splats.counts);
+    if (mend(frame, drawn, of_parts, pixels, picture)) {
       note(splats.counts);
       note_check(picture.certificate, stats.check);
       return picture;
     }
-    drawn = next_plan(frame, drawn, picture.certificate, drawings);
+    drawn = next;
   }
 }
 
-bool Renderer::State::mend_in_order(const Frame& frame, const FramePlan& plan,
-                                    DrawnPicture& picture) {
-  // All particles are projected again for each part.
-  constexpr double most_pixels = 0.25;
+bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const FramePlan& of_parts,
+                           double pixels_of_part, DrawnPicture& picture) {
+  // Drawing all of the picture again takes no longer than that.
+  constexpr double most_pixels = 0.7;
   const Image& image = picture.image;
   Certificate& certificate = picture.certificate;
-  const std::vector<Rectangle> parts =
-      failing_parts(certificate.blocks, plan.shares.promise, image.width, image.height);
-  double pixels = 0;
+  const std::vector<Rectangle> parts = failing_parts(certificate.blocks, plan.shares.promise,
+                                                     image.width, image.height, pixels_of_part);
+  double pixels = pixels_of_part * static_cast<double>(parts.size());
   for (const Rectangle& part : parts)
     pixels += static_cast<double>(part.width) * part.height;
   if (parts.empty() || pixels > most_pixels * image.width * image.height) return false;
-  const FramePlan in_order = in_order_plan(frame, plan);
   FrameCheck check = std::move(stats.check);
   for (const Rectangle& part : parts) {
     Frame frame_of_part = frame;
     frame_of_part.crop = {frame.crop.x + part.x, frame.crop.y + part.y, part.width, part.height};
     stats.check = {};
-    paste(draw_until_kept(frame_of_part, in_order), part, picture);
+    paste(draw_until_kept(frame_of_part, of_parts), part, picture);
     certificate.worst = stats.check.worst;
   }
   stats.check = std::move(check);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "device/pictures.h"
+#include "splotchcl/reference.h"
 
 namespace splotchcl::test {
 namespace {
@@ -23,12 +24,56 @@ class Drawings : public PictureTest {
     frame.tolerance = tolerance;
     return frame;
   }
+
+  // Around pixel 50, 50.
+  static Frame crowd_among_faint_clouds(Absorption absorption) {
+    CloudSetup faint;
+    faint.width = 400;
+    faint.height = 300;
+    faint.count = 2000;
+    faint.sigma_high = 3;
+    faint.column_low = 0.001;
+    faint.column_high = 0.02;
+    const std::vector<Cloud> crowd(20000, Cloud{-150, -100, 50, 3, 0.5});
+    Frame frame = frame_of(faint.width, faint.height,
+                           {random_clouds(faint), component_of(crowd, one_color(1, 1, 1))});
+    for (DrawnComponent& component : frame.components)
+      component.absorption = absorption;
+    return frame;
+  }
+
+  // How many of the pixels from the first column on differ, and of those before it.
+  static std::pair<int, int> differences(const Image& a, const Image& b, int first) {
+    int beyond = 0, before = 0;
+    for (int y = 0; y < a.height; ++y) {
+      for (int x = 0; x < a.width; ++x)
+        (x < first ? before : beyond) += !std::equal(a.at(x, y), a.at(x, y) + 4, b.at(x, y));
+    }
+    return {beyond, before};
+  }
 };
 
 // The edges of discs that lie upon one another have no coarse grid that is good enough.
 TEST_F(Drawings, OfCutKernelsNeedNoSecondOne) {
   for (const double tolerance : {1e-2, 1e-3, 1e-4})
     EXPECT_EQ(drawings_of(faint_discs_in_one_place(tolerance)), 1U) << tolerance;
+}
+
+TEST_F(Drawings, AfterTheFirstAreOfThePartsThatBrokeThePromise) {
+  DeviceContext device(choose_device(""));
+  for (const Absorption& absorption : {Absorption{}, Absorption{Absorption::Kind::gray, 0.2}}) {
+    const Frame frame = crowd_among_faint_clouds(absorption);
+    const Image image = renderer().render(frame, make_plan(frame));
+    const std::vector<double>& errors = renderer().stats().check.errors_of_promise;
+    ASSERT_GT(errors.size(), 1U);
+    EXPECT_GT(errors.front(), 1);
+    EXPECT_LE(errors.back(), 1);
+    const Image first = draw_once(device, frame, CompositeShape::rows);
+    const auto [far_away, around_the_crowd] = differences(image, first, 200);
+    EXPECT_EQ(far_away, 0);
+    EXPECT_GT(around_the_crowd, 0);
+    EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
+  }
 }
 
 }  // namespace

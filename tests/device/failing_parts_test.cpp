@@ -19,8 +19,10 @@ BlockErrors failing_at(const std::vector<std::pair<int, int>>& places) {
   return blocks;
 }
 
-std::vector<Rectangle> parts_of(const std::vector<std::pair<int, int>>& places) {
-  return failing_parts(failing_at(places), promise, width, height);
+// Where another part costs as much as so many blocks.
+std::vector<Rectangle> parts_of(const std::vector<std::pair<int, int>>& places,
+                                int blocks_of_part = 20) {
+  return failing_parts(failing_at(places), promise, width, height, blocks_of_part * side * side);
 }
 
 double pixels(const std::vector<Rectangle>& parts) {
@@ -56,8 +58,31 @@ TEST(FailingParts, AreSeparateForBlocksFarFromEachOther) {
   EXPECT_LE(pixels(parts), 8 * side * side);
 }
 
-TEST(FailingParts, AreAtMostFour) {
-  EXPECT_LE(parts_of({{0, 0}, {39, 0}, {0, 29}, {39, 29}, {20, 15}, {10, 5}}).size(), 4U);
+TEST(FailingParts, AreAsManyAsPay) {
+  const std::vector<std::pair<int, int>> places = {{0, 0}, {4, 4}, {39, 0}, {39, 29}};
+  EXPECT_EQ(parts_of(places, 0).size(), 4U);
+  EXPECT_EQ(parts_of(places, 24).size(), 3U) << "25 blocks as one part, 2 as two";
+  EXPECT_EQ(parts_of(places, 40 * 30).size(), 1U);
+}
+
+TEST(FailingParts, AreNoMoreThanTheirPixelsWhereTheyLieApart) {
+  std::vector<std::pair<int, int>> places;
+  for (int y = 0; y < 30; y += 5) {
+    for (int x = y % 10; x < 40; x += 10)
+      places.emplace_back(x, y);
+  }
+  const std::vector<Rectangle> parts = parts_of(places, 0);
+  EXPECT_EQ(parts.size(), places.size());
+  EXPECT_LE(pixels(parts), static_cast<double>(places.size()) * side * side);
+}
+
+TEST(FailingParts, AreAtMostSixtyFour) {
+  std::vector<std::pair<int, int>> places;
+  for (int y = 0; y < 30; y += 2) {
+    for (int x = 0; x < 40; x += 2)
+      places.emplace_back(x, y);
+  }
+  EXPECT_EQ(parts_of(places, 0).size(), 64U);
 }
 
 TEST(FailingParts, HoldEveryBlockThatFails) {
