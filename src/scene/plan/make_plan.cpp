@@ -5,8 +5,8 @@
 #include "scene/plan/brightness_guess.h"
 #include "scene/plan/error_budget.h"
 #include "scene/plan/grid_pyramid.h"
-#include "scene/plan/light_behind.h"
 #include "scene/plan/light_structure.h"
+#include "scene/plan/ordered_guess.h"
 #include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/plan.h"
@@ -110,19 +110,19 @@ constexpr double first_part_certified = 0.05;
 
 // Slabs pay in large frames that are not bright: the light that wide splats may change by their
 // order is that of the picture (docs/accuracy.md, "Slabs"). What is guessed wrong here costs time.
-// Laying ten slabs takes as long for a pixel as one or two wide splats do in order.
-int choose_slabs(const Frame& frame, const FramePlan& plan, const PlanOptions& options) {
+// Laying ten slabs, and drawing in order where they do not suffice, takes as long for a pixel as
+// some thousand wide splats do in order (docs/performance.md, "Slabs").
+int choose_slabs(const Frame& frame, const FramePlan& plan, double wide_layers,
+                 const PlanOptions& options) {
   constexpr int first_slabs = 10;
   constexpr std::uint64_t fewest_particles = 1u << 19;
-  constexpr double brightest = 0.3;
+  constexpr double brightest = 0.3, fewest_layers = 1500;
   const bool is_possible = plan.needs_sort() && plan.precision == Precision::fast &&
                            !plan.has_ellipses && !frame.kernel.cut && !plan.certify &&
                            options.coarse_grids;
   if (!is_possible) return 0;
   if (options.slabs >= 0) return options.slabs;
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(frame.crop.width) * static_cast<std::uint64_t>(frame.crop.height);
-  const bool pays = particle_count(frame) >= std::max(fewest_particles, 2 * pixels) &&
+  const bool pays = particle_count(frame) >= fewest_particles && wide_layers >= fewest_layers &&
                     plan.light_behind <= brightest;
   return pays ? first_slabs : 0;
 }
@@ -157,8 +157,10 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light,
                                !plan.needs_sort() && options.coarse_grids),
              plan);
-  if (plan.needs_sort() && !plan.is_extended()) plan.light_behind = guess_light_behind(frame);
-  plan.slabs = choose_slabs(frame, plan, options);
+  OrderedGuess guess;
+  if (plan.needs_sort() && !plan.is_extended()) guess = guess_order(frame);
+  plan.light_behind = guess.light_behind;
+  plan.slabs = choose_slabs(frame, plan, guess.wide_layers, options);
   if (plan.slabs > 0) {
     set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, true), plan);
   }

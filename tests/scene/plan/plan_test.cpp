@@ -163,7 +163,7 @@ Frame many_layers(std::size_t count, float depth) {
     positions[3 * i + 2] = 10 + static_cast<float>(i % 100);
   clouds.particles.count = count;
   clouds.particles.position = Column::owning(std::move(positions));
-  clouds.particles.smoothing_length = Column::uniform(1);
+  clouds.particles.smoothing_length = Column::uniform(30);
   clouds.brightness = static_cast<double>(depth);
   Frame frame = test::empty_frame(64, 64);
   frame.components = {clouds};
@@ -176,6 +176,9 @@ TEST(Plan, DrawsLargeDimOrderedFramesInSlabs) {
   EXPECT_GT(plan.slabs, 1);
   EXPECT_GT(plan.pyramid.grids.size(), 1U);
   EXPECT_EQ(make_plan(many_layers(1000, 1e-3F)).slabs, 0) << "few particles";
+  Frame narrow = many_layers(many, 1e-3F);
+  narrow.components.front().particles.smoothing_length = Column::uniform(1e-3F);
+  EXPECT_EQ(make_plan(narrow).slabs, 0) << "few wide splats";
   EXPECT_EQ(make_plan(many_layers(many, 1e3F)).slabs, 0) << "bright sources";
 }
 

@@ -1,4 +1,7 @@
-// How bright what lies behind layers is guessed to be, before a frame is drawn.
+// What an ordered frame is guessed to be like before it is drawn: how bright what lies behind
+// layers is, and how many wide splats lie over a pixel.
+#include "scene/plan/ordered_guess.h"
+
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -77,6 +80,33 @@ TEST(LightBehind, CountsAbsorptionAsAWholeInExtendedPrecision) {
   EXPECT_EQ(extend_plan(frame, make_plan(frame)).light_behind, 1);
   frame.tolerance = 0;
   EXPECT_EQ(light_behind(frame), 1);
+}
+
+// So many clouds of this sigma around a place, in pixels from the middle of a picture of 40 x 30.
+Frame clouds_at(std::size_t count, double sigma, double x) {
+  std::vector<Cloud> clouds(count);
+  for (Cloud& cloud : clouds) {
+    cloud.x = x;
+    cloud.sigma = sigma;
+    cloud.column = 0.1;
+  }
+  DrawnComponent component = component_of(clouds, one_color(1, 1, 1));
+  component.absorption = {Kind::gray, 1};
+  return frame_of(40, 30, {component});
+}
+
+TEST(WideLayers, AreAllCloudsWhereEachCoversThePicture) {
+  EXPECT_NEAR(guess_order(clouds_at(70, 1000, 0)).wide_layers, 70, 1e-6);
+}
+
+TEST(WideLayers, CountThePixelsWithinThePictureOnly) {
+  EXPECT_NEAR(guess_order(clouds_at(100, 8, 0)).wide_layers, 100, 1e-6) << "40 pixels across";
+  EXPECT_NEAR(guess_order(clouds_at(100, 8, 20)).wide_layers, 50, 1) << "the left half of each";
+  EXPECT_EQ(guess_order(clouds_at(100, 8, 500)).wide_layers, 0) << "beside the picture";
+}
+
+TEST(WideLayers, AreNoNarrowClouds) {
+  EXPECT_EQ(guess_order(clouds_at(100, 3, 0)).wide_layers, 0);
 }
 
 }  // namespace

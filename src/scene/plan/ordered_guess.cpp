@@ -1,4 +1,4 @@
-#include "scene/plan/light_behind.h"
+#include "scene/plan/ordered_guess.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,25 @@ struct SampledSource {
   double source = 0, absorption = 0;
 };
 
+// Of how many of a picture's pixels a cloud's splat is drawn, where it is wide enough for a coarse
+// grid.
+double wide_pixels(const PictureCloud& cloud, const Frame& frame) {
+  constexpr double narrowest = 5, extent = 2.5;
+  if (cloud.sigma < narrowest) return 0;
+  const double reach = extent * cloud.sigma;
+  const auto within = [reach](double center, int length) {
+    return std::max(0.0, std::min<double>(center + reach, length) - std::max(center - reach, 0.0));
+  };
+  return within(cloud.x, frame.width) * within(cloud.y, frame.height);
+}
+
+struct Sample {
+  std::vector<SampledSource> sources;
+  double wide_pixels = 0;
+};
+
 void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
-                      std::vector<SampledSource>& sample) {
+                      Sample& sample) {
   const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
   const double brightest = brightest_source(component);
   const double absorption = peak_absorption(component) / component.reference_column;
@@ -32,11 +49,12 @@ void sample_component(const DrawnComponent& component, const Frame& frame, std::
     const std::size_t i = sampled_index(first, stride, component.particles.count);
     const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
     if (!cloud) continue;
+    sample.wide_pixels += wide_pixels(*cloud, frame);
     const double amplitude = absorption * cloud->column;
     const double source =
         is_gray ? amplitude / (amplitude + component.absorption.factor) : brightest;
     const double taken = amplitude * cloud->sigma * cloud->sigma;
-    if (taken > 0 && std::isfinite(taken)) sample.push_back({source, taken});
+    if (taken > 0 && std::isfinite(taken)) sample.sources.push_back({source, taken});
   }
 }
 
@@ -54,23 +72,29 @@ double high_source(std::vector<SampledSource>& sample) {
   return 1;
 }
 
-}  // namespace
-
-double guess_light_behind(const Frame& frame) {
+double light_behind_of(std::vector<SampledSource>& sources, const Frame& frame) {
   // Opaque pixels may be of brighter sources than most; nothing is brighter than the brightest.
   constexpr double brighter_than_most = 3;
   // Opacity, which is no light but comes with it, may err by ten times the tolerance; and errors of
   // absorption are to stay below a twentieth, so that what they do is proportional to them.
   constexpr double least = 0.1, most_missing = 0.05;
-  const double brightest = brightest_source(frame);
-  if (!std::isfinite(brightest)) return 1;
-  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
-  std::vector<SampledSource> sample;
-  for (const DrawnComponent& component : frame.components)
-    sample_component(component, frame, stride, sample);
-  const double source = std::min(brightest, brighter_than_most * high_source(sample));
+  const double source =
+      std::min(brightest_source(frame), brighter_than_most * high_source(sources));
   const double guess = std::max(source, brightest_background(frame));
   return std::min(1.0, std::max({guess, least, frame.tolerance / most_missing}));
+}
+
+}  // namespace
+
+OrderedGuess guess_order(const Frame& frame) {
+  if (!std::isfinite(brightest_source(frame))) return {};
+  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
+  Sample sample;
+  for (const DrawnComponent& component : frame.components)
+    sample_component(component, frame, stride, sample);
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  return {light_behind_of(sample.sources, frame),
+          static_cast<double>(stride) * sample.wide_pixels / pixels};
 }
 
 }  // namespace splotchcl
