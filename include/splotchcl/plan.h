@@ -142,6 +142,8 @@ struct FramePlan {
   // an error of absorption counts as so much of one of emission. The check after drawing takes the
   // picture's own light; a guess that is too low costs another drawing.
   double light_behind = 1;
+  // Ordered: the part of all particles that is expected to be drawn. Only memory depends on it.
+  double visible_part = 0;
   SplatLimits splats;
   double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak

@@ -205,6 +205,15 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
   }
 }
 
+// How many rows are drawn of a window of at most seven: rows beside the splat take its tails, which
+// is no less exact. Those of plain sums take less than a processor loses by a count that it did not
+// foresee; of four or seven it foresees most.
+#if defined(LIGHT_ORDERED) || defined(KERNEL_CUT)
+#define DRAWN_ROWS(count) (count)
+#else
+#define DRAWN_ROWS(count) ((count) <= 4 ? 4 : 7)
+#endif
+
 // Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
 // Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
 static inline int add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
@@ -241,9 +250,8 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
   }
 #endif
   if (columns_count <= 7 && rows_count <= 7) {
-    // Most splats of a large snapshot: one window, and row counts that are easy to predict.
-    // Rows beside the splat take its tails, which is no less exact.
-    window.rows = rows_count <= 4 ? 4 : 7;
+    // Most splats of a large snapshot: one window.
+    window.rows = DRAWN_ROWS(rows_count);
     // Of means the eighth is 0.
     window.x = first_column(columns.x, sigma_x < mean_sigma ? 7 : 8);
     window.y = min(rows.x, TILE_HEIGHT - window.rows);

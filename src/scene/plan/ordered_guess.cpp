@@ -23,21 +23,34 @@ struct SampledSource {
   double source = 0, absorption = 0;
 };
 
+// Splats are drawn so many sigma to each side, or a little less.
+constexpr double extent = 2.5;
+
+// The length of what a splat has in common with pixels [first, end) along an axis.
+double overlap(double center, double sigma, int first, int end) {
+  const double reach = extent * sigma;
+  return std::max(0.0,
+                  std::min<double>(center + reach, end) - std::max<double>(center - reach, first));
+}
+
 // Of how many of a picture's pixels a cloud's splat is drawn, where it is wide enough for a coarse
 // grid.
 double wide_pixels(const PictureCloud& cloud, const Frame& frame) {
-  constexpr double narrowest = 5, extent = 2.5;
+  constexpr double narrowest = 5;
   if (cloud.sigma < narrowest) return 0;
-  const double reach = extent * cloud.sigma;
-  const auto within = [reach](double center, int length) {
-    return std::max(0.0, std::min<double>(center + reach, length) - std::max(center - reach, 0.0));
-  };
-  return within(cloud.x, frame.width) * within(cloud.y, frame.height);
+  return overlap(cloud.x, cloud.sigma, 0, frame.width) *
+         overlap(cloud.y, cloud.sigma, 0, frame.height);
+}
+
+bool is_in_crop(const PictureCloud& cloud, const Rectangle& crop) {
+  return overlap(cloud.x, cloud.sigma, crop.x, crop.x + crop.width) > 0 &&
+         overlap(cloud.y, cloud.sigma, crop.y, crop.y + crop.height) > 0;
 }
 
 struct Sample {
   std::vector<SampledSource> sources;
   double wide_pixels = 0;
+  std::size_t particles = 0, visible = 0;
 };
 
 void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
@@ -48,7 +61,9 @@ void sample_component(const DrawnComponent& component, const Frame& frame, std::
   for (std::size_t first = 0; first < component.particles.count; first += stride) {
     const std::size_t i = sampled_index(first, stride, component.particles.count);
     const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
+    ++sample.particles;
     if (!cloud) continue;
+    sample.visible += is_in_crop(*cloud, frame.crop);
     sample.wide_pixels += wide_pixels(*cloud, frame);
     const double amplitude = absorption * cloud->column;
     const double source =
@@ -92,9 +107,14 @@ OrderedGuess guess_order(const Frame& frame) {
   Sample sample;
   for (const DrawnComponent& component : frame.components)
     sample_component(component, frame, stride, sample);
-  const double pixels = static_cast<double>(frame.width) * frame.height;
-  return {light_behind_of(sample.sources, frame),
-          static_cast<double>(stride) * sample.wide_pixels / pixels};
+  OrderedGuess guess;
+  guess.light_behind = light_behind_of(sample.sources, frame);
+  guess.wide_layers = static_cast<double>(stride) * sample.wide_pixels /
+                      (static_cast<double>(frame.width) * frame.height);
+  if (sample.particles > 0)
+    guess.visible_part =
+        static_cast<double>(sample.visible) / static_cast<double>(sample.particles);
+  return guess;
 }
 
 }  // namespace splotchcl

@@ -109,5 +109,13 @@ TEST(WideLayers, AreNoNarrowClouds) {
   EXPECT_EQ(guess_order(clouds_at(100, 3, 0)).wide_layers, 0);
 }
 
+TEST(VisiblePart, IsOfWhatTheCropShows) {
+  Frame frame = clouds_at(100, 2, -15);
+  frame.components.push_back(clouds_at(300, 2, 500).components.front());
+  EXPECT_NEAR(guess_order(frame).visible_part, 0.25, 1e-12);
+  frame.crop = {20, 0, 20, 30};
+  EXPECT_EQ(guess_order(frame).visible_part, 0);
+}
+
 }  // namespace
 }  // namespace splotchcl::test
