@@ -96,16 +96,18 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 // all that are: all particles are projected anew. Where the whole would be drawn in order, in place
 // of slabs, its list entries are not known.
 double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
-  constexpr double of_order = 0.006;
   // Nanoseconds of two cores (docs/performance.md, "Slabs").
-  constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20, pixel = 50;
+  constexpr double start = 1e6, project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20,
+                   pixel = 50, pixel_in_order = 1000;
   const auto particles = static_cast<double>(particle_count(frame));
-  if (plan.slabs > 0) return of_order * particles;
+  const double of_part = start + project * particles;
+  if (plan.slabs > 0) return of_part / pixel_in_order;
   const auto entries = static_cast<double>(counts.tile_entries);
   const double pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
-  const double whole = plan.needs_sort() ? (project + sort) * particles + entry_in_order * entries
-                                         : project * particles + entry_of_sum * entries;
-  return pixels * project * particles / (whole + pixel * pixels);
+  const double whole = start + pixel * pixels +
+                       (plan.needs_sort() ? (project + sort) * particles + entry_in_order * entries
+                                          : project * particles + entry_of_sum * entries);
+  return pixels * of_part / whole;
 }
 
 // Whether all ranks that have particles draw.
