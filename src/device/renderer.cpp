@@ -97,10 +97,11 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 // of slabs, its list entries are not known.
 double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
   // Nanoseconds of two cores (docs/performance.md, "Slabs").
-  constexpr double start = 1e6, project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20,
-                   pixel = 50, pixel_in_order = 1000;
+  constexpr double start = 1e6, pixel = 50, pixel_in_order = 1000;
+  constexpr double part_in_order = 10, part_of_sum = 20;  // for each particle
+  constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20;
   const auto particles = static_cast<double>(particle_count(frame));
-  const double of_part = start + project * particles;
+  const double of_part = start + (plan.needs_sort() ? part_in_order : part_of_sum) * particles;
   if (plan.slabs > 0) return of_part / pixel_in_order;
   const auto entries = static_cast<double>(counts.tile_entries);
   const double pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
@@ -257,8 +258,9 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
 
 bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const FramePlan& of_parts,
                            double pixels_of_part, DrawnPicture& picture) {
-  // Drawing all of the picture again takes no longer than that.
-  constexpr double most_pixels = 0.7;
+  // Drawing all of the picture again takes no longer than that: what fails is more crowded than the
+  // rest, which counts more where pixels of their own cost little.
+  const double most_pixels = plan.needs_sort() ? 0.7 : 0.5;
   const Image& image = picture.image;
   Certificate& certificate = picture.certificate;
   const std::vector<Rectangle> parts = failing_parts(certificate.blocks, plan.shares.promise,
