@@ -47,10 +47,6 @@ Bounds bounds_within(const BlockErrors& blocks, double promise, const Blocks& wi
   return bounds;
 }
 
-Blocks all_of(const std::vector<Blocks>& lines) {
-  return std::accumulate(lines.begin(), lines.end(), no_blocks, together);
-}
-
 using Halves = std::pair<Blocks, Blocks>;
 
 // The two smallest rectangles that a cut between two lines makes.
@@ -73,8 +69,11 @@ struct Part {
   int saved() const { return whole.area() - halves.first.area() - halves.second.area(); }
 };
 
-Part part_of(const BlockErrors& blocks, double promise, const Blocks& whole) {
-  const Bounds bounds = bounds_within(blocks, promise, whole);
+// The smallest rectangle that has all that fail within this one.
+Part part_of(const BlockErrors& blocks, double promise, const Blocks& within) {
+  const Bounds bounds = bounds_within(blocks, promise, within);
+  const Blocks whole =
+      std::accumulate(bounds.of_rows.begin(), bounds.of_rows.end(), no_blocks, together);
   Part part = {whole, {whole, no_blocks}};
   cut_between(bounds.of_columns, part.halves);
   cut_between(bounds.of_rows, part.halves);
@@ -91,13 +90,11 @@ std::vector<Rectangle> failing_parts(const BlockErrors& blocks, double promise, 
                                      int height, double pixels_of_part) {
   constexpr std::size_t most_parts = 64;
   constexpr int side = BlockErrors::block_pixels;
-  const Blocks all =
-      all_of(bounds_within(blocks, promise, {0, 0, blocks.columns, blocks.rows}).of_rows);
-  if (all.area() == 0) return {};
-  std::vector<Part> parts = {part_of(blocks, promise, all)};
+  std::vector<Part> parts = {part_of(blocks, promise, {0, 0, blocks.columns, blocks.rows})};
+  if (parts.front().whole.area() == 0) return {};
   while (parts.size() < most_parts) {
     const auto most = std::max_element(parts.begin(), parts.end(), saves_less);
-    if (most->saved() * side * side <= pixels_of_part) break;
+    if (static_cast<double>(most->saved()) * side * side <= pixels_of_part) break;
     const Halves halves = most->halves;
     *most = part_of(blocks, promise, halves.first);
     parts.push_back(part_of(blocks, promise, halves.second));

@@ -244,15 +244,16 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
     check_seconds += thread_seconds() - before;
     note_check(picture.certificate, stats.check);
     if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
-    const FramePlan next = next_plan(frame, drawn, picture.certificate, drawings);
-    const FramePlan of_parts = drawn.slabs > 0 ? in_order_plan(frame, drawn) : next;
+    const bool in_slabs = drawn.slabs > 0;
+    const FramePlan of_parts = in_slabs ? in_order_plan(frame, drawn)
+                                        : next_plan(frame, drawn, picture.certificate, drawings);
     const double pixels = pixels_of_part(frame, drawn, splats.counts);
     if (mend(frame, drawn, of_parts, pixels, picture)) {
       note(splats.counts);
       note_check(picture.certificate, stats.check);
       return picture;
     }
-    drawn = next;
+    drawn = in_slabs ? next_plan(frame, drawn, picture.certificate, drawings) : of_parts;
   }
 }
 

@@ -72,6 +72,19 @@ TEST(RankRenderers, DrawAgainTogether) {
   expect_same(frame);
 }
 
+TEST(RankRenderers, ProjectAllParticlesOnceTogetherForOneDrawing) {
+  Frame frame = crowd(1e-3, {Absorption::Kind::gray, 0.2});
+  for (DrawnComponent& component : frame.components)
+    component.brightness *= 0.01;
+  for (const Rendered& one : render_together(frame, 3)) {
+    ASSERT_EQ(one.stats.check.errors_of_promise.size(), 1u);
+    std::uint64_t particles = 0;
+    for (const ProcessStats& process : one.stats.processes)
+      particles += process.particles;
+    EXPECT_EQ(particles, one.stats.particles);
+  }
+}
+
 TEST(RankRenderers, TellWhatEachHasDone) {
   const std::vector<Rendered> rendered =
       render_together(crowd(1e-3, {Absorption::Kind::gray, 0.2}), 3);

@@ -1,5 +1,5 @@
 // What an ordered frame is guessed to be like before it is drawn: how bright what lies behind
-// layers is, and how many wide splats lie over a pixel.
+// layers is, how many wide splats lie over a pixel, and which part of the particles it shows.
 #include "scene/plan/ordered_guess.h"
 
 #include <gtest/gtest.h>
