@@ -31,6 +31,11 @@ typedef float8 __attribute__((aligned(4))) Eight;
 #define SHAPE_OF_ROW(k) (across * along[k])
 #endif
 
+// As gaussian() wants it.
+static inline float inverse_of(float sigma) {
+  return 1.44269504f / (sigma * sigma);
+}
+
 #if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
 #define CUT_BY_ROWS
 #endif
@@ -189,6 +194,26 @@ static inline int first_column(int first, int count) {
 // The same of columns that are drawn in whole eights.
 static inline int first_of_eights(int2 columns) {
   return first_column(columns.x, (columns.y - columns.x + 8) & ~7);
+}
+
+// Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
+// the first.
+static inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
+#ifdef KERNEL_CUT
+  const float last = FIRST_X + (float)(width - 1);
+  const float nearest =
+      clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
+#ifdef ELLIPSES
+  const float part_of_radius = nearest / splat->along_x.radius;
+  const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
+#else
+  const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
+#endif
+  rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
+#endif
+  window->y = rows.x;
+  window->rows = rows.y - rows.x + 1;
+  return rows.x;
 }
 
 // Updates the window with across[8] * along[rows], where the kernel is cut within the rows' limits;

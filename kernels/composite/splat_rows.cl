@@ -12,10 +12,6 @@ static inline SplatTile splat_tile(const Grid grid, uint tile, const CompositePa
   return of_tile;
 }
 
-static inline float inverse_of(float sigma) {
-  return 1.44269504f / (sigma * sigma);
-}
-
 // The shape at the centers of `count` pixels, as fill_axis() has it; the inverse as for gaussian().
 INLINED void fill_center_values(float* values, float first, float low, int count, float inverse) {
   const float8 begin = first + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low;
@@ -92,69 +88,6 @@ static inline float8 means_between(float8 distances, float sigma) {
 static inline float8 seven_means(float first, float low, float sigma) {
   return means_between(first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low, sigma);
 }
-
-// Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
-// the first.
-static inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
-#ifdef KERNEL_CUT
-  const float last = FIRST_X + (float)(width - 1);
-  const float nearest =
-      clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
-#ifdef ELLIPSES
-  const float part_of_radius = nearest / splat->along_x.radius;
-  const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
-#else
-  const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
-#endif
-  rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
-#endif
-  window->y = rows.x;
-  window->rows = rows.y - rows.x + 1;
-  return rows.x;
-}
-
-#if defined(ROWS_OF_16) && !defined(ELLIPSES)
-// One axis of the shape at sixteen pixels from pixel `begin` on, to the bits of fill_axis(); `ramp`
-// counts the lanes of each eight. Of pixel means there are fifteen, between sixteen edges; the last
-// lane is 0.
-INLINED float16 sixteen_of_axis(float first, float low, int begin, float16 ramp, float sigma,
-                                float mean_sigma) {
-  const float16 eights = (float)begin + (float16)((float8)(0.0f), (float8)(8.0f));
-  if (sigma >= mean_sigma) return gaussian((first + ramp - low) + eights, inverse_of(sigma));
-  const float16 edges = (first - 0.5f + eights + ramp - low) * (1.0f / sigma);
-  const float16 within = error_function(edges);
-  return (within.s123456789abcdeff - within) * (PIXEL_MEAN_SCALE * sigma);
-}
-
-// Both axes stay in registers. A call with sixteen floats, as update_window_of_16() is.
-__attribute__((noinline)) static void add_window_of_16(float* tile, int2 rows, int column,
-                                                       float16 ramp,
-                                                       __global const TileSplat* splat,
-                                                       float mean_sigma, int form) {
-  const float sigma = splat->sigma;
-  const float first_x = (float)column + FIRST_X - splat->x;
-  const float first_y = (float)rows.x + FIRST_Y - splat->y;
-  float along[2 * LIMITS];
-  for (int k = 0; k <= rows.y - rows.x; k += 16)
-    store_sixteen(sixteen_of_axis(first_y, LOW_Y(*splat), k, ramp, sigma, mean_sigma), along + k);
-  fill_limits(along, first_y, LOW_Y(*splat), rows.y - rows.x + 1, splat);
-  Window window;
-  window.x = column;
-  const int skipped = set_rows(&window, rows, 16, splat) - rows.x;
-  update_rows_of_16(tile, &window,
-                    sixteen_of_axis(first_x, LOW_X(*splat), 0, ramp, sigma, mean_sigma),
-                    along + skipped, splat, form);
-}
-
-// Whether a splat's columns fit a window of sixteen, and its rows the means of one, which has no
-// means for the last column.
-static inline int fits_window_of_16(int2 columns, int rows, float sigma, float mean_sigma) {
-  const int count = columns.y - columns.x + 1;
-  if (count <= 8) return 0;
-  if (sigma >= mean_sigma) return count <= 16;
-  return sigma > 0.0f && max(count, rows) <= 15 && columns.x <= TILE_WIDTH - 16;
-}
-#endif
 
 // Both axes of a wide splat: `first` as in fill_axis().
 INLINED void fill_axes(float* along_x, float first_x, int columns, float* along_y, float first_y,
@@ -249,6 +182,26 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
     return 1;
   }
 #endif
+#if defined(KERNEL_CUT) && !defined(ELLIPSES)
+  // Most splats of a large snapshot whose kernel is cut.
+  if (columns_count <= 4 && rows_count <= 4 && sigma >= mean_sigma) {
+    // The centers of its pixels along both axes fit one call.
+    window.rows = rows_count;
+    window.x = first_column(columns.x, 4);
+    window.y = min(rows.x, TILE_HEIGHT - window.rows);
+    const float dx = (float)window.x + FIRST_X - splat->x;
+    const float dy = (float)window.y + FIRST_Y - splat->y;
+    const float8 low = (float8)((float4)(LOW_X(*splat)), (float4)(LOW_Y(*splat)));
+    const float8 shape =
+        gaussian((float8)((float4)(dx), (float4)(dy)) + (float8)(0, 1, 2, 3, 0, 1, 2, 3) - low,
+                 inverse_of(sigma));
+    float along[2 * LIMITS];
+    vstore4(shape.hi, 0, along);
+    fill_limits(along, dy, LOW_Y(*splat), window.rows, splat);
+    update_window(tile, &window, (float8)(shape.lo, (float4)(0.0f)), along, splat, form);
+    return 1;
+  }
+#endif
   if (columns_count <= 7 && rows_count <= 7) {
     // Most splats of a large snapshot: one window.
     window.rows = DRAWN_ROWS(rows_count);
@@ -276,11 +229,17 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
     update_window(tile, &window, across, along, splat, form);
     return 1;
   }
-#if defined(ROWS_OF_16) && !defined(ELLIPSES)
-  if (fits_window_of_16(columns, rows_count, sigma, mean_sigma) && takes_rows_of_16(form)) {
+#ifdef WINDOWS_OF_16
+  if (takes_rows_of_16(form)) {
     const float16 ramp = (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-    add_window_of_16(tile, rows, first_column(columns.x, 16), ramp, splat, mean_sigma, form);
-    return 1;
+    if (fits_window_of_16(columns, rows_count, sigma, mean_sigma)) {
+      add_window_of_16(tile, rows, first_column(columns.x, 16), ramp, splat, mean_sigma, form);
+      return 1;
+    }
+    if (sigma >= mean_sigma) {
+      add_windows_of_16(tile, rows, columns, ramp, splat, form);
+      return 1;
+    }
   }
 #endif
   add_wide_splat(tile, splat, rows, columns, mean_sigma, form);

@@ -266,7 +266,11 @@ std::vector<std::string> Specialization::composite_files() const {
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
     files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "wide_rows.cl"});
-    files.push_back(face_of_cube_ ? "face_rows.cl" : "splat_rows.cl");
+    if (face_of_cube_) {
+      files.push_back("face_rows.cl");
+    } else {
+      files.insert(files.end(), {"wide_windows.cl", "splat_rows.cl"});
+    }
     files.insert(files.end(), {"prefetch.cl", "composite_rows.cl"});
   } else {
     files.push_back("composite_groups.cl");
