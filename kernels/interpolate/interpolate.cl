@@ -28,13 +28,19 @@ typedef struct MemberLanes {
 
 INLINED MemberLanes find_members(uint begin, const InterpolateParameters p,
                                  __global const uint* place_in_second) {
+  MemberLanes of;
+  if (begin + LANES <= p.in_first) {
+    of.in_first = (INTEGER)(-1);
+    of.in_second = select((INTEGER)(-1), (INTEGER)(0),
+                          LOAD((__global const int*)place_in_second + begin) == (int)NOBODY);
+    return of;
+  }
   int in_first[LANES], in_second[LANES];
   for (uint k = 0; k < LANES; ++k) {
     const uint i = begin + k;
     in_first[k] = i < p.in_first ? -1 : 0;
     in_second[k] = i >= p.in_first || place_in_second[i] != NOBODY ? -1 : 0;
   }
-  MemberLanes of;
   of.in_first = LOAD(in_first);
   of.in_second = LOAD(in_second);
   return of;
@@ -53,11 +59,24 @@ INLINED VALUE load_component(__global const float* values, uint begin, uint end,
 
 INLINED void write(VALUE between, uint begin, uint width, uint component, uint particles,
                    __global float* values) {
+  if (width == 1 && begin + LANES <= particles) {
+    STORE(between, values + begin);
+    return;
+  }
   float found[LANES];
   STORE(between, found);
   const uint count = min((uint)LANES, particles - begin);
   for (uint k = 0; k < count; ++k)
     values[(size_t)(begin + k) * width + component] = found[k];
+}
+
+// floor() is a call on PoCL.
+static inline VALUE whole_below(VALUE value) {
+  const VALUE least_without_fraction = (VALUE)(8388608.0f);
+  const INTEGER has_fraction = fabs(value) < least_without_fraction;
+  const VALUE truncated = TO_VALUE(TO_INTEGER(choose((VALUE)(0.0f), value, has_fraction)));
+  const VALUE below = truncated - choose((VALUE)(0.0f), (VALUE)(1.0f), truncated > value);
+  return choose(value, below, has_fraction);
 }
 
 static inline VALUE mean_of(VALUE a, VALUE b, float fraction) {
@@ -111,7 +130,7 @@ INLINED VALUE geometric_mean_of(VALUE any_a, VALUE any_b, float fraction) {
   const VALUE octaves =
       fraction * TO_VALUE(exponent_of(b) - exponent_of(a)) +
       fraction * (log2_of_mantissa(mantissa_of(b)) - log2_of_mantissa(mantissa_of(a)));
-  const VALUE whole = floor(octaves + 0.5f);
+  const VALUE whole = whole_below(octaves + 0.5f);
   const INTEGER steps = TO_INTEGER(whole), part = steps >> 1;
   const VALUE mean = (a * exp2_of_rest(octaves - whole)) * exact_power_of_two(part) *
                      exact_power_of_two(steps - part);
@@ -147,14 +166,76 @@ __kernel void interpolate_values(const InterpolateParameters p, __global const f
   }
 }
 
+// Coordinates of LANES particles as memory holds them, in three parts of LANES: lane l of part k is
+// axis (k LANES + l) % 3 of particle (k LANES + l) / 3.
+#define COORDINATE(part, lane) ((part)*LANES + (lane))
+
+// What holds for an axis, in the lanes of a part.
+typedef struct AxisLanes {
+  VALUE shift_high, shift_low, lower, upper;
+} AxisLanes;
+
+INLINED VALUE axes_in_part(const float* of_axes, uint part) {
+  float found[LANES];
+  for (uint l = 0; l < LANES; ++l)
+    found[l] = of_axes[COORDINATE(part, l) % 3];
+  return LOAD(found);
+}
+
+INLINED AxisLanes axes_of_part(const PathParameters path, uint part) {
+  AxisLanes axes;
+  axes.shift_high = axes_in_part(path.shift_high, part);
+  axes.shift_low = axes_in_part(path.shift_low, part);
+  axes.lower = axes_in_part(path.lower, part);
+  axes.upper = axes_in_part(path.upper, part);
+  return axes;
+}
+
+// Masks of particles for their coordinates in a part.
+INLINED INTEGER particles_in_part(INTEGER mask, uint part) {
+#ifdef LANES_8
+  if (part == 0) return mask.s00011122;
+  return part == 1 ? mask.s23334445 : mask.s55666777;
+#else
+  return mask;
+#endif
+}
+
+// Those of particles from `begin` on; at or beyond `end` they are the last one's.
+INLINED VALUE load_part(__global const float* values, uint begin, uint end, uint part, int stride) {
+  if (stride == 0 || end == 0) return (VALUE)(values[0]);
+  if (begin + LANES <= end) return LOAD(values + ((size_t)begin * 3 + part * LANES));
+  float found[LANES];
+  for (uint l = 0; l < LANES; ++l) {
+    const uint coordinate = COORDINATE(part, l);
+    found[l] = values[(size_t)min(begin + coordinate / 3, end - 1) * 3 + coordinate % 3];
+  }
+  return LOAD(found);
+}
+
+INLINED void write_part(VALUE between, uint begin, uint particles, uint part,
+                        __global float* values) {
+  __global float* to = values + ((size_t)begin * 3 + part * LANES);
+  if (begin + LANES <= particles) {
+    STORE(between, to);
+    return;
+  }
+  float found[LANES];
+  STORE(between, found);
+  for (uint l = 0; l < LANES; ++l) {
+    if (begin + COORDINATE(part, l) / 3 < particles) to[l] = found[l];
+  }
+}
+
 static inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
   return (x - periods * path.size_high) - periods * path.size_low;
 }
 
-static inline VALUE wrapped(VALUE x, uint axis, const PathParameters path) {
+static inline VALUE wrapped(VALUE x, const AxisLanes axes, const PathParameters path) {
   if (!path.is_periodic) return x;
-  const INTEGER is_inside = x >= path.lower[axis] & x < path.upper[axis];
-  const VALUE moved = less_periods(x, floor((x - path.lower[axis]) * path.inverse_size), path);
+  const INTEGER is_inside = x >= axes.lower & x < axes.upper;
+  if (!ANY(is_inside == 0)) return x;
+  const VALUE moved = less_periods(x, whole_below((x - axes.lower) * path.inverse_size), path);
   return choose(moved, x, is_inside);
 }
 
@@ -163,25 +244,32 @@ typedef struct PathColumns {
   __global const float *first, *second, *first_velocity, *second_velocity;
 } PathColumns;
 
-INLINED VALUE position_between(uint i, const InterpolateParameters p, const PathParameters path,
-                               const MemberLanes of, uint axis, const PathColumns columns) {
-  const VALUE x = load_component(columns.first, i, p.in_first, 3, axis, p.first_stride);
-  const VALUE y = load_component(columns.second, i, p.particles, 3, axis, p.second_stride);
+// A part of the positions of particles from i on.
+INLINED VALUE positions_between(uint i, const InterpolateParameters p, const PathParameters path,
+                                const MemberLanes particles, uint part, const AxisLanes axes,
+                                const PathColumns columns) {
+  MemberLanes of;
+  of.in_first = particles_in_part(particles.in_first, part);
+  of.in_second = particles_in_part(particles.in_second, part);
+  const VALUE x = load_part(columns.first, i, p.in_first, part, p.first_stride);
+  const VALUE y = load_part(columns.second, i, p.particles, part, p.second_stride);
   // Without velocities their columns hold one 0.
   const VALUE m =
-      load_component(columns.first_velocity, i, p.in_first, 3, axis, path.first_velocity_stride) *
+      load_part(columns.first_velocity, i, p.in_first, part, path.first_velocity_stride) *
       path.first_rate;
-  const VALUE n = load_component(columns.second_velocity, i, p.particles, 3, axis,
-                                 path.second_velocity_stride) *
-                  path.second_rate;
-  VALUE way = ((y - x) + path.shift_high[axis]) + path.shift_low[axis];
-  if (path.is_periodic) way = less_periods(way, floor(way * path.inverse_size + 0.5f), path);
+  const VALUE n =
+      load_part(columns.second_velocity, i, p.particles, part, path.second_velocity_stride) *
+      path.second_rate;
+  VALUE way = ((y - x) + axes.shift_high) + axes.shift_low;
+  if (path.is_periodic) {
+    way = less_periods(way, whole_below(way * path.inverse_size + 0.5f), path);
+  }
   const VALUE moved = path.is_straight ? p.fraction * way
                                        : (path.of_way * way + path.of_first_tangent * m) +
                                              path.of_second_tangent * n;
-  const VALUE appeared = (y + path.shift_high[axis]) + path.shift_low[axis];
+  const VALUE appeared = (y + axes.shift_high) + axes.shift_low;
   return wrapped(
-      of_members(x + moved, x + path.from_first * m, appeared + path.from_second * n, of), axis,
+      of_members(x + moved, x + path.from_first * m, appeared + path.from_second * n, of), axes,
       path);
 }
 
@@ -197,9 +285,15 @@ __kernel void interpolate_positions(const InterpolateParameters p, const PathPar
   columns.second_velocity = second_velocity;
   const size_t begin = get_global_id(0) * (size_t)p.particles_of_item;
   const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
+  const AxisLanes first_part = axes_of_part(path, 0), second_part = axes_of_part(path, 1),
+                  third_part = axes_of_part(path, 2);
   for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
     const MemberLanes of = find_members(i, p, place_in_second);
-    for (uint axis = 0; axis < 3; ++axis)
-      write(position_between(i, p, path, of, axis, columns), i, 3, axis, p.particles, values);
+    write_part(positions_between(i, p, path, of, 0, first_part, columns), i, p.particles, 0,
+               values);
+    write_part(positions_between(i, p, path, of, 1, second_part, columns), i, p.particles, 1,
+               values);
+    write_part(positions_between(i, p, path, of, 2, third_part, columns), i, p.particles, 2,
+               values);
   }
 }
