@@ -237,7 +237,11 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
       return 1;
     }
     if (sigma >= mean_sigma) {
-      add_windows_of_16(tile, rows, columns, ramp, splat, form);
+      add_centers_of_16(tile, rows, columns, ramp, splat, form);
+      return 1;
+    }
+    if (sigma > 0.0f) {
+      add_means_of_16(tile, rows, columns, ramp, splat, form);
       return 1;
     }
   }

@@ -96,19 +96,11 @@ INLINED void find_rows_of_windows(RowsOfWindows* found, int2 rows, int column,
 }
 #endif
 
-// A splat that takes values at pixel centers, with any number of columns, in as many as windows of
-// eight would draw: lanes beyond these may be pixels of the next row.
-__attribute__((noinline)) static void add_windows_of_16(float* tile, int2 rows, int2 columns,
-                                                        float16 ramp,
-                                                        __global const TileSplat* splat, int form) {
-  const int column = first_of_eights(columns), drawn = (columns.y - columns.x + 8) & ~7;
-  const float inverse = inverse_of(splat->sigma);
-  const float first_x = (float)column + FIRST_X - splat->x;
-  const float first_y = (float)rows.x + FIRST_Y - splat->y;
-  float along[2 * LIMITS];
-  for (int k = 0; k <= rows.y - rows.x; k += 16)
-    store_sixteen(sixteen_centers(first_y, LOW_Y(*splat), k, ramp, inverse), along + k);
-  fill_limits_of_16(along, first_y, rows.y - rows.x + 1, ramp, splat);
+// Windows from `column` on, with the splat's shape along both axes, until `drawn` columns are, as
+// many as windows of eight would draw: those beyond may be pixels of the next row.
+INLINED void update_windows_of_16(float* tile, int2 rows, int column, int drawn,
+                                  const float* across, const float* along,
+                                  __global const TileSplat* splat, int form) {
 #ifdef KERNEL_CUT
   RowsOfWindows of_windows;
   find_rows_of_windows(&of_windows, rows, column, splat);
@@ -116,18 +108,66 @@ __attribute__((noinline)) static void add_windows_of_16(float* tile, int2 rows, 
   Window window;
   window.y = rows.x;
   window.rows = rows.y - rows.x + 1;
-  for (int w = 0; 16 * w < drawn; ++w) {
-    window.x = column + 16 * w;
+  for (int k = 0; k < drawn; k += 16) {
+    window.x = column + k;
 #ifdef KERNEL_CUT
-    window.y = of_windows.first[w];
-    window.rows = of_windows.last[w] - window.y + 1;
+    window.y = of_windows.first[k / 16];
+    window.rows = of_windows.last[k / 16] - window.y + 1;
 #endif
-    const float16 across = sixteen_centers(first_x, LOW_X(*splat), 16 * w, ramp, inverse);
-    if (drawn - 16 * w == 8) {
-      update_window(tile, &window, across.lo, along + (window.y - rows.x), splat, form);
+    const float* of_rows = along + (window.y - rows.x);
+    if (drawn - k == 8) {
+      update_window(tile, &window, load_eight(across + k), of_rows, splat, form);
       return;
     }
-    update_rows_of_16(tile, &window, across, along + (window.y - rows.x), splat, form);
+    update_rows_of_16(tile, &window, load_sixteen(across + k), of_rows, splat, form);
   }
+}
+
+// A splat that takes values at pixel centers, with any number of columns.
+__attribute__((noinline)) static void add_centers_of_16(float* tile, int2 rows, int2 columns,
+                                                        float16 ramp,
+                                                        __global const TileSplat* splat, int form) {
+  const int column = first_of_eights(columns), drawn = (columns.y - columns.x + 8) & ~7;
+  const float inverse = inverse_of(splat->sigma);
+  const float first_x = (float)column + FIRST_X - splat->x;
+  const float first_y = (float)rows.x + FIRST_Y - splat->y;
+  const int count = rows.y - rows.x + 1;
+  float across[TILE_WIDTH + 16], along[2 * LIMITS];
+  for (int k = 0; k < drawn; k += 16)
+    store_sixteen(sixteen_centers(first_x, LOW_X(*splat), k, ramp, inverse), across + k);
+  for (int k = 0; k < count; k += 16)
+    store_sixteen(sixteen_centers(first_y, LOW_Y(*splat), k, ramp, inverse), along + k);
+  fill_limits_of_16(along, first_y, count, ramp, splat);
+  update_windows_of_16(tile, rows, column, drawn, across, along, splat, form);
+}
+
+// fill_axis() of pixel means: `values` has room for 32 more than `count`.
+INLINED void fill_means_of_16(float* values, float first, float low, int count, float16 ramp,
+                              float sigma) {
+  const float per_sigma = 1.0f / sigma;
+  for (int k = 0; k <= count; k += 16) {
+    const float16 eights = (float)k + eights_of_lanes();
+    store_sixteen(error_function((first - 0.5f + eights + ramp - low) * per_sigma), values + k);
+  }
+  const int end = (count + 7) & ~7;
+  if (count < end) values[end] = values[end - 1];
+  for (int k = 0; k < count; k += 16) {
+    const float16 mean = load_sixteen(values + k + 1) - load_sixteen(values + k);
+    store_sixteen(mean * (PIXEL_MEAN_SCALE * sigma), values + k);
+  }
+}
+
+// A splat that takes pixel means and is not bright, with any number of columns.
+__attribute__((noinline)) static void add_means_of_16(float* tile, int2 rows, int2 columns,
+                                                      float16 ramp, __global const TileSplat* splat,
+                                                      int form) {
+  const int column = first_of_eights(columns), count = columns.y - column + 1;
+  const float first_y = (float)rows.x + FIRST_Y - splat->y;
+  float across[TILE_WIDTH + 32], along[2 * LIMITS];
+  fill_means_of_16(across, (float)column + FIRST_X - splat->x, LOW_X(*splat), count, ramp,
+                   splat->sigma);
+  fill_means_of_16(along, first_y, LOW_Y(*splat), rows.y - rows.x + 1, ramp, splat->sigma);
+  fill_limits_of_16(along, first_y, rows.y - rows.x + 1, ramp, splat);
+  update_windows_of_16(tile, rows, column, (count + 7) & ~7, across, along, splat, form);
 }
 #endif
