@@ -42,7 +42,7 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
     const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, kept, grid, count, &waiting);
+    count_in_tiles(touched, kept, grid, 1, count, &waiting);
   }
   count_waiting(&waiting, count);
 }

@@ -89,6 +89,7 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
 #define FIRST_TILE_BITS 10
 #define TILE_COUNT_BITS 6
 #define FOUND_AGAIN 0xffffffffu
+#define ONE_TILE (1u << 2 * FIRST_TILE_BITS | 1u << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS))
 
 static inline uint pack_tiles(int4 range) {
   const int columns = range.y - range.x + 1, rows = range.w - range.z + 1;
@@ -186,8 +187,9 @@ INLINED void count_waiting(WaitingSplats* waiting, __global uint* count) {
 }
 
 // Counts the splat in the tiles that it touches, at the latest when those that wait are counted.
+// One that is not visible, of ONE_TILE, counts for nothing.
 INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
-                            __global uint* count, WaitingSplats* waiting) {
+                            uint is_visible, __global uint* count, WaitingSplats* waiting) {
   if (tiles == FOUND_AGAIN) {
     count_one_by_one(splat, grid, count);
     return;
@@ -195,11 +197,11 @@ INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global co
   const uint tiles_x = (uint)grid->tiles_x;
   const uint corner =
       grid->corner_tile + first_row_of_tiles(tiles) * tiles_x + first_column_of_tiles(tiles);
-  ++count[corner];
+  count[corner] += is_visible;
   const uint last = waiting->count;
   waiting->tiles[last] = tiles;
   waiting->corner[last] = corner;
   waiting->tiles_x[last] = tiles_x;
-  waiting->count = last + (tiles >> 2 * FIRST_TILE_BITS != (1u | 1u << TILE_COUNT_BITS));
+  waiting->count = last + (tiles >> 2 * FIRST_TILE_BITS != ONE_TILE >> 2 * FIRST_TILE_BITS);
   if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
 }

@@ -61,7 +61,8 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
     if (!ANY(lanes.visible)) continue;
     SplatArrays found;
 #ifdef TILES_OF_LANES
-    spread(lanes, tiles_of_lanes(lanes, p), &found);
+    spread(lanes, select((INTEGER)((int)ONE_TILE), tiles_of_lanes(lanes, p), lanes.visible),
+           &found);
 #else
     spread(lanes, (INTEGER)(0), &found);
 #endif
@@ -69,7 +70,12 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
     STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, p)), found.sort_keys);
 #endif
     for (uint k = 0; k < LANES; ++k) {
+#ifdef WRITES_ALL_LANES
+      const uint is_visible = (uint)found.visible[k] & 1u;
+#else
       if (!found.visible[k]) continue;
+      const uint is_visible = 1;
+#endif
 #ifdef SORT_KEYS
       const ulong key = (ulong)found.sort_keys[k];
 #endif
@@ -127,14 +133,15 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #ifdef COUNT_TILES
         __global const Grid* grid = grids + grid_of(listed);
 #ifdef TILES_IN_SPLAT
+        if (grid->is_part && !is_visible) continue;
         const uint touched = tiles_in_lists(listed.tiles, kept, grid);
 #else
         const uint touched = tiles_of(listed, *grid);
         tiles[slot] = touched;
 #endif
-        count_in_tiles(touched, kept, grid, count, &waiting);
+        count_in_tiles(touched, kept, grid, is_visible, count, &waiting);
 #endif
-        ++slot;
+        slot += is_visible;
 #ifdef COPIES
       }
 #endif

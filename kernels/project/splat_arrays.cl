@@ -7,6 +7,12 @@
 #endif
 #endif
 
+// Blocks of eight lanes have room for all their particles (projector.cpp): a splat that is not
+// visible is written, too, and the next one over it. Which these are no processor foresees.
+#if defined(SPLATS_OF_EIGHT_WORDS) && !defined(EXTENDED_NUMBERS)
+#define WRITES_ALL_LANES
+#endif
+
 // SplatLanes as arrays, to be written one by one.
 typedef struct SplatArrays {
   int visible[LANES];
