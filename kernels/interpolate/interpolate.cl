@@ -71,7 +71,7 @@ INLINED void write(VALUE between, uint begin, uint width, uint component, uint p
 }
 
 // floor() is a call on PoCL.
-static inline VALUE whole_below(VALUE value) {
+static inline VALUE floor_of(VALUE value) {
   const VALUE least_without_fraction = (VALUE)(8388608.0f);
   const INTEGER has_fraction = fabs(value) < least_without_fraction;
   const VALUE truncated = TO_VALUE(TO_INTEGER(choose((VALUE)(0.0f), value, has_fraction)));
@@ -130,7 +130,7 @@ INLINED VALUE geometric_mean_of(VALUE any_a, VALUE any_b, float fraction) {
   const VALUE octaves =
       fraction * TO_VALUE(exponent_of(b) - exponent_of(a)) +
       fraction * (log2_of_mantissa(mantissa_of(b)) - log2_of_mantissa(mantissa_of(a)));
-  const VALUE whole = whole_below(octaves + 0.5f);
+  const VALUE whole = floor_of(octaves + 0.5f);
   const INTEGER steps = TO_INTEGER(whole), part = steps >> 1;
   const VALUE mean = (a * exp2_of_rest(octaves - whole)) * exact_power_of_two(part) *
                      exact_power_of_two(steps - part);
@@ -171,9 +171,9 @@ __kernel void interpolate_values(const InterpolateParameters p, __global const f
 #define COORDINATE(part, lane) ((part)*LANES + (lane))
 
 // What holds for an axis, in the lanes of a part.
-typedef struct AxisLanes {
+typedef struct PathAxes {
   VALUE shift_high, shift_low, lower, upper;
-} AxisLanes;
+} PathAxes;
 
 INLINED VALUE axes_in_part(const float* of_axes, uint part) {
   float found[LANES];
@@ -182,8 +182,8 @@ INLINED VALUE axes_in_part(const float* of_axes, uint part) {
   return LOAD(found);
 }
 
-INLINED AxisLanes axes_of_part(const PathParameters path, uint part) {
-  AxisLanes axes;
+INLINED PathAxes axes_of_part(const PathParameters path, uint part) {
+  PathAxes axes;
   axes.shift_high = axes_in_part(path.shift_high, part);
   axes.shift_low = axes_in_part(path.shift_low, part);
   axes.lower = axes_in_part(path.lower, part);
@@ -231,11 +231,11 @@ static inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters pa
   return (x - periods * path.size_high) - periods * path.size_low;
 }
 
-static inline VALUE wrapped(VALUE x, const AxisLanes axes, const PathParameters path) {
+static inline VALUE wrapped(VALUE x, const PathAxes axes, const PathParameters path) {
   if (!path.is_periodic) return x;
   const INTEGER is_inside = x >= axes.lower & x < axes.upper;
   if (!ANY(is_inside == 0)) return x;
-  const VALUE moved = less_periods(x, whole_below((x - axes.lower) * path.inverse_size), path);
+  const VALUE moved = less_periods(x, floor_of((x - axes.lower) * path.inverse_size), path);
   return choose(moved, x, is_inside);
 }
 
@@ -246,7 +246,7 @@ typedef struct PathColumns {
 
 // A part of the positions of particles from i on.
 INLINED VALUE positions_between(uint i, const InterpolateParameters p, const PathParameters path,
-                                const MemberLanes particles, uint part, const AxisLanes axes,
+                                const MemberLanes particles, uint part, const PathAxes axes,
                                 const PathColumns columns) {
   MemberLanes of;
   of.in_first = particles_in_part(particles.in_first, part);
@@ -262,7 +262,7 @@ INLINED VALUE positions_between(uint i, const InterpolateParameters p, const Pat
       path.second_rate;
   VALUE way = ((y - x) + axes.shift_high) + axes.shift_low;
   if (path.is_periodic) {
-    way = less_periods(way, whole_below(way * path.inverse_size + 0.5f), path);
+    way = less_periods(way, floor_of(way * path.inverse_size + 0.5f), path);
   }
   const VALUE moved = path.is_straight ? p.fraction * way
                                        : (path.of_way * way + path.of_first_tangent * m) +
@@ -285,8 +285,8 @@ __kernel void interpolate_positions(const InterpolateParameters p, const PathPar
   columns.second_velocity = second_velocity;
   const size_t begin = get_global_id(0) * (size_t)p.particles_of_item;
   const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
-  const AxisLanes first_part = axes_of_part(path, 0), second_part = axes_of_part(path, 1),
-                  third_part = axes_of_part(path, 2);
+  const PathAxes first_part = axes_of_part(path, 0), second_part = axes_of_part(path, 1),
+                 third_part = axes_of_part(path, 2);
   for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
     const MemberLanes of = find_members(i, p, place_in_second);
     write_part(positions_between(i, p, path, of, 0, first_part, columns), i, p.particles, 0,
