@@ -88,8 +88,8 @@ INLINED void find_rows_of_windows(RowsOfWindows* found, int2 rows, int column,
   const float4 low = splat->y - half_height - FIRST_Y, high = splat->y + half_height - FIRST_Y;
   // By comparisons: whatever is not a number takes all rows.
   const float4 top = (float)rows.x, bottom = (float)rows.y;
-  const float4 from = select(top, select(bottom + 1.0f, low, low < bottom), low > top);
-  const float4 to = select(bottom, select(top - 1.0f, high, high > top), high < bottom);
+  const float4 from = select(top, select(bottom + 1.0f, low, low <= bottom), low > top);
+  const float4 to = select(bottom, select(top - 1.0f, high, high >= top), high < bottom);
   const int4 first = convert_int4(from);
   vstore4(first - (convert_float4(first) < from), 0, found->first);
   vstore4(convert_int4(to), 0, found->last);
