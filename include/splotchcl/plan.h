@@ -87,11 +87,18 @@ struct RefinementFilter {
 struct GridPyramid {
   std::vector<PictureGrid> grids;
   std::vector<int> level_grids;  // the grid that collects each level
-  // Two grids for each level l > 0: splats are drawn narrower, and the grid is blurred by
-  // these sigma^2 (its own pixels^2): grid 2 l - 1 by blur[0], grid 2 l by blur[1].
-  bool is_blurred = false;
-  double blur[2] = {0, 0};
+  // As many grids for each coarse level as there are blurs: splats are drawn narrower, and the
+  // grid is blurred by this sigma^2 (its own pixels^2), the first of a level by the least. Empty:
+  // one grid, not blurred.
+  std::vector<double> blurs;
   double blur_error = 0;  // of a splat's peak
+
+  bool is_blurred() const { return !blurs.empty(); }
+  std::size_t grids_of_level() const { return is_blurred() ? blurs.size() : 1; }
+  // Of grid 0 nothing.
+  double blur_of(std::size_t grid) const {
+    return is_blurred() && grid > 0 ? blurs[(grid - 1) % blurs.size()] : 0;
+  }
   RefinementFilter refinement;
   float coarse_peak = 0;   // brighter splats stay on grid 0
   float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid

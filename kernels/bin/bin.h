@@ -50,7 +50,7 @@ struct BinParameters {
   unsigned int first_tile, end_tile;  // lists are made of these only
   float mean_sigma;
   float widening;
-  float blur[2];  // as in ProjectParameters; 0 where nothing is blurred
+  struct GridBlurs blurs;
 };
 
 // The tiles of one splat, of the shape for GPUs: so many columns and rows of them from the first

@@ -16,8 +16,8 @@ struct CertifyParameters {
   struct OctaveCells peaks[WIDTH_OCTAVES], endings[WIDTH_OCTAVES];
   // Splats of peaks up to edge_peak end at the roots of these, in sigma: of octaves in the picture.
   float extent2[WIDTH_OCTAVES];
-  float widening;      // as in ProjectParameters
-  float blur[2];       // as in ProjectParameters; 0 where nothing is blurred
+  float widening;  // as in ProjectParameters
+  struct GridBlurs blurs;
   float edge_peak;     // brighter splats are drawn until they have fallen as far as this one
   float bright_peak;   // no more than this counts of a peak on the picture's own grid
   float light_behind;  // an error of absorption counts as so much of one of emission (plan.h)

@@ -60,6 +60,13 @@ INLINED uint component_of(const Splat splat) {
 INLINED uint grid_of(const Splat splat) {
   return (splat.component_and_grid >> 16) & 0xffu;
 }
+// Its pixels are 2^level of the picture's wide.
+INLINED int level_of_grid(uint grid, const GridBlurs blurs) {
+  return (int)((grid + (1u << blurs.shift) - 1u) >> blurs.shift);
+}
+INLINED float blur_of_grid(uint grid, const GridBlurs blurs) {
+  return grid == 0 ? 0.0f : blurs.sigma2[(grid - 1u) & (MOST_BLURS - 1u)];
+}
 // The splat's units are 2^-place_bits pixels.
 INLINED int place_bits_of(const Splat splat, const Grid grid) {
   return grid.place_bits - (int)(splat.component_and_grid >> 24);

@@ -32,6 +32,14 @@ struct Grid {
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
 };
 
+// A coarse level has 2^shift grids, each blurred afterwards by one of these sigma^2, in pixels of
+// its own; all 0 where nothing is blurred. As many as there may be, over and over again.
+#define MOST_BLURS 4
+struct GridBlurs {
+  int shift;
+  float sigma2[MOST_BLURS];
+};
+
 // Splats of equirectangular pictures are wider than high: x and y have widths of their own.
 struct WidthAlongX {
   float sigma, radius;  // pixels
@@ -128,6 +136,7 @@ struct ComponentColors {
 #ifdef __OPENCL_VERSION__
 typedef struct FloatPair FloatPair;
 typedef struct Grid Grid;
+typedef struct GridBlurs GridBlurs;
 typedef struct WidthAlongX WidthAlongX;
 typedef struct Tilt Tilt;
 typedef struct OwnColor OwnColor;

@@ -68,17 +68,28 @@ static inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectPa
   return select(grid, (INTEGER)(0), peak > p.coarse_peak);
 }
 
-// Its pixels are 2^level of the picture's wide. Two blurred grids share a level.
+// level_of_grid() and, of coarse grids, blur_of_grid() of common.cl, of VALUEs.
 static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
-  return p.blurred ? (grid + 1) >> 1 : grid;
+  return (grid + ((1 << p.blurs.shift) - 1)) >> p.blurs.shift;
+}
+static inline VALUE blur_of(INTEGER grid, const ProjectParameters p) {
+#if MOST_BLURS != 4
+#error "a blur is chosen by two bits"
+#endif
+  const INTEGER of_level = grid - 1, is_odd = (of_level & 1) != 0, is_upper = (of_level & 2) != 0;
+  const VALUE lower = choose((VALUE)(p.blurs.sigma2[0]), (VALUE)(p.blurs.sigma2[1]), is_odd);
+  const VALUE upper = choose((VALUE)(p.blurs.sigma2[2]), (VALUE)(p.blurs.sigma2[3]), is_odd);
+  return choose(lower, upper, is_upper);
 }
 
-// Wide splats go to the coarsest grid that still shows their shape, bright ones finer. Two
-// blurred grids make an octave.
+// Wide splats go to the coarsest grid that still shows their shape, bright ones finer. The grids
+// of a level share out an octave of widths.
 static inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
   VALUE amplified = (VALUE)(p.coarse_sigma);
   if (ANY(peak > 1.0f)) amplified *= sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
-  const VALUE ratio = sigma / amplified;
-  if (p.blurred) return grid_of_octave(power_of_two(ratio * ratio) - 1, peak, p);
-  return grid_of_octave(power_of_two(ratio), peak, p);
+  // Higher powers of wider ones may be no number, and theirs is the coarsest grid.
+  VALUE power = min(sigma / amplified, (VALUE)(1e9f));
+  for (int i = 0; i < p.blurs.shift; ++i)
+    power *= power;
+  return grid_of_octave(power_of_two(power) - ((1 << p.blurs.shift) - 1), peak, p);
 }

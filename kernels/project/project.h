@@ -129,10 +129,7 @@ struct ProjectParameters {
   unsigned int tile_count;
   float beside;  // pixels of a coarse grid beside the picture, or the crop, that are in memory
   float reach;   // sigmas beyond which nothing is drawn on any grid
-  // With blurred grids, 2 l - 1 and 2 l are those of level l > 0, blurred afterwards by these
-  // sigma^2 in pixels of their own. Without, grid g is level g.
-  int blurred;
-  float blur[2];
+  struct GridBlurs blurs;
 
   struct FieldScaling color;
   struct FieldScaling intensity;

@@ -241,10 +241,9 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
   s->weight = sampled.weight;
-  if (p.blurred) {
+  if (p.blurs.sigma2[0] > 0.0f) {
     // The grid's blur widens what is drawn to the splat's width, and spreads its light.
-    const VALUE blur = choose((VALUE)(p.blur[1]), (VALUE)(p.blur[0]), (s->grid & 1) != 0);
-    const VALUE drawn = sqrt(s->sigma * s->sigma - blur);
+    const VALUE drawn = sqrt(s->sigma * s->sigma - blur_of(s->grid, p));
     const VALUE spread = s->sigma / drawn;
     s->weight *= choose((VALUE)(1.0f), spread * spread, s->grid > 0);
     s->sigma = choose(s->sigma, drawn, s->grid > 0);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "certificate/color_errors.h"
 #include "certificate/octave_errors.h"
 #include "certificate/picture_light.h"
 #include "parallel/for_blocks.h"
@@ -66,7 +67,7 @@ class FrameErrors {
         promise_(plan.shares.promise),
         rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0) +
               splats.around * plan.shares.promise),
-        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
+        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) + part_of_colors(frame) : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
     for (std::size_t octave = 0; octave < lights_.size(); ++octave)

@@ -68,8 +68,7 @@ struct ListedSplat {
 
 // sigma^2 by which a grid is blurred afterwards, in pixels of its own.
 inline double blur_of_grid(const FramePlan& plan, std::uint32_t grid) {
-  const GridPyramid& pyramid = plan.pyramid;
-  return pyramid.is_blurred && grid > 0 ? pyramid.blur[grid % 2 == 1 ? 0 : 1] : 0;
+  return plan.pyramid.blur_of(grid);
 }
 
 // The stages of one frame, run one by one, with what they hand on read back. The frame should

@@ -65,12 +65,11 @@ std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid
   return wanted;
 }
 
-// Where splats are drawn on a grid: blurring looks at more than is wanted.
-shared::GridPart drawn_part(const shared::GridPart& wanted, int grid, const GridPyramid& pyramid) {
-  if (grid == 0 || !pyramid.is_blurred) return wanted;
-  const shared::GridPart narrow = with_blur(wanted, pyramid.blur[0], pyramid);
-  const bool is_narrow = grid % 2 == 1;
-  return is_narrow ? narrow : with_blur(narrow, pyramid.blur[1] - pyramid.blur[0], pyramid);
+// Where splats are drawn on the grids of a level: blurring looks at more than is wanted. All of a
+// level have the same part, so that the check may add up their cells.
+shared::GridPart drawn_part(const shared::GridPart& wanted, int level, const GridPyramid& pyramid) {
+  if (level == 0 || !pyramid.is_blurred()) return wanted;
+  return widened(wanted, blur_reach(pyramid.blurs.back(), pyramid.blur_error));
 }
 
 // The tiles that cover the part.
@@ -97,10 +96,13 @@ bool has_all_tiles(const shared::Grid& grid, const Specialization& specializatio
 
 }  // namespace
 
-shared::GridPart with_blur(const shared::GridPart& part, double sigma2,
-                           const GridPyramid& pyramid) {
-  const std::size_t weights = blur_weights(sigma2, pyramid.blur_error).size();
-  return widened(part, static_cast<int>(weights / 2));
+shared::GridBlurs grid_blurs(const GridPyramid& pyramid) {
+  shared::GridBlurs blurs{};
+  while ((std::size_t{1} << blurs.shift) < pyramid.grids_of_level())
+    ++blurs.shift;
+  for (std::size_t i = 0; i < MOST_BLURS; ++i)
+    blurs.sigma2[i] = static_cast<float>(pyramid.blur_of(i + 1));
+  return blurs;
 }
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
@@ -126,7 +128,7 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
     // Compositing on coarse grids knows center values only: coarse_sigma sees to it.
     grid.mean_sigma = from.level == 0 ? plan.splats.mean_sigma : 0;
     const auto level = static_cast<std::size_t>(from.level);
-    set_tiles(drawn_part(layout.wanted[level], static_cast<int>(g), pyramid),
+    set_tiles(drawn_part(layout.wanted[level], from.level, pyramid),
               static_cast<int>(specialization.tile_width()),
               static_cast<int>(specialization.tile_height()), grid);
     grid.first_tile = layout.tile_count;

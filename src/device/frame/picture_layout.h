@@ -30,7 +30,7 @@ inline std::size_t floats_before(const shared::Grid& grid) {
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
                                   const Specialization& specialization);
 
-// `part` and the pixels beside it that a blur by this sigma^2 looks at.
-shared::GridPart with_blur(const shared::GridPart& part, double sigma2, const GridPyramid& pyramid);
+// What kernels know of the blurs.
+shared::GridBlurs grid_blurs(const GridPyramid& pyramid);
 
 }  // namespace splotchcl

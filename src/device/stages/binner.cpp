@@ -45,9 +45,7 @@ Binner::Binner(const StageContext& context)
   parameters_.end_tile = layout.tile_count;
   parameters_.mean_sigma = context.plan.splats.mean_sigma;
   parameters_.widening = context.plan.splats.widening;
-  const GridPyramid& pyramid = context.plan.pyramid;
-  for (int i = 0; i < 2; ++i)
-    parameters_.blur[i] = pyramid.is_blurred ? static_cast<float>(pyramid.blur[i]) : 0.0f;
+  parameters_.blurs = grid_blurs(context.plan.pyramid);
 }
 
 CountedSplats Binner::start(const SplatMemory& splats) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -24,8 +25,8 @@ struct CellsOfTiles {
   }
   // Whether nothing was collected of the octave in any tile of the grid.
   bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // The cells of the octave in all tiles of the grid.
-  CellSums gather(const shared::OctaveCells& octave, const shared::Grid& grid) const;
+  // Adds the cells of the octave in all tiles of the grid to those of grids of its level.
+  void gather(const shared::OctaveCells& octave, const shared::Grid& grid, CellSums& sums) const;
 };
 
 bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
@@ -40,32 +41,22 @@ bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Gri
   return true;
 }
 
-CellSums CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+void CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::Grid& grid,
+                          CellSums& sums) const {
   const int across = tile_width >> octave.shift, along = tile_height >> octave.shift;
-  CellSums sums;
   sums.side = 1 << octave.shift;
   sums.columns = grid.tiles_x * across;
   sums.rows = grid.tiles_y * along;
   sums.values.resize(static_cast<std::size_t>(sums.columns) * static_cast<std::size_t>(sums.rows));
-  auto to = sums.values.begin();
+  float* to = sums.values.data();
   for (int row = 0; row < sums.rows; ++row) {
-    for (int column = 0; column < grid.tiles_x; ++column) {
+    for (int column = 0; column < grid.tiles_x; ++column, to += across) {
       const auto tile = static_cast<std::size_t>(row / along * grid.tiles_x + column);
-      const std::size_t from =
-          first_of(grid.first_tile + tile, octave) + static_cast<std::size_t>(row % along * across);
-      to = std::copy_n(values + from, across, to);
+      const float* const from = values + first_of(grid.first_tile + tile, octave) +
+                                static_cast<std::size_t>(row % along * across);
+      std::transform(from, from + across, to, to, std::plus<>());
     }
   }
-  return sums;
-}
-
-// A blurred grid's splats are drawn narrower and brighter than they are: by as much as the
-// octave's widest at least.
-void take_back_blur(double blur, int octave, std::vector<float>& peaks) {
-  const double widest = std::exp2(octave);
-  const auto scale = static_cast<float>(1 - blur / (widest * widest));
-  for (float& peak : peaks)
-    peak *= scale;
 }
 
 }  // namespace
@@ -85,9 +76,7 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
   for (std::size_t octave = 0; octave < std::size(parameters_.extent2); ++octave)
     parameters_.extent2[octave] =
         least2 + static_cast<float>(context.plan.needs.widths[octave].farther);
-  const GridPyramid& pyramid = context.plan.pyramid;
-  for (int i = 0; i < 2; ++i)
-    parameters_.blur[i] = pyramid.is_blurred ? static_cast<float>(pyramid.blur[i]) : 0.0f;
+  parameters_.blurs = grid_blurs(context.plan.pyramid);
 }
 
 Buffer<float> Certifier::room() const {
@@ -160,11 +149,11 @@ CollectedSplats Certifier::collected() const {
   const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
   for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
     found.longest_list = std::max(found.longest_list, static_cast<double>(values.data()[i]));
-  const std::size_t grids = context_.layout.grids.size();
-  std::vector<std::optional<PeakCells>> octaves(grids * WIDTH_OCTAVES);
+  const std::size_t levels = context_.plan.pyramid.level_grids.size();
+  std::vector<std::optional<PeakCells>> octaves(levels * WIDTH_OCTAVES);
   for_blocks(octaves.size(), 1, [&](std::size_t first, std::size_t) {
-    octaves[first] =
-        octave_of(values.data(), first / WIDTH_OCTAVES, static_cast<int>(first % WIDTH_OCTAVES));
+    octaves[first] = octave_of(values.data(), static_cast<int>(first / WIDTH_OCTAVES),
+                               static_cast<int>(first % WIDTH_OCTAVES));
   });
   for (std::optional<PeakCells>& cells : octaves) {
     if (cells) found.cells.push_back(std::move(*cells));
@@ -172,26 +161,29 @@ CollectedSplats Certifier::collected() const {
   return found;
 }
 
-// What was collected of an octave of a grid's splats, if there are any.
-std::optional<PeakCells> Certifier::octave_of(const float* values, std::size_t g,
-                                              int octave) const {
+// What was collected of an octave of a level's splats, if there are any.
+std::optional<PeakCells> Certifier::octave_of(const float* values, int level, int octave) const {
   const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
                               static_cast<int>(context_.specialization.tile_width()),
                               static_cast<int>(context_.specialization.tile_height())};
-  const shared::Grid& grid = context_.layout.grids[g];
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const auto first = static_cast<std::size_t>(pyramid.level_grids[static_cast<std::size_t>(level)]);
+  const std::size_t count = level == 0 ? 1 : pyramid.grids_of_level();
   const shared::OctaveCells& peaks = parameters_.peaks[octave];
   const shared::OctaveCells& endings = parameters_.endings[octave];
-  // Bright splats end where those of wider octaves do.
-  if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) return std::nullopt;
   PeakCells cells;
-  cells.level = context_.plan.pyramid.grids[g].level;
-  cells.octave = octave + cells.level;
-  cells.left = grid.first_x - grid.guard;
-  cells.top = grid.first_y - grid.guard;
-  cells.peaks = tiles.gather(peaks, grid);
-  const double blur = g == 0 ? 0 : static_cast<double>(parameters_.blur[g % 2 == 0]);
-  if (blur > 0) take_back_blur(blur, octave, cells.peaks.values);
-  cells.endings = tiles.gather(endings, grid);
+  cells.level = level;
+  cells.octave = octave + level;
+  for (std::size_t g = first; g < first + count; ++g) {
+    const shared::Grid& grid = context_.layout.grids[g];
+    // Bright splats end where those of wider octaves do.
+    if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) continue;
+    cells.left = grid.first_x - grid.guard;
+    cells.top = grid.first_y - grid.guard;
+    tiles.gather(peaks, grid, cells.peaks);
+    tiles.gather(endings, grid, cells.endings);
+  }
+  if (cells.peaks.values.empty()) return std::nullopt;
   return cells;
 }
 

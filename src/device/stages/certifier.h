@@ -32,7 +32,7 @@ class Certifier {
 
  private:
   void start();
-  std::optional<PeakCells> octave_of(const float* values, std::size_t grid, int octave) const;
+  std::optional<PeakCells> octave_of(const float* values, int level, int octave) const;
   void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
 
   const StageContext& context_;

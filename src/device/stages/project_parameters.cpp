@@ -152,9 +152,7 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.coarse_sigma = pyramid.coarse_sigma;
   p.coarse_peak = pyramid.coarse_peak;
   p.grid_count = static_cast<int>(pyramid.grids.size());
-  p.blurred = pyramid.is_blurred;
-  p.blur[0] = static_cast<float>(pyramid.blur[0]);
-  p.blur[1] = static_cast<float>(pyramid.blur[1]);
+  p.blurs = grid_blurs(pyramid);
 }
 
 void set_rectangle(const Rectangle& part, const shared::Grid& grid, float& left, float& right_end,

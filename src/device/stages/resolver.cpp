@@ -37,10 +37,9 @@ std::size_t row_pairs(const shared::GridPart& part) {
 
 // Floats of one plane of a part blurred along its columns, and of one refined along them. A part
 // that is refined begins with an even column, and has the rows that ten taps look at.
-std::size_t blurred_floats(const shared::GridPart& part, std::size_t half_width) {
-  const auto height = static_cast<std::size_t>(part.bottom - part.top);
-  return (height + 2 * half_width) * 8 *
-         strips(static_cast<std::size_t>(part.right_end - part.left), 8);
+std::size_t blurred_floats(const shared::GridPart& part, int reach) {
+  const auto height = static_cast<std::size_t>(part.bottom - part.top + 2 * reach);
+  return height * 8 * strips(static_cast<std::size_t>(part.right_end - part.left), 8);
 }
 
 std::size_t refined_rows(const shared::GridPart& part) {
@@ -81,9 +80,9 @@ Buffer<float> Resolver::room_for_columns() const {
   for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
     const shared::GridPart& part = wanted[level];
     floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
-    if (level > 0 && pyramid.is_blurred) {
-      const shared::GridPart widest = with_blur(part, pyramid.blur[0], pyramid);
-      floats = std::max(floats, blurred_floats(widest, most_blur_weights / 2));
+    if (level > 0 && pyramid.is_blurred()) {
+      const int reach = blur_reach(pyramid.blurs.back(), pyramid.blur_error);
+      floats = std::max(floats, blurred_floats(part, reach));
     }
   }
   return context_.device.pool.get<float>(context_.specialization.planes() * floats,
@@ -102,15 +101,16 @@ Planes Resolver::collect(Planes planes, std::size_t finest, const Buffer<float>&
     return (planes.used_grids >> grid & 1) != 0;
   };
   const std::size_t levels = pyramid.level_grids.size();
-  for (std::size_t level = 1; pyramid.is_blurred && level < levels; ++level) {
-    const std::uint32_t narrow = grid_of(level), wide = narrow + 1;
-    if (is_used(wide)) {
-      blur(planes, wide, narrow, with_blur(wanted[level], pyramid.blur[0], pyramid),
-           pyramid.blur[1] - pyramid.blur[0], is_used(narrow), columns);
-      planes.used_grids |= 1u << narrow;
+  for (std::size_t level = 1; level < levels; ++level) {
+    // All of a level add up in its first grid, which is blurred in place.
+    const std::uint32_t target = grid_of(level);
+    for (std::uint32_t i = 0; i < pyramid.blurs.size(); ++i) {
+      const std::uint32_t source = target + i;
+      if (!is_used(source)) continue;
+      blur(planes, source, target, wanted[level], pyramid.blurs[i], i > 0 && is_used(target),
+           columns);
+      planes.used_grids |= 1u << target;
     }
-    if (is_used(narrow))
-      blur(planes, narrow, narrow, wanted[level], pyramid.blur[0], false, columns);
   }
   for (std::size_t level = levels - 1; level > finest; --level) {
     const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);

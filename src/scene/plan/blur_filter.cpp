@@ -32,11 +32,16 @@ double smallest_blurred_sigma(double error) {
   return 2 * std::sqrt(needed_product(error));
 }
 
-std::vector<float> blur_weights(double sigma2, double error) {
+int blur_reach(double sigma2, double error) {
   const double sigma = std::sqrt(sigma2);
-  int half_width = 1;
-  while (2 * std::erfc((half_width + 0.5) / sigma) > error)
-    ++half_width;
+  int reach = 1;
+  while (2 * std::erfc((reach + 0.5) / sigma) > error)
+    ++reach;
+  return reach;
+}
+
+std::vector<float> blur_weights(double sigma2, double error) {
+  const int half_width = blur_reach(sigma2, error);
   std::vector<double> weights;
   double sum = 0;
   for (int k = -half_width; k <= half_width; ++k) {

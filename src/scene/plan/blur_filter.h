@@ -19,10 +19,12 @@ double smallest_blurred_sigma(double error);
 
 // More weights than this no blur has (kernels/resolve): a wider one would cost more than the
 // splats' width that it saves.
-constexpr std::size_t most_blur_weights = 64;
+constexpr int most_blur_weights = 64;
 
-// Weights of one axis for the pixels -n .. n, adding up to 1. What lies beyond n is less
-// than `error` of the light.
+// How far a blur reaches, in pixels: beyond lies less than `error` of the light.
+int blur_reach(double sigma2, double error);
+
+// Weights of one axis for the pixels -n .. n, n being its reach, adding up to 1.
 std::vector<float> blur_weights(double sigma2, double error);
 
 }  // namespace splotchcl

@@ -25,11 +25,8 @@ int ceil_divide(int value, int by) {
 
 // Guard pixels whose values a blur needs beyond those that refining reads.
 int blurred_guard(const GridPyramid& pyramid) {
-  const auto reach = [&pyramid](double sigma2) {
-    return static_cast<int>(blur_weights(sigma2, pyramid.blur_error).size() / 2);
-  };
-  const int reached = reach(pyramid.blur[1] - pyramid.blur[0]) + reach(pyramid.blur[0]);
-  return guard_pixels + reached + reached % 2;
+  const int reach = blur_reach(pyramid.blurs.back(), pyramid.blur_error);
+  return guard_pixels + reach + reach % 2;
 }
 
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
@@ -46,48 +43,61 @@ double brightest_coarse_peak(const KernelSettings& kernel, double error) {
 }
 
 // Splats of sigma >= smallest_sigma are drawn narrower, where the blur that makes up for it has not
-// too many weights, as it has for tolerances of some 1e-6.
-void choose_blur(double smallest_sigma, GridPyramid& pyramid) {
-  pyramid.blur[0] = largest_blur(smallest_sigma, pyramid.blur_error);
-  pyramid.blur[1] = largest_blur(std::sqrt(2.0) * smallest_sigma, pyramid.blur_error);
-  for (const double sigma2 : {pyramid.blur[0], pyramid.blur[1] - pyramid.blur[0]}) {
-    if (blur_weights(sigma2, pyramid.blur_error).size() > most_blur_weights)
-      pyramid.is_blurred = false;
+// too many weights, as it has for tolerances of some 1e-6. An octave of widths is shared out among
+// so many grids.
+std::vector<double> choose_blurs(double smallest_sigma, double error, int count) {
+  std::vector<double> blurs;
+  for (int i = 0; i < count; ++i) {
+    const double smallest = std::exp2(static_cast<double>(i) / count) * smallest_sigma;
+    blurs.push_back(largest_blur(smallest, error));
   }
+  const int widest = 2 * blur_reach(blurs.back(), error) + 1;
+  return widest <= most_blur_weights ? blurs : std::vector<double>();
 }
 
 // How a relative error of the splats on coarse grids is spent: a fifth on the blur, which
 // needs the least of it, the rest on the interpolation.
 void choose_filters(const KernelSettings& kernel, float mean_sigma, double error,
-                    GridPyramid& pyramid) {
+                    int blurs_of_level, GridPyramid& pyramid) {
   constexpr double blur_part = 0.2;
   pyramid.refinement = choose_refinement((1 - blur_part) * error);
   pyramid.coarse_peak = static_cast<float>(brightest_coarse_peak(kernel, error));
   double smallest_sigma =
       std::max(pyramid.refinement.smallest_sigma, static_cast<double>(mean_sigma));
   // A blur would carry light over the edge of a cloud that is cut.
-  pyramid.is_blurred = !kernel.cut;
-  if (pyramid.is_blurred) {
+  if (!kernel.cut) {
     pyramid.blur_error = blur_part * error;
     smallest_sigma = std::max(smallest_sigma, smallest_blurred_sigma(pyramid.blur_error));
-    choose_blur(smallest_sigma, pyramid);
+    pyramid.blurs = choose_blurs(smallest_sigma, pyramid.blur_error, blurs_of_level);
   }
   pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
 }
 
+bool has_level(const Frame& frame, int level) {
+  return level < most_levels &&
+         ceil_divide(std::max(frame.width, frame.height), 1 << level) >= smallest_coarse_side;
+}
+
 void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
-  const int guard = pyramid.is_blurred ? blurred_guard(pyramid) : guard_pixels;
-  for (int level = 1; level < most_levels; ++level) {
+  const int guard = pyramid.is_blurred() ? blurred_guard(pyramid) : guard_pixels;
+  for (int level = 1; has_level(frame, level); ++level) {
     const int width = ceil_divide(frame.width, 1 << level);
     const int height = ceil_divide(frame.height, 1 << level);
-    if (std::max(width, height) < smallest_coarse_side) break;
     pyramid.level_grids.push_back(static_cast<int>(pyramid.grids.size()));
     const PictureGrid grid = {level, width + 2 * guard, height + 2 * guard, guard};
-    pyramid.grids.insert(pyramid.grids.end(), pyramid.is_blurred ? 2 : 1, grid);
+    pyramid.grids.insert(pyramid.grids.end(), pyramid.grids_of_level(), grid);
   }
 }
 
 }  // namespace
+
+int most_blurs(const Frame& frame) {
+  constexpr int most_grids = 32, most = 4;  // bits of used_grids (records.h); MOST_BLURS (splat.h)
+  int coarse_levels = 0;
+  while (has_level(frame, coarse_levels + 1))
+    ++coarse_levels;
+  return 1 + most * coarse_levels <= most_grids ? most : most / 2;
+}
 
 GridPyramid make_single_grid(const Frame& frame) {
   GridPyramid pyramid;
@@ -97,9 +107,9 @@ GridPyramid make_single_grid(const Frame& frame) {
   return pyramid;
 }
 
-GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error) {
+GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error, int blurs_of_level) {
   GridPyramid pyramid = make_single_grid(frame);
-  choose_filters(frame.kernel, mean_sigma, error, pyramid);
+  choose_filters(frame.kernel, mean_sigma, error, blurs_of_level, pyramid);
   append_coarse_grids(frame, pyramid);
   return pyramid;
 }

@@ -10,7 +10,11 @@ GridPyramid make_single_grid(const Frame& frame);
 
 // The grids of a sum, from the picture's own pixels to ever coarser ones, for a relative error
 // of the splats drawn there. `mean_sigma`: narrower splats need means, which coarse grids do
-// not know.
-GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error);
+// not know. `blurs_of_level`: how many grids a coarse level has, where they are blurred; a power
+// of two up to most_blurs().
+GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error, int blurs_of_level);
+
+// How many grids a coarse level may have in this picture.
+int most_blurs(const Frame& frame);
 
 }  // namespace splotchcl

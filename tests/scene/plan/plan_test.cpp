@@ -141,9 +141,9 @@ TEST(Plan, BlursByNoMoreWeightsThanKernelsTake) {
     Frame frame = frame_of({component(Kind::none)});
     frame.tolerance = tolerance;
     const GridPyramid pyramid = make_plan(frame).pyramid;
-    if (!pyramid.is_blurred) continue;
+    if (!pyramid.is_blurred()) continue;
     blurs = true;
-    for (const double sigma2 : {pyramid.blur[0], pyramid.blur[1] - pyramid.blur[0]})
+    for (const double sigma2 : pyramid.blurs)
       EXPECT_LE(blur_weights(sigma2, pyramid.blur_error).size(), most_blur_weights) << tolerance;
   }
   EXPECT_TRUE(blurs);
