@@ -54,6 +54,8 @@ class OctaveSample {
   double crowded_light(bool is_sample) const {
     double most = 0;
     for (const auto& [cell, sampled] : cells_) {
+      // Four cells of one particle each are too few, so a square that tells something has another.
+      if (is_sample && sampled.count < fewest / 4) continue;
       const auto x = static_cast<std::int32_t>(cell >> 32);
       const auto y = static_cast<std::int32_t>(cell & 0xffffffffu);
       // The four squares of two cells by two with this one.

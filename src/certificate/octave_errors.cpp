@@ -45,6 +45,11 @@ double without_widening(double sigma, const FramePlan& plan) {
   return std::sqrt(std::max(0.0, sigma * sigma - static_cast<double>(plan.splats.widening)));
 }
 
+// In pixels of its grid.
+double widest_sigma_on(int level, int octave) {
+  return std::ldexp(widest_sigma(octave), -level);
+}
+
 double light_of(int octave, const FramePlan& plan) {
   return plan.needs.widths[static_cast<std::size_t>(octave)].light;
 }
@@ -196,6 +201,9 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
       crop_y_(frame.crop.y),
       ending_side_(cells.endings.side),
       peak_side_(cells.peaks.side),
+      light_cells_(
+          static_cast<int>(std::ceil(light_reach * widest_sigma_on(level_, octave_) / peak_side_))),
+      light_of_cell_(pi * std::pow(widest_sigma_on(level_, octave_) / peak_side_, 2)),
       ending_(ending_of(octave_, frame, plan)),
       peak_error_(error_of_peak(octave_, level_, frame, plan)),
       are_bright_means_(are_bright_means(octave_, level_, frame, plan)),
@@ -306,13 +314,14 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
   if (most <= negligible) return most;
   double largest = 0;
   const CellRange here = cells_of(block, peak_side_);
+  const bool fades = peak_weights_.back() < 1;
   const CellRange squares = {std::max(range.x0 - 1, -1), std::min(range.x1, squares_across_ - 1),
                              std::max(range.y0 - 1, -1), std::min(range.y1, squares_along_ - 1)};
   const auto weight = [&](int rows, int columns) {
     return peak_weights_[static_cast<std::size_t>(std::max(rows, columns))];
   };
   // Squares that hold a cell of the block's columns, and those so many cells to either side.
-  const int first = here.x0 - 1, end = here.x1;
+  const int first = fades ? here.x0 - 1 : squares.x0, end = fades ? here.x1 : squares.x1;
   const int left = std::clamp(first, squares.x0, squares.x1);
   const int right = std::clamp(end, left, squares.x1);
   for (int y = squares.y0; y < squares.y1; ++y) {
@@ -340,12 +349,9 @@ double OctaveErrors::of_places(const PixelBlock& block) const {
 }
 
 double OctaveErrors::light(const PixelBlock& block) const {
-  const double sigma = std::ldexp(widest_sigma(octave_), -level_);
-  const int reach = static_cast<int>(std::ceil(light_reach * sigma / peak_side_));
-  const CellRange range = cells_of(block, peak_side_).widened(reach);
-  const double area =
-      static_cast<double>(range.x1 - range.x0) * (range.y1 - range.y0) * peak_side_ * peak_side_;
-  return peaks_.over(range) * pi * sigma * sigma / area;
+  const CellRange range = cells_of(block, peak_side_).widened(light_cells_);
+  const double cells = static_cast<double>(range.x1 - range.x0) * (range.y1 - range.y0);
+  return peaks_.over(range) * light_of_cell_ / cells;
 }
 
 }  // namespace splotchcl

@@ -67,6 +67,8 @@ class OctaveErrors {
   int left_, top_;       // as in PeakCells
   int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;
+  int light_cells_;       // over so many to each side light is averaged
+  double light_of_cell_;  // the mean of a cell with one peak of 1
   double ending_, peak_error_;
   bool are_bright_means_;      // all splats of the octave
   double narrowest_, widest_;  // sigma, without the widening
