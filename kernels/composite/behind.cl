@@ -1,24 +1,28 @@
 // A layer that was worked out pixel by pixel, put behind what the planes of the picture's own grid
 // hold: of clouds around the camera, which are no splats. In sums it is added.
 
-// Work-item (pixel of the crop, row). `layer` has the planes of a pixel one after the other, each
+// Work-item (some pixels of the crop side by side, row): what a pixel takes is so little that an
+// item of its own would take longer. `layer` has the planes of a pixel one after the other, each
 // p.width * p.height floats.
 __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
                          __global float* planes, __global const float* layer) {
-  const int x = (int)get_global_id(0), y = (int)get_global_id(1);
+  const int x = (int)get_global_id(0) * PIXELS_BEHIND, y = (int)get_global_id(1);
   if (x >= p.width || y >= p.height) return;
-  const Grid grid = grids[0];
-  __global float* own = planes + pixel_at(grid, 0, p.crop_x + x, p.crop_y + y);
+  const int count = min(PIXELS_BEHIND, p.width - x);
+  __global const Grid* grid = grids;
+  __global float* own = planes + pixel_at(*grid, 0, p.crop_x + x, p.crop_y + y);
   __global const float* behind = layer + (size_t)y * p.width + x;
-  const size_t plane = grid.plane_size, layer_plane = (size_t)p.width * p.height;
+  const size_t plane = grid->plane_size, layer_plane = (size_t)p.width * p.height;
   for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < count; ++i) {
 #ifdef LIGHT_ORDERED
-    __global float* opacity = own + (c + 3) * plane;
-    const float transmittance = transmittance_of(*opacity);
-    own[c * plane] += transmittance * behind[c * layer_plane];
-    *opacity = carry_behind(*opacity, transmittance, behind[(c + 3) * layer_plane]);
+      __global float* opacity = own + (c + 3) * plane + i;
+      const float transmittance = transmittance_of(*opacity);
+      own[c * plane + i] += transmittance * behind[c * layer_plane + i];
+      *opacity = carry_behind(*opacity, transmittance, behind[(c + 3) * layer_plane + i]);
 #else
-    own[c * plane] += behind[c * layer_plane];
+      own[c * plane + i] += behind[c * layer_plane + i];
 #endif
+    }
   }
 }

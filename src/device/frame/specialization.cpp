@@ -334,8 +334,13 @@ ProgramSource Specialization::behind() const {
             {"splat.h", "composite.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl",
              "extended_lanes.cl", "behind_extended.cl"}};
   }
-  return {defines + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
+  return {defines + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE") +
+              define("PIXELS_BEHIND " + std::to_string(pixels_behind())),
           {"splat.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "behind.cl"}};
+}
+
+int Specialization::pixels_behind() const {
+  return extended_ ? 8 : rows_ ? 64 : 1;
 }
 
 ProgramSource Specialization::certify() const {

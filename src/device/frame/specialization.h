@@ -70,6 +70,7 @@ class Specialization {
   // Of clouds around the camera: which they are, and their layers.
   ProgramSource list_around() const;
   ProgramSource behind() const;
+  int pixels_behind() const;  // of a work-item of that
   ProgramSource resolve() const;
   // These are the same for all frames; rows as the device has them.
   static ProgramSource interpolate(bool rows);

@@ -344,7 +344,7 @@ void Surroundings::put_behind(const SmoothPicture& layer, const Planes& planes) 
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
   const Buffer<float> behind = planes_of(layer);
-  const std::size_t pixels_of_item = context_.plan.is_extended() ? 8 : 1;
+  const auto pixels_of_item = static_cast<std::size_t>(context_.specialization.pixels_behind());
   const std::size_t items =
       (static_cast<std::size_t>(crop.width) + pixels_of_item - 1) / pixels_of_item;
   Launch(device, "surroundings",
