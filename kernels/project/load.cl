@@ -101,11 +101,25 @@ typedef struct ParticleLanes {
 #endif
 } ParticleLanes;
 
+#ifdef LANES_8
+// Columns are read once, from front to back, but several of them, and hardware asks for no line
+// beyond a page. So many particles ahead.
+#define PARTICLES_AHEAD 256
+INLINED void ask_for_particles(const Columns columns, uint i, const ProjectParameters p) {
+  const uint ahead = i + PARTICLES_AHEAD;
+  ask_for(columns.positions + (size_t)ahead * 3);
+  ask_for(columns.positions + (size_t)ahead * 3 + 16);
+  ask_for(columns.smoothing_lengths + (size_t)ahead * p.smoothing_length_stride);
+  ask_for(columns.colors + (size_t)ahead * p.color_stride);
+}
+#endif
+
 // Particles from i on; those at or beyond `end` do not exist.
 INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
                                      const ProjectParameters p) {
   ParticleLanes particles;
 #ifdef LANES_8
+  ask_for_particles(columns, i, p);
   particles.exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
 #else
   particles.exists = 1;

@@ -142,7 +142,7 @@ bool Specialization::finds_tiles(ProjectOutput output) const {
 // Where the camera sees particles.
 std::vector<std::string> Specialization::view_files() const {
   std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
-                                    "lanes.cl", "extended.cl", "load.cl"};
+                                    "lanes.cl", "extended.cl", "prefetch.cl", "load.cl"};
   if (!rows_) files.insert(files.begin(), "group.h");
   if (is_wide_angle(projection_))
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
@@ -188,7 +188,7 @@ ProgramSource Specialization::interpolate(bool rows) {
 
 ProgramSource Specialization::boxes(bool rows, bool vector_colors) {
   return {define_if(rows, "LANES_8") + define_if(vector_colors, "VECTOR_COLORS"),
-          {"splat.h", "project.h", "common.cl", "lanes.cl", "load.cl", "boxes.cl"}};
+          {"splat.h", "project.h", "common.cl", "lanes.cl", "prefetch.cl", "load.cl", "boxes.cl"}};
 }
 
 ProgramSource Specialization::scan_blocks() {
