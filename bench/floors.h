@@ -28,7 +28,7 @@ struct ListWork {
 // What a frame gave its stages to do. Bytes are those of one.
 struct FrameCounts {
   bool is_ordered = false;
-  bool is_collected = true;   // for the check after drawing: not at tolerance 0
+  bool is_collected = true;   // for the check after drawing, where there are errors of splats
   int slabs = 0;              // that are laid at most
   double particles = 0;       // in its components
   double particle_bytes = 0;  // of all columns, the mean

@@ -115,7 +115,7 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
   const Specialization specialization(frame, plan, device.traits);
   FrameCounts counts;
   counts.is_ordered = plan.needs_sort();
-  counts.is_collected = !plan.is_extended();
+  counts.is_collected = plan.has_errors_of_splats;
   counts.slabs = plan.slabs;
   counts.particles = static_cast<double>(stats.particles);
   counts.particle_bytes = static_cast<double>(particle_bytes(frame)) / counts.particles;

@@ -162,6 +162,10 @@ struct FramePlan {
   int slabs = 0;
   LayerLimits layers;
 
+  // Whether the drawn splats have errors that add up, for the check to be told of them. The cut
+  // values at pixel centers that the original program draws have none without coarse grids.
+  bool has_errors_of_splats = true;
+
   bool needs_sort() const { return light == LightPlan::ordered; }
   bool is_extended() const { return precision == Precision::extended; }
 };

@@ -53,8 +53,23 @@ double part_of_all_splats(const CollectedSplats& splats, const FramePlan& plan) 
   return of_exp + plan.shares.pixel_mean + 8 * rounding + of_sums;
 }
 
-// Roundings of the light itself.
-constexpr double of_the_light = 8 * 0x1p-24;
+// What pixels err by whatever splats lie there.
+double error_of_all_pixels(const CollectedSplats& splats, const FramePlan& plan) {
+  constexpr double of_the_light = 8 * 0x1p-24;  // roundings of the light itself
+  return plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0) +
+         splats.around * plan.shares.promise;
+}
+
+// The same in all blocks.
+Certificate even_certificate(const Image& image, double error, double promise) {
+  Certificate certificate;
+  certificate.blocks = BlockErrors(image.width, image.height);
+  std::fill(certificate.blocks.errors.begin(), certificate.blocks.errors.end(),
+            static_cast<float>(error));
+  certificate.error_of_promise = error / promise;
+  certificate.worst.rest = certificate.error_of_promise;
+  return certificate;
+}
 
 // All that the approximations of a drawn frame do to its blocks of pixels.
 class FrameErrors {
@@ -65,8 +80,7 @@ class FrameErrors {
         is_bound_(plan.certify),
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
-        rest_(plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0) +
-              splats.around * plan.shares.promise),
+        rest_(error_of_all_pixels(splats, plan)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) + part_of_colors(frame) : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
@@ -193,6 +207,8 @@ class FrameErrors {
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
+  if (!plan.has_errors_of_splats)
+    return even_certificate(image, error_of_all_pixels(splats, plan), plan.shares.promise);
   const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
   for_blocks(blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
@@ -219,13 +235,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
 }
 
 Certificate certify_extended(const Image& image, const Frame& frame) {
-  Certificate certificate;
-  certificate.blocks = BlockErrors(image.width, image.height);
-  std::fill(certificate.blocks.errors.begin(), certificate.blocks.errors.end(),
-            static_cast<float>(extended_tolerance));
-  certificate.error_of_promise = extended_tolerance / std::max(frame.tolerance, extended_tolerance);
-  certificate.worst.rest = certificate.error_of_promise;
-  return certificate;
+  return even_certificate(image, extended_tolerance, std::max(frame.tolerance, extended_tolerance));
 }
 
 }  // namespace splotchcl

@@ -24,10 +24,10 @@ class FrameBuffers {
 
   std::uint64_t planes() const { return layout_.plane_floats * sizeof(float); }
 
-  // Of planes, and of what the check collects beside them; extended precision has no such cells.
+  // Of planes, and of what the check collects beside them.
   std::uint64_t light() const {
     shared::CertifyParameters cells{};
-    if (!specialization_.is_extended()) lay_out_cells(specialization_, cells);
+    if (plan_.has_errors_of_splats) lay_out_cells(specialization_, cells);
     return planes() + std::uint64_t{layout_.tile_count} * cells.cells_per_tile * sizeof(float);
   }
 

@@ -62,7 +62,7 @@ void CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::Grid&
 }  // namespace
 
 Certifier::Certifier(const StageContext& context) : context_(context) {
-  if (context.plan.is_extended()) return;
+  if (!context.plan.has_errors_of_splats) return;
   const Specialization& specialization = context.specialization;
   program_ = context.device.programs.get(specialization.certify());
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
@@ -80,7 +80,7 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
 }
 
 Buffer<float> Certifier::room() const {
-  if (context_.plan.is_extended()) return {};
+  if (!context_.plan.has_errors_of_splats) return {};
   return context_.device.pool.get<float>(
       std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile, "peak cells");
 }
@@ -95,7 +95,7 @@ Buffer<float> Certifier::take_cells() {
 }
 
 const Buffer<float>& Certifier::begin_cells() {
-  if (!context_.plan.is_extended() && !has_started()) start();
+  if (context_.plan.has_errors_of_splats && !has_started()) start();
   return cells_;
 }
 
@@ -104,7 +104,7 @@ void Certifier::put_cells(Buffer<float> cells) {
 }
 
 void Certifier::collect(const TileLists& lists) {
-  if (context_.plan.is_extended() || lists.segment_count == 0) return;
+  if (!context_.plan.has_errors_of_splats || lists.segment_count == 0) return;
   if (!has_started()) start();
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;

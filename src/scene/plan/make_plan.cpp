@@ -106,6 +106,9 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   plan.mean_error = error_of_means(plan.precision);
   plan.grid_peak_error = plan.shares.coarse_grids / response;
   plan.pyramid = choose_pyramid(frame, plan);
+  plan.has_errors_of_splats =
+      !plan.is_extended() && (plan.certify || !frame.kernel.cut || takes_pixel_means(frame) ||
+                              plan.pyramid.grids.size() > 1);
   if (plan.is_extended()) {
     plan.places = {};
   } else {

@@ -134,6 +134,24 @@ TEST(Plan, SharesOutTheWholeTolerance) {
   }
 }
 
+// Cut values at pixel centers, as the original program draws them, leave nothing out.
+TEST(Plan, HasErrorsOfSplatsUnlessTheyAreCutValuesAtPixelCentersAlone) {
+  Frame frame = frame_of({component(Kind::none)});
+  frame.kernel.sampling = Sampling::center;
+  EXPECT_TRUE(make_plan(frame).has_errors_of_splats) << "where they end";
+  frame.kernel.cut = 1.8;
+  EXPECT_FALSE(make_plan(frame).has_errors_of_splats);
+  EXPECT_TRUE(make_plan(frame, {true, -1, true}).has_errors_of_splats) << "a bound has roundings";
+  frame.kernel.sampling = Sampling::mean;
+  EXPECT_TRUE(make_plan(frame).has_errors_of_splats) << "of means";
+  frame.kernel.sampling = Sampling::center;
+  frame.tolerance = 0.1;
+  frame.width = frame.height = 200;
+  EXPECT_TRUE(make_plan(frame).has_errors_of_splats) << "of coarse grids";
+  frame.tolerance = 0;
+  EXPECT_FALSE(make_plan(frame).has_errors_of_splats) << "none at tolerance 0";
+}
+
 // Smaller tolerances need wider blurs, and the kernels' arguments hold so many weights only.
 TEST(Plan, BlursByNoMoreWeightsThanKernelsTake) {
   bool blurs = false;
