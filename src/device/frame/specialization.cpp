@@ -141,8 +141,8 @@ bool Specialization::finds_tiles(ProjectOutput output) const {
 
 // Where the camera sees particles.
 std::vector<std::string> Specialization::view_files() const {
-  std::vector<std::string> files = {"splat.h",  "project.h",   "common.cl",
-                                    "lanes.cl", "extended.cl", "prefetch.cl", "load.cl"};
+  std::vector<std::string> files = {"splat.h",     "project.h",   "common.cl", "lanes.cl",
+                                    "extended.cl", "prefetch.cl", "load.cl"};
   if (!rows_) files.insert(files.begin(), "group.h");
   if (is_wide_angle(projection_))
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});

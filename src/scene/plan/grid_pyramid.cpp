@@ -43,8 +43,8 @@ double brightest_coarse_peak(const KernelSettings& kernel, double error) {
 }
 
 // Splats of sigma >= smallest_sigma are drawn narrower, where the blur that makes up for it has not
-// too many weights, as it has for tolerances of some 1e-6. An octave of widths is shared out among
-// so many grids.
+// too many weights. An octave of widths is shared out among so many grids, or fewer, whose blurs
+// are less wide.
 std::vector<double> choose_blurs(double smallest_sigma, double error, int count) {
   std::vector<double> blurs;
   for (int i = 0; i < count; ++i) {
@@ -52,7 +52,8 @@ std::vector<double> choose_blurs(double smallest_sigma, double error, int count)
     blurs.push_back(largest_blur(smallest, error));
   }
   const int widest = 2 * blur_reach(blurs.back(), error) + 1;
-  return widest <= most_blur_weights ? blurs : std::vector<double>();
+  if (widest <= most_blur_weights) return blurs;
+  return count > 1 ? choose_blurs(smallest_sigma, error, count / 2) : std::vector<double>();
 }
 
 // How a relative error of the splats on coarse grids is spent: a fifth on the blur, which
