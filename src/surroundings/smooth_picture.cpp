@@ -168,14 +168,20 @@ class SmoothPicture::Nodes {
         pixels[c * plane] = nodes[c];
       return;
     }
+    std::array<const double*, taps> weights;
+    for (std::size_t k = 0; k < taps; ++k)
+      weights[k] = weights_[k].data() + phase;
     for (std::size_t c = 0; c < channels_; ++c) {
+      std::array<double, taps> of_taps;
+      for (std::size_t k = 0; k < taps; ++k)
+        of_taps[k] = nodes[k * channels_ + c];
       double* const of_channel = pixels + c * plane;
-      std::fill_n(of_channel, count, 0.0);
-      for (std::size_t k = 0; k < taps; ++k) {
-        const double node = nodes[k * channels_ + c];
-        const double* const weights = weights_[k].data() + phase;
-        for (int i = 0; i < count; ++i)
-          of_channel[i] += weights[i] * node;
+      // All taps of a pixel at once: sums stay in registers.
+      for (int i = 0; i < count; ++i) {
+        double sum = weights[0][i] * of_taps[0];
+        for (std::size_t k = 1; k < taps; ++k)
+          sum += weights[k][i] * of_taps[k];
+        of_channel[i] = sum;
       }
     }
   }

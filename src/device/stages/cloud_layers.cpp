@@ -22,19 +22,23 @@ void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint6
 std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint64_t>& keys,
                                                      std::uint64_t first, std::size_t begin_cloud,
                                                      std::size_t end_cloud) const {
-  const auto begin = clouds_.begin() + static_cast<std::ptrdiff_t>(begin_cloud);
-  const auto open_end = clouds_.begin() + static_cast<std::ptrdiff_t>(end_cloud);
+  std::vector<std::uint64_t> cloud_keys;
+  for (std::size_t k = begin_cloud; k < end_cloud; ++k)
+    cloud_keys.push_back(clouds_[k].key);
   // Of each of these clouds the splats between it and the one before.
-  std::vector<std::uint64_t> between(static_cast<std::size_t>(open_end - begin) + 1);
+  std::vector<std::uint64_t> between(cloud_keys.size() + 1);
   for (const std::uint64_t key : keys) {
-    const auto behind = std::lower_bound(
-        begin, open_end, key,
-        [](const CloudAround& cloud, std::uint64_t splat) { return cloud.key < splat; });
-    ++between[static_cast<std::size_t>(behind - begin)];
+    // Clouds around the camera are nearer than nearly all splats.
+    if (cloud_keys.empty() || cloud_keys.back() < key) {
+      ++between.back();
+      continue;
+    }
+    const auto behind = std::lower_bound(cloud_keys.begin(), cloud_keys.end(), key);
+    ++between[static_cast<std::size_t>(behind - cloud_keys.begin())];
   }
   std::vector<std::uint64_t> places;
-  for (auto cloud = begin; cloud != open_end; ++cloud) {
-    first += between[static_cast<std::size_t>(cloud - begin)];
+  for (std::size_t k = 0; k < cloud_keys.size(); ++k) {
+    first += between[k];
     places.push_back(first);
   }
   return places;
