@@ -131,7 +131,7 @@ Drawn on_grid(const reference::Splat& splat, std::uint32_t g, const Stages& stag
   const double pixel = std::ldexp(1.0, plan.pyramid.grids[g].level);
   Drawn drawn{};
   drawn.by_mean = splat.sigma < static_cast<double>(plan.splats.mean_sigma);
-  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - blur_of_grid(plan, g));
+  drawn.sigma = std::sqrt(splat.sigma * splat.sigma / (pixel * pixel) - plan.pyramid.blur_of(g));
   drawn.x = splat.x / pixel + grid.guard;
   drawn.y = splat.y / pixel + grid.guard;
   for (int c = 0; c < 3; ++c) {

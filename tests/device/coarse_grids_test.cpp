@@ -62,13 +62,7 @@ TEST_P(CoarseGrids, GiveACropTheBitsOfTheWholePicture) {
   Frame frame = clouds(3, 30);
   const Image whole = draw_once(device, frame, GetParam());
   frame.crop = {21, 13, 37, 29};
-  const Image part = draw_once(device, frame, GetParam());
-  for (int y = 0; y < frame.crop.height; ++y) {
-    for (int x = 0; x < frame.crop.width; ++x) {
-      for (int c = 0; c < 4; ++c)
-        ASSERT_EQ(part.at(x, y)[c], whole.at(21 + x, 13 + y)[c]) << x << ", " << y;
-    }
-  }
+  EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, frame.crop), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, CoarseGrids,

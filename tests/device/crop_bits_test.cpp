@@ -2,7 +2,6 @@
 // is drawn.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -32,16 +31,6 @@ class CropBits : public PictureTest, public testing::WithParamInterface<Composit
       if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
     }
     return frame;
-  }
-
-  // Rows of `part` whose bits are not those of `whole` there.
-  static int rows_that_differ(const Image& part, const Image& whole, const Rectangle& crop) {
-    int rows = 0;
-    for (int y = 0; y < crop.height; ++y) {
-      const std::size_t bytes = 4 * sizeof(float) * static_cast<std::size_t>(crop.width);
-      rows += std::memcmp(part.at(0, y), whole.at(crop.x, crop.y + y), bytes) != 0;
-    }
-    return rows;
   }
 };
 

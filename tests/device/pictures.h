@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -35,6 +36,16 @@ class PictureTest : public testing::Test {
  private:
   static inline std::unique_ptr<Renderer> rows_, groups_;
 };
+
+// Rows of `part` whose bits are not those of `whole` there.
+inline int rows_that_differ(const Image& part, const Image& whole, const Rectangle& crop) {
+  int rows = 0;
+  for (int y = 0; y < crop.height; ++y) {
+    const std::size_t bytes = 4 * sizeof(float) * static_cast<std::size_t>(crop.width);
+    rows += std::memcmp(part.at(0, y), whole.at(crop.x, crop.y + y), bytes) != 0;
+  }
+  return rows;
+}
 
 struct DrawnOnce {
   Image image;

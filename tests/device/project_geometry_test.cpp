@@ -154,7 +154,8 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
       ASSERT_LE(dy, center_bound(e, e.splat.y, frame.camera.center_y, unit_pixels));
       // Drawn narrower where its grid is blurred: undone with three more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double sigma = place.pixel * std::sqrt(drawn * drawn + blur_of_grid(plan, place.grid));
+      const double sigma =
+          place.pixel * std::sqrt(drawn * drawn + plan.pyramid.blur_of(place.grid));
       const double expected = stored_sigma(e.splat.sigma, plan);
       // Either form is right where the width is at the limit between them.
       const double limit = static_cast<double>(plan.splats.mean_sigma);
@@ -278,7 +279,7 @@ TEST_P(ProjectGeometry, WeightsAreTheOraclesInEveryModel) {
       if (std::abs(sigma - limit) < 1e-3 * limit) return;
       // Drawn narrower, it carries the same light: undone with eight more roundings.
       const double drawn = static_cast<double>(splat.sigma);
-      const double spread = 1 + blur_of_grid(plan, place.grid) / (drawn * drawn);
+      const double spread = 1 + plan.pyramid.blur_of(place.grid) / (drawn * drawn);
       const double expected = e.splat.weight * narrowing * narrowing * spread;
       const double bound = weight_bound(e) + 8 * unit;
       ASSERT_GE(static_cast<double>(splat.weight), expected * (1 - bound));

@@ -66,11 +66,6 @@ struct ListedSplat {
   std::uint64_t particle = 0;
 };
 
-// sigma^2 by which a grid is blurred afterwards, in pixels of its own.
-inline double blur_of_grid(const FramePlan& plan, std::uint32_t grid) {
-  return plan.pyramid.blur_of(grid);
-}
-
 // The stages of one frame, run one by one, with what they hand on read back. The frame should
 // have identities.
 class Stages {

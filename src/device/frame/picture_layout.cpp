@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/plan/blur_filter.h"
+#include "scene/plan/grid_pyramid.h"
 
 namespace splotchcl {
 namespace {
@@ -68,8 +68,7 @@ std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid
 // Where splats are drawn on the grids of a level: blurring looks at more than is wanted. All of a
 // level have the same part, so that the check may add up their cells.
 shared::GridPart drawn_part(const shared::GridPart& wanted, int level, const GridPyramid& pyramid) {
-  if (level == 0 || !pyramid.is_blurred()) return wanted;
-  return widened(wanted, blur_reach(pyramid.blurs.back(), pyramid.blur_error));
+  return level == 0 ? wanted : widened(wanted, reach_of_blurs(pyramid));
 }
 
 // The tiles that cover the part.

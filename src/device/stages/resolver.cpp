@@ -9,6 +9,7 @@
 #include "device/stages/clear_memory.h"
 #include "scene/memory_advice.h"
 #include "scene/plan/blur_filter.h"
+#include "scene/plan/grid_pyramid.h"
 #include "splotchcl/frame_check.h"
 
 namespace splotchcl {
@@ -80,10 +81,8 @@ Buffer<float> Resolver::room_for_columns() const {
   for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
     const shared::GridPart& part = wanted[level];
     floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
-    if (level > 0 && pyramid.is_blurred()) {
-      const int reach = blur_reach(pyramid.blurs.back(), pyramid.blur_error);
-      floats = std::max(floats, blurred_floats(part, reach));
-    }
+    if (level > 0 && pyramid.is_blurred())
+      floats = std::max(floats, blurred_floats(part, reach_of_blurs(pyramid)));
   }
   return context_.device.pool.get<float>(context_.specialization.planes() * floats,
                                          "blurred or refined columns");

@@ -23,12 +23,6 @@ int ceil_divide(int value, int by) {
   return (value + by - 1) / by;
 }
 
-// Guard pixels whose values a blur needs beyond those that refining reads.
-int blurred_guard(const GridPyramid& pyramid) {
-  const int reach = blur_reach(pyramid.blurs.back(), pyramid.blur_error);
-  return guard_pixels + reach + reach % 2;
-}
-
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
 // is exp(-cut^2) of the peak. Where many such edges cross, their errors have either sign:
 // at optical depth 1 there are 1 / peak splats, and the sum errs by about half the step
@@ -80,7 +74,8 @@ bool has_level(const Frame& frame, int level) {
 }
 
 void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
-  const int guard = pyramid.is_blurred() ? blurred_guard(pyramid) : guard_pixels;
+  // A blur needs values beyond those that refining reads.
+  const int reach = reach_of_blurs(pyramid), guard = guard_pixels + reach + reach % 2;
   for (int level = 1; has_level(frame, level); ++level) {
     const int width = ceil_divide(frame.width, 1 << level);
     const int height = ceil_divide(frame.height, 1 << level);
@@ -91,6 +86,10 @@ void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
 }
 
 }  // namespace
+
+int reach_of_blurs(const GridPyramid& pyramid) {
+  return pyramid.is_blurred() ? blur_reach(pyramid.blurs.back(), pyramid.blur_error) : 0;
+}
 
 int most_blurs(const Frame& frame) {
   constexpr int most_grids = 32, most = 4;  // bits of used_grids (records.h); MOST_BLURS (splat.h)

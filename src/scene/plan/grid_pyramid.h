@@ -14,6 +14,9 @@ GridPyramid make_single_grid(const Frame& frame);
 // of two up to most_blurs().
 GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error, int blurs_of_level);
 
+// Pixels of a coarse grid beside what is wanted that its blur looks at, the widest of its level.
+int reach_of_blurs(const GridPyramid& pyramid);
+
 // How many grids a coarse level may have in this picture.
 int most_blurs(const Frame& frame);
 
