@@ -210,10 +210,14 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   const float* const own_front = is_one_block ? 0 : front;
   if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) end = segment.begin;
 #endif
+  WideSplats waiting;
+  clear_waiting(&waiting);
   EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
     const int in_batch = (int)((k - segment.begin) % LANES);
     if (in_batch == 0) find_windows(entries + k, &windows);
+    const int2 rows = rows_of_entry(&windows, in_batch);
+    const int2 columns = columns_of_entry(&windows, in_batch);
     if (asked < ROWS_OF_TILE) {
       ask_for_rows(planes, grid, corner, asked, rows_at_a_time);
       asked += rows_at_a_time;
@@ -224,8 +228,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
       if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &depth_of_block, &p)) continue;
     } else
 #endif
-        if (!add_splat(tile, entries + k, rows_of_entry(&windows, in_batch),
-                       columns_of_entry(&windows, in_batch), &tile_of_splats, &depth_of_block, &p))
+        if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma) &&
+            !add_splat(tile, entries + k, rows, columns, &tile_of_splats, &depth_of_block, &p))
       continue;
     ++drawn;
 #ifdef LIGHT_ORDERED
@@ -233,6 +237,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #endif
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
+      add_waiting(tile, &waiting);
       add_block(tile, front);
       clear_planes(tile);
       depth_of_block = 0.0f;
@@ -245,6 +250,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
     return;
   }
 #endif
+  add_waiting(tile, &waiting);
 #ifdef SPLATS_OF_BLOCK
   add_block(tile, front);
   const float* const all = front;

@@ -89,31 +89,15 @@ static inline float8 seven_means(float first, float low, float sigma) {
   return means_between(first - 0.5f + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - low, sigma);
 }
 
-// Both axes of a wide splat: `first` as in fill_axis().
-INLINED void fill_axes(float* along_x, float first_x, int columns, float* along_y, float first_y,
-                       int rows, __global const TileSplat* splat, float mean_sigma) {
-  const float sigma = splat->sigma;
-#if defined(WINDOW_PAIRS) && !defined(ELLIPSES)
-  // Most wide splats: no call, and one inverse for both. Layers have no registers to spare for it.
-  if (sigma >= mean_sigma) {
-    const float inverse = inverse_of(sigma);
-    fill_center_values(along_x, first_x, LOW_X(*splat), columns, inverse);
-    fill_center_values(along_y, first_y, LOW_Y(*splat), rows, inverse);
-    return;
-  }
-#endif
-  fill_axis(along_x, first_x, LOW_X(*splat), columns, SIGMA_X(*splat), mean_sigma);
-  fill_axis(along_y, first_y, LOW_Y(*splat), rows, sigma, mean_sigma);
-}
-
 static inline void add_wide_splat(float* tile, __global const TileSplat* splat, int2 rows,
                                   int2 columns, float mean_sigma, int form) {
   float along_x[TILE_WIDTH + 16], along_y[2 * LIMITS];
   columns.x = first_of_eights(columns);
   const float first_y = (float)rows.x + FIRST_Y - splat->y;
   const int rows_count = rows.y - rows.x + 1;
-  fill_axes(along_x, (float)columns.x + FIRST_X - splat->x, columns.y - columns.x + 1, along_y,
-            first_y, rows_count, splat, mean_sigma);
+  fill_axis(along_x, (float)columns.x + FIRST_X - splat->x, LOW_X(*splat),
+            columns.y - columns.x + 1, SIGMA_X(*splat), mean_sigma);
+  fill_axis(along_y, first_y, LOW_Y(*splat), rows_count, splat->sigma, mean_sigma);
   fill_limits(along_y, first_y, LOW_Y(*splat), rows_count, splat);
   Window window;
   window.x = columns.x;
@@ -124,12 +108,6 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
       update_window_of_16(tile, &window, load_sixteen(along_x + (window.x - columns.x)), along,
                           splat, form);
     }
-  }
-#elif defined(WINDOW_PAIRS)
-  for (; columns.y - window.x >= 8; window.x += 16) {
-    const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
-    const float* across = along_x + (window.x - columns.x);
-    update_two_windows(tile, &window, load_eight(across), load_eight(across + 8), along, splat);
   }
 #endif
   for (; window.x <= columns.y; window.x += 8) {
