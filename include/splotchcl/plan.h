@@ -119,8 +119,8 @@ struct PlaceLimits {
 
 // How layers are put together.
 struct LayerLimits {
-  // Optical depths up to which 2, 3 and 4 terms of phi's series serve.
-  float phi_short = 0, phi_third = 0, phi_series = 0;
+  // Optical depths up to which 1, 2, 3 and 4 terms of phi's series serve.
+  float phi_first = 0, phi_short = 0, phi_third = 0, phi_series = 0;
   float stop = 0;  // a tile whose transmittance is at most this is finished; below 0: never
   // Light may show through opacities close to 1: transmittances are carried there.
   bool keeps_transmittance = false;

@@ -210,7 +210,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   const float* const own_front = is_one_block ? 0 : front;
   if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) end = segment.begin;
 #endif
-  WideSplats waiting;
+  WaitingSplats waiting;
   clear_waiting(&waiting);
   EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
@@ -225,15 +225,24 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
 #ifdef CLOUDS_IN_LISTS
     const float sigma = entries[k].sigma;
     if (is_cloud(sigma)) {
+      add_waiting(tile, &waiting);
       if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &depth_of_block, &p)) continue;
     } else
 #endif
-        if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma) &&
-            !add_splat(tile, entries + k, rows, columns, &tile_of_splats, &depth_of_block, &p))
-      continue;
+    {
+      // Lists have splats that do not touch the tile, too (splat.h), and those of a crop other
+      // ones.
+      if (rows.x > rows.y || columns.x > columns.y) continue;
+      const int form = form_of_splat(entries + k, &tile_of_splats, &depth_of_block, &p);
+      if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma, form))
+        add_splat(tile, entries + k, rows, columns, &tile_of_splats, form);
+    }
     ++drawn;
 #ifdef LIGHT_ORDERED
-    if (drawn % 256u == 0u && is_opaque(own_front, planes, grid, corner, tile, p.stop)) break;
+    if (drawn % 256u == 0u) {
+      add_waiting(tile, &waiting);
+      if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) break;
+    }
 #endif
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
@@ -244,13 +253,13 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
     }
 #endif
   }
+  add_waiting(tile, &waiting);
 #ifdef LIGHT_ORDERED
   if (is_one_block) {
     add_block_to_planes(tile, planes, grid, corner);
     return;
   }
 #endif
-  add_waiting(tile, &waiting);
 #ifdef SPLATS_OF_BLOCK
   add_block(tile, front);
   const float* const all = front;

@@ -22,17 +22,20 @@ static inline void fill_rows(float* values, const Window* window, __global const
   }
 }
 
-// Whether it touches the tile: as in splat_rows.cl.
-static inline int add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
-                            const SplatTile* of_tile, float* depth_of_block,
-                            const CompositeParameters* p) {
-  if (rows.x > rows.y || columns.x > columns.y) return 0;
-  int form = 0;
+// As in splat_rows.cl.
 #ifdef LIGHT_ORDERED
+static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
+                                float* depth_of_block, const CompositeParameters* p) {
   const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));
   *depth_of_block += deepest;
-  form = form_of_layer(deepest, *depth_of_block, p);
+  return form_of_layer(deepest, *depth_of_block, p);
+}
+#else
+#define form_of_splat(splat, of_tile, depth_of_block, p) 0
 #endif
+
+static inline void add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                             const SplatTile* of_tile, int form) {
   float values[8 * TILE_HEIGHT];
   Window window;
   window.y = rows.x;
@@ -42,5 +45,4 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
     fill_rows(values, &window, splat, of_tile);
     update_window(tile, &window, (float8)(1.0f), values, splat, form);
   }
-  return 1;
 }

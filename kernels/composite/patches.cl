@@ -1,15 +1,13 @@
-// Splats of sums that are wider or higher than seven pixels wait until there are some, and then a
-// patch of the tile stays in registers while all of them are added to it. Row by row each splat
-// would load and store pixels that the one before has just stored, and a processor waits for that.
-// Only sums may be added up in another order.
-#if !defined(LIGHT_ORDERED) && SUMMED == 3 && !defined(FACE_OF_CUBE)
-#define WIDE_SPLATS_WAIT
+// Splats that wait until there are some, and then a patch of the tile stays in registers while all
+// of them are added to it, one after the other. Row by row each splat would load and store pixels
+// that the one before has just stored, and a processor waits for that.
+#if !defined(FACE_OF_CUBE) && (defined(LIGHT_ORDERED) || SUMMED == 3)
+#define SPLATS_WAIT
 
 // As many rows as leave registers for a splat.
 #ifdef ROWS_OF_16
 #define PATCH float16
 #define PATCH_WIDTH 16
-#define PATCH_HEIGHT 8
 #define PATCH_LANES (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define load_patch load_sixteen
 #define store_patch store_sixteen
@@ -17,47 +15,62 @@
 #else
 #define PATCH float8
 #define PATCH_WIDTH 8
-#define PATCH_HEIGHT 4
 #define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define load_patch load_eight
 #define store_patch store_eight
 #define cut_shape_of_patch cut_shape
+#endif
+#ifdef LIGHT_ORDERED
+#define PATCH_HEIGHT (PATCH_WIDTH / 4)
+#else
+#define PATCH_HEIGHT (PATCH_WIDTH / 2)
 #endif
 #if TILE_WIDTH % PATCH_WIDTH != 0 || TILE_HEIGHT % PATCH_WIDTH != 0
 #error "a tile is not made of whole patches"
 #endif
 
 // A bit of a word for each.
-#define MOST_WIDE_SPLATS 32
+#define MOST_WAITING_SPLATS 32
 
 // Splats that wait, one behind the other: their shape along both axes, zero beside their square
 // where no limits cut it.
-typedef struct WideSplats {
-  float across[MOST_WIDE_SPLATS * TILE_WIDTH], along[MOST_WIDE_SPLATS * TILE_HEIGHT];
+typedef struct WaitingSplats {
+  float across[MOST_WAITING_SPLATS * TILE_WIDTH], along[MOST_WAITING_SPLATS * TILE_HEIGHT];
 #ifdef CUT_BY_ROWS
-  float limits[MOST_WIDE_SPLATS * TILE_HEIGHT];  // as fill_limits() has them
-  float x[MOST_WIDE_SPLATS], y[MOST_WIDE_SPLATS], squeeze[MOST_WIDE_SPLATS];
+  float limits[MOST_WAITING_SPLATS * TILE_HEIGHT];  // as fill_limits() has them
+  float x[MOST_WAITING_SPLATS], y[MOST_WAITING_SPLATS], squeeze[MOST_WAITING_SPLATS];
 #endif
-  float summed[MOST_WIDE_SPLATS * SUMMED];
+  float light[MOST_WAITING_SPLATS * PLANES];  // what is summed, or E and A
+#ifdef LIGHT_ORDERED
+  uint of_two_terms;  // bits of those whose layers take them
+#endif
   uint of_columns[TILE_WIDTH / PATCH_WIDTH];  // bits of the splats that reach into patches of
   uint of_rows[TILE_HEIGHT / PATCH_HEIGHT];   // these columns, and of these rows
   uint count;
-} __attribute__((aligned(64))) WideSplats;
+} __attribute__((aligned(64))) WaitingSplats;
 
-static inline void clear_waiting(WideSplats* waiting) {
+static inline void clear_waiting(WaitingSplats* waiting) {
   waiting->count = 0;
+#ifdef LIGHT_ORDERED
+  waiting->of_two_terms = 0;
+#endif
   for (int i = 0; i < TILE_WIDTH / PATCH_WIDTH; ++i)
     waiting->of_columns[i] = 0;
   for (int i = 0; i < TILE_HEIGHT / PATCH_HEIGHT; ++i)
     waiting->of_rows[i] = 0;
 }
 
-// Whether a splat that touches `rows` and `columns` of the tile waits. Bright ones take other
-// formulas, one by one.
-static inline int waits_for_others(int2 rows, int2 columns, __global const TileSplat* splat) {
-  const int2 more = (int2)(columns.y - columns.x, rows.y - rows.x);
-  return max(more.x, more.y) >= 7 && min(more.x, more.y) >= 0 && SIGMA_X(*splat) > 0.0f &&
-         splat->sigma > 0.0f;
+// Whether a splat that touches `rows` and `columns` of the tile waits: wide ones do, and in order
+// all behind them. Bright ones take other formulas, and deep layers, one by one.
+static inline int waits_for_others(const WaitingSplats* waiting, int2 rows, int2 columns,
+                                   __global const TileSplat* splat, int form) {
+  const int widest = max(columns.y - columns.x, rows.y - rows.x);
+  const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
+#ifdef LIGHT_ORDERED
+  return form <= BY_TWO_TERMS && is_dim && (widest >= 7 || waiting->count > 0);
+#else
+  return is_dim && widest >= 7;
+#endif
 }
 
 #ifdef CUT_BY_ROWS
@@ -92,7 +105,7 @@ INLINED void fill_axis_of_tile(float* values, int count, int2 square, float firs
 
 // What cuts the splat in the rows of a tile.
 #ifdef CUT_BY_ROWS
-INLINED void fill_limits_of_tile(WideSplats* waiting, uint number, PATCH lanes,
+INLINED void fill_limits_of_tile(WaitingSplats* waiting, uint number, PATCH lanes,
                                  __global const TileSplat* splat) {
   const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
   PATCH pixel = lanes;
@@ -118,45 +131,71 @@ INLINED void set_bits(uint* words, int count, int2 pixels, int pixels_of_patch, 
 
 // A call whose argument tells the compiler that it may use registers of sixteen floats, from which
 // it keeps away otherwise.
-__attribute__((noinline)) static void put_to_waiting(WideSplats* waiting, int2 rows, int2 columns,
-                                                     PATCH lanes, __global const TileSplat* splat,
-                                                     float mean_sigma) {
-  const uint number = waiting->count;
+__attribute__((noinline)) static void put_to_waiting(WaitingSplats* waiting, int2 rows,
+                                                     int2 columns, PATCH lanes,
+                                                     __global const TileSplat* splat,
+                                                     float mean_sigma, int form) {
+  const uint number = waiting->count, bit = 1u << number;
   waiting->count = number + 1u;
   fill_axis_of_tile(waiting->across + number * TILE_WIDTH, TILE_WIDTH, columns, FIRST_X, splat->x,
                     LOW_X(*splat), SIGMA_X(*splat), mean_sigma, lanes);
   fill_axis_of_tile(waiting->along + number * TILE_HEIGHT, TILE_HEIGHT, rows, FIRST_Y, splat->y,
                     LOW_Y(*splat), splat->sigma, mean_sigma, lanes);
   fill_limits_of_tile(waiting, number, lanes, splat);
-  waiting->summed[number * SUMMED] = splat->summed[0];
-  waiting->summed[number * SUMMED + 1] = splat->summed[1];
-  waiting->summed[number * SUMMED + 2] = splat->summed[2];
-  set_bits(waiting->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, 1u << number);
-  set_bits(waiting->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, 1u << number);
+  float* light = waiting->light + number * PLANES;
+#ifdef LIGHT_ORDERED
+  light[0] = splat->emission[0];
+  light[1] = splat->emission[1];
+  light[2] = splat->emission[2];
+  light[3] = splat->absorption[0];
+  light[4] = splat->absorption[1];
+  light[5] = splat->absorption[2];
+  waiting->of_two_terms |= form == BY_TWO_TERMS ? bit : 0u;
+#else
+  light[0] = splat->summed[0];
+  light[1] = splat->summed[1];
+  light[2] = splat->summed[2];
+#endif
+  set_bits(waiting->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, bit);
+  set_bits(waiting->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, bit);
 }
 
+// Of as many planes as there are.
 typedef struct PatchRow {
-  PATCH first, second, third;  // sums
+  PATCH light0, light1, light2;
+#ifdef LIGHT_ORDERED
+  PATCH opacity0, opacity1, opacity2;
+#endif
 } PatchRow;
 
 INLINED PatchRow load_patch_row(const float* pixel) {
   PatchRow row;
-  row.first = load_patch(pixel);
-  row.second = load_patch(pixel + TILE_PIXELS);
-  row.third = load_patch(pixel + 2 * TILE_PIXELS);
+  row.light0 = load_patch(pixel);
+  row.light1 = load_patch(pixel + TILE_PIXELS);
+  row.light2 = load_patch(pixel + 2 * TILE_PIXELS);
+#ifdef LIGHT_ORDERED
+  row.opacity0 = load_patch(pixel + 3 * TILE_PIXELS);
+  row.opacity1 = load_patch(pixel + 4 * TILE_PIXELS);
+  row.opacity2 = load_patch(pixel + 5 * TILE_PIXELS);
+#endif
   return row;
 }
 
 INLINED void store_patch_row(const PatchRow row, float* pixel) {
-  store_patch(row.first, pixel);
-  store_patch(row.second, pixel + TILE_PIXELS);
-  store_patch(row.third, pixel + 2 * TILE_PIXELS);
+  store_patch(row.light0, pixel);
+  store_patch(row.light1, pixel + TILE_PIXELS);
+  store_patch(row.light2, pixel + 2 * TILE_PIXELS);
+#ifdef LIGHT_ORDERED
+  store_patch(row.opacity0, pixel + 3 * TILE_PIXELS);
+  store_patch(row.opacity1, pixel + 4 * TILE_PIXELS);
+  store_patch(row.opacity2, pixel + 5 * TILE_PIXELS);
+#endif
 }
 
 // A splat of those that wait, in the columns of a patch.
 typedef struct PatchSplat {
   PATCH across;
-  float first, second, third;  // what is summed
+  const float* light;
   const float* along;
 #ifdef CUT_BY_ROWS
   PATCH dx;
@@ -165,13 +204,11 @@ typedef struct PatchSplat {
 #endif
 } PatchSplat;
 
-INLINED PatchSplat splat_of_patch(const WideSplats* waiting, uint k, int x, int y, PATCH lanes) {
+INLINED PatchSplat splat_of_patch(const WaitingSplats* waiting, uint k, int x, int y, PATCH lanes) {
   PatchSplat splat;
   splat.across = load_patch(waiting->across + k * TILE_WIDTH + x);
   splat.along = waiting->along + (k * TILE_HEIGHT + y);
-  splat.first = waiting->summed[k * SUMMED];
-  splat.second = waiting->summed[k * SUMMED + 1];
-  splat.third = waiting->summed[k * SUMMED + 2];
+  splat.light = waiting->light + k * PLANES;
 #ifdef CUT_BY_ROWS
   splat.dx = ((float)x + FIRST_X + lanes) - waiting->x[k];
   splat.limits = waiting->limits + (k * TILE_HEIGHT + y);
@@ -181,55 +218,89 @@ INLINED PatchSplat splat_of_patch(const WideSplats* waiting, uint k, int x, int 
   return splat;
 }
 
-INLINED PatchRow add_to_row(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH shape = cut_shape_of_patch(splat.across * splat.along[k], splat.dx,
-                                         splat.dy + (float)k, splat.limits[k], splat.squeeze);
-  row.first += shape * splat.first;
-  row.second += shape * splat.second;
-  row.third += shape * splat.third;
-  return row;
+#ifdef LIGHT_ORDERED
+#define SHAPE_IN_ROW(splat, k) NOT_NEGATIVE((splat).across*(splat).along[k])
+#else
+#define SHAPE_IN_ROW(splat, k) ((splat).across * (splat).along[k])
+#endif
+INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
+  return cut_shape_of_patch(SHAPE_IN_ROW(splat, k), splat.dx, splat.dy + (float)k, splat.limits[k],
+                            splat.squeeze);
 }
 
-// Those of `splats`, of which there are some, to the patch from (x, y) on. Its rows are written
-// out, since compilers keep arrays in memory.
-INLINED void add_to_patch(float* tile, int x, int y, uint splats, const WideSplats* waiting,
+#ifdef LIGHT_ORDERED
+// A layer as THIN_CHANNEL() has it.
+#define PATCH_CHANNEL(c, COVERED)                       \
+  {                                                     \
+    const PATCH covered = COVERED(c);                   \
+    const PATCH u = covered - row.opacity##c * covered; \
+    row.light##c += u * splat.light[c];                 \
+    row.opacity##c += u * splat.light[c + 3];           \
+  }
+#define PATCH_OF_ONE_TERM(c) (shape)
+#define PATCH_OF_TWO_TERMS(c) (shape + (shape * shape) * (-0.5f * splat.light[c + 3]))
+INLINED PatchRow add_one_term(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH shape = shape_in_row(splat, k);
+  PATCH_CHANNEL(0, PATCH_OF_ONE_TERM)
+  PATCH_CHANNEL(1, PATCH_OF_ONE_TERM)
+  PATCH_CHANNEL(2, PATCH_OF_ONE_TERM)
+  return row;
+}
+INLINED PatchRow add_two_terms(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH shape = shape_in_row(splat, k);
+  PATCH_CHANNEL(0, PATCH_OF_TWO_TERMS)
+  PATCH_CHANNEL(1, PATCH_OF_TWO_TERMS)
+  PATCH_CHANNEL(2, PATCH_OF_TWO_TERMS)
+  return row;
+}
+#else
+INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH shape = shape_in_row(splat, k);
+  row.light0 += shape * splat.light[0];
+  row.light1 += shape * splat.light[1];
+  row.light2 += shape * splat.light[2];
+  return row;
+}
+#endif
+
+// The rows of a patch, written out, since compilers keep arrays in memory.
+#if PATCH_HEIGHT == 8
+#define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
+#elif PATCH_HEIGHT == 4
+#define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3)
+#else
+#define EACH_ROW(DO) DO(0) DO(1)
+#endif
+#define LOAD_ROW_OF_PATCH(k) PatchRow row##k = load_patch_row(pixel + k * ROW);
+#define STORE_ROW_OF_PATCH(k) store_patch_row(row##k, pixel + k * ROW);
+#define ADD_TO_SUMS(k) row##k = add_to_sums(row##k, splat, k);
+#define ADD_ONE_TERM(k) row##k = add_one_term(row##k, splat, k);
+#define ADD_TWO_TERMS(k) row##k = add_two_terms(row##k, splat, k);
+
+// Those of `splats`, of which there are some, to the patch from (x, y) on.
+INLINED void add_to_patch(float* tile, int x, int y, uint splats, const WaitingSplats* waiting,
                           PATCH lanes) {
   float* pixel = tile + y * ROW + x;
-  PatchRow row0 = load_patch_row(pixel), row1 = load_patch_row(pixel + ROW);
-  PatchRow row2 = load_patch_row(pixel + 2 * ROW), row3 = load_patch_row(pixel + 3 * ROW);
-#if PATCH_HEIGHT == 8
-  PatchRow row4 = load_patch_row(pixel + 4 * ROW), row5 = load_patch_row(pixel + 5 * ROW);
-  PatchRow row6 = load_patch_row(pixel + 6 * ROW), row7 = load_patch_row(pixel + 7 * ROW);
-#endif
+  EACH_ROW(LOAD_ROW_OF_PATCH)
   for (; splats != 0; splats &= splats - 1u) {
     const uint k = popcount(~splats & (splats - 1u));
     const PatchSplat splat = splat_of_patch(waiting, k, x, y, lanes);
-    row0 = add_to_row(row0, splat, 0);
-    row1 = add_to_row(row1, splat, 1);
-    row2 = add_to_row(row2, splat, 2);
-    row3 = add_to_row(row3, splat, 3);
-#if PATCH_HEIGHT == 8
-    row4 = add_to_row(row4, splat, 4);
-    row5 = add_to_row(row5, splat, 5);
-    row6 = add_to_row(row6, splat, 6);
-    row7 = add_to_row(row7, splat, 7);
+#ifdef LIGHT_ORDERED
+    if (waiting->of_two_terms >> k & 1u) {
+      EACH_ROW(ADD_TWO_TERMS)
+    } else {
+      EACH_ROW(ADD_ONE_TERM)
+    }
+#else
+    EACH_ROW(ADD_TO_SUMS)
 #endif
   }
-  store_patch_row(row0, pixel);
-  store_patch_row(row1, pixel + ROW);
-  store_patch_row(row2, pixel + 2 * ROW);
-  store_patch_row(row3, pixel + 3 * ROW);
-#if PATCH_HEIGHT == 8
-  store_patch_row(row4, pixel + 4 * ROW);
-  store_patch_row(row5, pixel + 5 * ROW);
-  store_patch_row(row6, pixel + 6 * ROW);
-  store_patch_row(row7, pixel + 7 * ROW);
-#endif
+  EACH_ROW(STORE_ROW_OF_PATCH)
 }
 
 // A call, as above.
-__attribute__((noinline)) static void add_wide_splats(float* tile, WideSplats* waiting,
-                                                      PATCH lanes) {
+__attribute__((noinline)) static void add_all_to_patches(float* tile, WaitingSplats* waiting,
+                                                         PATCH lanes) {
   for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT) {
     for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
       const uint splats = waiting->of_columns[x / PATCH_WIDTH] & waiting->of_rows[y / PATCH_HEIGHT];
@@ -240,24 +311,30 @@ __attribute__((noinline)) static void add_wide_splats(float* tile, WideSplats* w
 }
 
 // Adds those that wait to the tile.
-static inline void add_waiting(float* tile, WideSplats* waiting) {
-  if (waiting->count > 0) add_wide_splats(tile, waiting, PATCH_LANES);
+static inline void add_waiting(float* tile, WaitingSplats* waiting) {
+  if (waiting->count > 0) add_all_to_patches(tile, waiting, PATCH_LANES);
 }
 
-// Lets a splat wait if it is one that does, and adds them when there is no room for more.
-static inline int let_wait(float* tile, WideSplats* waiting, int2 rows, int2 columns,
-                           __global const TileSplat* splat, float mean_sigma) {
-  if (!waits_for_others(rows, columns, splat)) return 0;
-  put_to_waiting(waiting, rows, columns, PATCH_LANES, splat, mean_sigma);
-  if (waiting->count == MOST_WIDE_SPLATS) add_waiting(tile, waiting);
+// Lets a splat wait if it is one that does, and adds those that wait when there is no room for
+// more, and before one in order that does not wait.
+static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
+                           __global const TileSplat* splat, float mean_sigma, int form) {
+  if (!waits_for_others(waiting, rows, columns, splat, form)) {
+#ifdef LIGHT_ORDERED
+    add_waiting(tile, waiting);
+#endif
+    return 0;
+  }
+  put_to_waiting(waiting, rows, columns, PATCH_LANES, splat, mean_sigma, form);
+  if (waiting->count == MOST_WAITING_SPLATS) add_waiting(tile, waiting);
   return 1;
 }
 #else
 // None waits.
-typedef struct WideSplats {
+typedef struct WaitingSplats {
   uint count;
-} WideSplats;
+} WaitingSplats;
 #define clear_waiting(waiting) ((waiting)->count = 0)
 #define add_waiting(tile, waiting)
-#define let_wait(tile, waiting, rows, columns, splat, mean_sigma) 0
+#define let_wait(tile, waiting, rows, columns, splat, mean_sigma, form) 0
 #endif

@@ -92,8 +92,9 @@ static inline void fill_limits(float* along, float first, float low, int count,
     store_eight(carry(o, u* absorption##c, t* PASSED(depth, phi)), opacity); \
   }
 
-// The same with two or three terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2
+// The same with one to three terms of phi and the opacity as it is: X phi(A X) = X - (A / 2) X^2
 // + (A^2 / 6) X^3, and nearly every line is one multiplication and addition.
+#define COVERED_BY_ONE_TERM(c) (shape)
 #define COVERED_BY_TWO_TERMS(c) (shape + (shape * shape) * (-0.5f * absorption##c))
 #define COVERED_BY_THREE_TERMS(c) \
   (shape + (shape * shape) *      \
@@ -135,10 +136,11 @@ static inline void fill_limits(float* along, float first, float low, int count,
   LAYER_CHANNEL(2, PHI, PASSED)
 
 // How a splat's layer is computed: what serves for its depth.
-#define BY_TWO_TERMS 0
-#define BY_THREE_TERMS 1
-#define BY_SERIES 2
-#define IN_FULL 3
+#define BY_ONE_TERM 0
+#define BY_TWO_TERMS 1
+#define BY_THREE_TERMS 2
+#define BY_SERIES 3
+#define IN_FULL 4
 
 #ifdef KEEP_TRANSMITTANCE
 // Of a block of splats that are no deeper than this together no pixel is so opaque that its
@@ -149,8 +151,10 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #endif
 
 static inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
-  if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES)
+  if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES) {
+    if (deepest <= p->phi_first) return BY_ONE_TERM;
     return deepest <= p->phi_short ? BY_TWO_TERMS : BY_THREE_TERMS;
+  }
   return deepest <= p->phi_series ? BY_SERIES : IN_FULL;
 }
 #endif
@@ -231,7 +235,9 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
-  if (form == BY_TWO_TERMS) {
+  if (form == BY_ONE_TERM) {
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_ONE_TERM, float8, load_eight, store_eight))
+  } else if (form == BY_TWO_TERMS) {
     LAYER_ROWS(THIN_LAYER(COVERED_BY_TWO_TERMS, float8, load_eight, store_eight))
   } else if (form == BY_THREE_TERMS) {
     LAYER_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS, float8, load_eight, store_eight))

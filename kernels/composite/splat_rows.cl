@@ -125,21 +125,26 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 #define DRAWN_ROWS(count) ((count) <= 4 ? 4 : 7)
 #endif
 
-// Whether it touches the tile: lists have others, too (splat.h), and those of a crop other ones.
-// Of the splats of a block up to this one, `depth_of_block` is the most that their depths come to.
-static inline int add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
-                            const SplatTile* of_tile, float* depth_of_block,
-                            const CompositeParameters* p) {
-  const float mean_sigma = of_tile->mean_sigma;
-  if (rows.x > rows.y || columns.x > columns.y) return 0;
-  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
-  int form = 0;
+// How a splat's layer is computed. Of the splats of a block up to this one, `depth_of_block` is the
+// most that their depths come to.
 #ifdef LIGHT_ORDERED
-  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
-                        (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
+                                float* depth_of_block, const CompositeParameters* p) {
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  const float deepest =
+      max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+      (sigma < of_tile->mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
   *depth_of_block += deepest;
-  form = form_of_layer(deepest, *depth_of_block, p);
+  return form_of_layer(deepest, *depth_of_block, p);
+}
+#else
+#define form_of_splat(splat, of_tile, depth_of_block, p) 0
 #endif
+
+// Draws a splat that touches these rows and columns of the tile.
+static inline void add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
+                             const SplatTile* of_tile, int form) {
+  const float mean_sigma = of_tile->mean_sigma, sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
 #ifndef ELLIPSES
@@ -157,7 +162,7 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
     vstore4(means.hi, 0, along);
     fill_limits(along, (float)window.y + FIRST_Y - splat->y, LOW_Y(*splat), window.rows, splat);
     update_window(tile, &window, (float8)(means.s012, 0.0f, (float4)(0.0f)), along, splat, form);
-    return 1;
+    return;
   }
 #endif
 #if defined(KERNEL_CUT) && !defined(ELLIPSES)
@@ -177,7 +182,7 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
     vstore4(shape.hi, 0, along);
     fill_limits(along, dy, LOW_Y(*splat), window.rows, splat);
     update_window(tile, &window, (float8)(shape.lo, (float4)(0.0f)), along, splat, form);
-    return 1;
+    return;
   }
 #endif
   if (columns_count <= 7 && rows_count <= 7) {
@@ -205,25 +210,24 @@ static inline int add_splat(float* tile, __global const TileSplat* splat, int2 r
                                              inverse_of(sigma_x));
 #endif
     update_window(tile, &window, across, along, splat, form);
-    return 1;
+    return;
   }
 #ifdef WINDOWS_OF_16
   if (takes_rows_of_16(form)) {
     const float16 ramp = (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
     if (fits_window_of_16(columns, rows_count, sigma, mean_sigma)) {
       add_window_of_16(tile, rows, first_column(columns.x, 16), ramp, splat, mean_sigma, form);
-      return 1;
+      return;
     }
     if (sigma >= mean_sigma) {
       add_centers_of_16(tile, rows, columns, ramp, splat, form);
-      return 1;
+      return;
     }
     if (sigma > 0.0f) {
       add_means_of_16(tile, rows, columns, ramp, splat, form);
-      return 1;
+      return;
     }
   }
 #endif
   add_wide_splat(tile, splat, rows, columns, mean_sigma, form);
-  return 1;
 }

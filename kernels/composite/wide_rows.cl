@@ -40,7 +40,9 @@ INLINED void update_rows_of_16(float* tile, const Window* window, float16 across
   const float16 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float16 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float16 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
-  if (form == BY_TWO_TERMS) {
+  if (form == BY_ONE_TERM) {
+    LAYER_ROWS_OF_16(COVERED_BY_ONE_TERM)
+  } else if (form == BY_TWO_TERMS) {
     LAYER_ROWS_OF_16(COVERED_BY_TWO_TERMS)
   } else {
     LAYER_ROWS_OF_16(COVERED_BY_THREE_TERMS)

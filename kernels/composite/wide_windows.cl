@@ -1,7 +1,7 @@
 // Splats wider or higher than seven pixels in windows of sixteen columns, for processors whose
 // registers hold as many floats, to the bits of windows of eight (splat_rows.cl). All that such a
 // splat takes is one call: between calls a compiler keeps no constants in registers.
-#if defined(ROWS_OF_16) && !defined(ELLIPSES) && !defined(WIDE_SPLATS_WAIT)
+#if defined(ROWS_OF_16) && !defined(ELLIPSES) && (defined(LIGHT_ORDERED) || !defined(SPLATS_WAIT))
 #define WINDOWS_OF_16
 #define MOST_WINDOWS 4
 #if TILE_WIDTH > 16 * MOST_WINDOWS

@@ -57,7 +57,7 @@ static_assert(has_words<BinParameters, 18>);
 static_assert(has_words<SplatTiles, 4>);
 static_assert(has_words<GroupBinParameters, 19>);
 static_assert(has_words<Segment, 4>);
-static_assert(has_words<CompositeParameters, 14>);
+static_assert(has_words<CompositeParameters, 15>);
 static_assert(has_words<CloudEntry, 16>);
 static_assert(has_words<CloudSplat, 7>);
 static_assert(has_words<DirectionCone, 5>);

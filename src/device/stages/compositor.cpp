@@ -31,6 +31,7 @@ Compositor::Compositor(const StageContext& context) : context_(context) {
   if (context.device.traits.rows) programs.get(Specialization::clear());
   if (context.plan.slabs > 0) slabs_.composite = programs.get(specialization.composite_slab());
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
+  parameters_.phi_first = context.plan.layers.phi_first;
   parameters_.phi_short = context.plan.layers.phi_short;
   parameters_.phi_third = context.plan.layers.phi_third;
   parameters_.phi_series = context.plan.layers.phi_series;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/plan/splat_limits.h"
+
 namespace splotchcl {
 namespace {
 
@@ -69,6 +71,14 @@ ToleranceShares share_out(double tolerance, LightPlan light, bool coarse_grids) 
   return shares;
 }
 
+// Cut splats leave no light out, and values at pixel centers are no means: their shares are for the
+// layers, but for half of that of the ends, which is left to places and roundings.
+void give_to_layers(ToleranceShares& shares) {
+  shares.truncation *= 0.5;
+  shares.phi += shares.pixel_mean + shares.truncation;
+  shares.pixel_mean = 0;
+}
+
 }  // namespace
 
 ErrorBudget make_extended_budget() {
@@ -87,6 +97,8 @@ ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan li
   budget.adds_small_blocks = drawn_for < small_blocks_tolerance;
   budget.shares = share_out(drawn_for, light, coarse_grids);
   budget.shares.promise = frame.tolerance;
+  if (light == LightPlan::ordered && frame.kernel.cut && !takes_pixel_means(frame))
+    give_to_layers(budget.shares);
   return budget;
 }
 

@@ -120,8 +120,10 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
                                 double brightest_behind, double response) {
   LayerLimits limits;
-  // Two terms of the series err by y^2 / 6 of phi, three by y^3 / 24, four by y^4 / 120.
+  // One term of the series errs by y / 2 of phi, two by y^2 / 6, three by y^3 / 24, four by
+  // y^4 / 120.
   const double phi = shares.phi / std::max(1.0, response);
+  limits.phi_first = static_cast<float>(std::min(0.5, 2 * phi));
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
   limits.phi_third = static_cast<float>(std::min(0.5, std::cbrt(24 * phi)));
   limits.phi_series = static_cast<float>(std::min(0.5, std::pow(120 * phi, 0.25)));
