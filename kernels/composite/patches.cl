@@ -1,17 +1,27 @@
 // Splats that wait until there are some, and then a patch of the tile stays in registers while all
 // of them are added to it, one after the other. Row by row each splat would load and store pixels
 // that the one before has just stored, and a processor waits for that.
-#if !defined(FACE_OF_CUBE) && (defined(LIGHT_ORDERED) || SUMMED == 3)
+#ifndef FACE_OF_CUBE
 #define SPLATS_WAIT
 
 // As many rows as leave registers for a splat.
 #ifdef ROWS_OF_16
+#ifdef __clang__
+typedef float16 __attribute__((aligned(4))) Sixteen;
+#define load_patch(p) (*(const Sixteen*)(p))
+#define store_patch(v, p) (*(Sixteen*)(p) = (v))
+#else
+#define load_patch(p) vload16(0, p)
+#define store_patch(v, p) vstore16(v, 0, p)
+#endif
+#ifdef CUT_BY_ROWS
+DEFINE_CUT_SHAPE(cut_shape_of_patch, float16, int16)
+#else
+#define cut_shape_of_patch cut_shape
+#endif
 #define PATCH float16
 #define PATCH_WIDTH 16
 #define PATCH_LANES (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
-#define load_patch load_sixteen
-#define store_patch store_sixteen
-#define cut_shape_of_patch cut_shape_of_16
 #else
 #define PATCH float8
 #define PATCH_WIDTH 8
@@ -20,7 +30,7 @@
 #define store_patch store_eight
 #define cut_shape_of_patch cut_shape
 #endif
-#ifdef LIGHT_ORDERED
+#if PLANES == 6
 #define PATCH_HEIGHT (PATCH_WIDTH / 4)
 #else
 #define PATCH_HEIGHT (PATCH_WIDTH / 2)
@@ -42,7 +52,7 @@ typedef struct WaitingSplats {
 #endif
   float light[MOST_WAITING_SPLATS * PLANES];  // what is summed, or E and A
 #ifdef LIGHT_ORDERED
-  uint of_two_terms;  // bits of those whose layers take them
+  uint of_more_terms, of_three_terms;  // bits of those whose layers take more than one of them
 #endif
   uint of_columns[TILE_WIDTH / PATCH_WIDTH];  // bits of the splats that reach into patches of
   uint of_rows[TILE_HEIGHT / PATCH_HEIGHT];   // these columns, and of these rows
@@ -52,7 +62,7 @@ typedef struct WaitingSplats {
 static inline void clear_waiting(WaitingSplats* waiting) {
   waiting->count = 0;
 #ifdef LIGHT_ORDERED
-  waiting->of_two_terms = 0;
+  waiting->of_more_terms = waiting->of_three_terms = 0;
 #endif
   for (int i = 0; i < TILE_WIDTH / PATCH_WIDTH; ++i)
     waiting->of_columns[i] = 0;
@@ -67,7 +77,7 @@ static inline int waits_for_others(const WaitingSplats* waiting, int2 rows, int2
   const int widest = max(columns.y - columns.x, rows.y - rows.x);
   const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
 #ifdef LIGHT_ORDERED
-  return form <= BY_TWO_TERMS && is_dim && (widest >= 7 || waiting->count > 0);
+  return form <= BY_THREE_TERMS && is_dim && (widest >= 7 || waiting->count > 0);
 #else
   return is_dim && widest >= 7;
 #endif
@@ -129,6 +139,27 @@ INLINED void set_bits(uint* words, int count, int2 pixels, int pixels_of_patch, 
   }
 }
 
+// Written out: compilers leave loops as they are.
+INLINED void put_light(float* light, __global const TileSplat* splat) {
+#ifdef LIGHT_ORDERED
+  light[0] = splat->emission[0];
+  light[1] = splat->emission[1];
+  light[2] = splat->emission[2];
+  light[3] = splat->absorption[0];
+  light[4] = splat->absorption[1];
+  light[5] = splat->absorption[2];
+#else
+  light[0] = splat->summed[0];
+  light[1] = splat->summed[1];
+  light[2] = splat->summed[2];
+#if SUMMED == 6
+  light[3] = splat->summed[3];
+  light[4] = splat->summed[4];
+  light[5] = splat->summed[5];
+#endif
+#endif
+}
+
 // A call whose argument tells the compiler that it may use registers of sixteen floats, from which
 // it keeps away otherwise.
 __attribute__((noinline)) static void put_to_waiting(WaitingSplats* waiting, int2 rows,
@@ -142,53 +173,44 @@ __attribute__((noinline)) static void put_to_waiting(WaitingSplats* waiting, int
   fill_axis_of_tile(waiting->along + number * TILE_HEIGHT, TILE_HEIGHT, rows, FIRST_Y, splat->y,
                     LOW_Y(*splat), splat->sigma, mean_sigma, lanes);
   fill_limits_of_tile(waiting, number, lanes, splat);
-  float* light = waiting->light + number * PLANES;
+  put_light(waiting->light + number * PLANES, splat);
 #ifdef LIGHT_ORDERED
-  light[0] = splat->emission[0];
-  light[1] = splat->emission[1];
-  light[2] = splat->emission[2];
-  light[3] = splat->absorption[0];
-  light[4] = splat->absorption[1];
-  light[5] = splat->absorption[2];
-  waiting->of_two_terms |= form == BY_TWO_TERMS ? bit : 0u;
-#else
-  light[0] = splat->summed[0];
-  light[1] = splat->summed[1];
-  light[2] = splat->summed[2];
+  waiting->of_more_terms |= form > BY_ONE_TERM ? bit : 0u;
+  waiting->of_three_terms |= form == BY_THREE_TERMS ? bit : 0u;
 #endif
   set_bits(waiting->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, bit);
   set_bits(waiting->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, bit);
 }
 
-// Of as many planes as there are.
+// Light, and behind it opacities in order.
 typedef struct PatchRow {
-  PATCH light0, light1, light2;
-#ifdef LIGHT_ORDERED
-  PATCH opacity0, opacity1, opacity2;
+  PATCH plane0, plane1, plane2;
+#if PLANES == 6
+  PATCH plane3, plane4, plane5;
 #endif
 } PatchRow;
 
 INLINED PatchRow load_patch_row(const float* pixel) {
   PatchRow row;
-  row.light0 = load_patch(pixel);
-  row.light1 = load_patch(pixel + TILE_PIXELS);
-  row.light2 = load_patch(pixel + 2 * TILE_PIXELS);
-#ifdef LIGHT_ORDERED
-  row.opacity0 = load_patch(pixel + 3 * TILE_PIXELS);
-  row.opacity1 = load_patch(pixel + 4 * TILE_PIXELS);
-  row.opacity2 = load_patch(pixel + 5 * TILE_PIXELS);
+  row.plane0 = load_patch(pixel);
+  row.plane1 = load_patch(pixel + TILE_PIXELS);
+  row.plane2 = load_patch(pixel + 2 * TILE_PIXELS);
+#if PLANES == 6
+  row.plane3 = load_patch(pixel + 3 * TILE_PIXELS);
+  row.plane4 = load_patch(pixel + 4 * TILE_PIXELS);
+  row.plane5 = load_patch(pixel + 5 * TILE_PIXELS);
 #endif
   return row;
 }
 
 INLINED void store_patch_row(const PatchRow row, float* pixel) {
-  store_patch(row.light0, pixel);
-  store_patch(row.light1, pixel + TILE_PIXELS);
-  store_patch(row.light2, pixel + 2 * TILE_PIXELS);
-#ifdef LIGHT_ORDERED
-  store_patch(row.opacity0, pixel + 3 * TILE_PIXELS);
-  store_patch(row.opacity1, pixel + 4 * TILE_PIXELS);
-  store_patch(row.opacity2, pixel + 5 * TILE_PIXELS);
+  store_patch(row.plane0, pixel);
+  store_patch(row.plane1, pixel + TILE_PIXELS);
+  store_patch(row.plane2, pixel + 2 * TILE_PIXELS);
+#if PLANES == 6
+  store_patch(row.plane3, pixel + 3 * TILE_PIXELS);
+  store_patch(row.plane4, pixel + 4 * TILE_PIXELS);
+  store_patch(row.plane5, pixel + 5 * TILE_PIXELS);
 #endif
 }
 
@@ -229,36 +251,47 @@ INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
 }
 
 #ifdef LIGHT_ORDERED
-// A layer as THIN_CHANNEL() has it.
-#define PATCH_CHANNEL(c, COVERED)                       \
-  {                                                     \
-    const PATCH covered = COVERED(c);                   \
-    const PATCH u = covered - row.opacity##c * covered; \
-    row.light##c += u * splat.light[c];                 \
-    row.opacity##c += u * splat.light[c + 3];           \
+// A layer as THIN_CHANNEL() has it, of the plane of light `s` and the plane of opacity `o`.
+#define PATCH_CHANNEL(s, o, COVERED)                  \
+  {                                                   \
+    const PATCH covered = COVERED(splat.light[o]);    \
+    const PATCH u = covered - row.plane##o * covered; \
+    row.plane##s += u * splat.light[s];               \
+    row.plane##o += u * splat.light[o];               \
   }
-#define PATCH_OF_ONE_TERM(c) (shape)
-#define PATCH_OF_TWO_TERMS(c) (shape + (shape * shape) * (-0.5f * splat.light[c + 3]))
+#define PATCH_OF_ONE_TERM(absorption) (shape)
+#define PATCH_OF_TWO_TERMS(absorption) (shape + (shape * shape) * (-0.5f * (absorption)))
+#define PATCH_OF_THREE_TERMS(absorption) \
+  (shape +                               \
+   (shape * shape) * (shape * (0.166666667f * (absorption) * (absorption)) - 0.5f * (absorption)))
+#define PATCH_CHANNELS(COVERED) \
+  PATCH_CHANNEL(0, 3, COVERED) PATCH_CHANNEL(1, 4, COVERED) PATCH_CHANNEL(2, 5, COVERED)
 INLINED PatchRow add_one_term(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNEL(0, PATCH_OF_ONE_TERM)
-  PATCH_CHANNEL(1, PATCH_OF_ONE_TERM)
-  PATCH_CHANNEL(2, PATCH_OF_ONE_TERM)
+  PATCH_CHANNELS(PATCH_OF_ONE_TERM)
   return row;
 }
 INLINED PatchRow add_two_terms(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNEL(0, PATCH_OF_TWO_TERMS)
-  PATCH_CHANNEL(1, PATCH_OF_TWO_TERMS)
-  PATCH_CHANNEL(2, PATCH_OF_TWO_TERMS)
+  PATCH_CHANNELS(PATCH_OF_TWO_TERMS)
+  return row;
+}
+INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH shape = shape_in_row(splat, k);
+  PATCH_CHANNELS(PATCH_OF_THREE_TERMS)
   return row;
 }
 #else
 INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  row.light0 += shape * splat.light[0];
-  row.light1 += shape * splat.light[1];
-  row.light2 += shape * splat.light[2];
+  row.plane0 += shape * splat.light[0];
+  row.plane1 += shape * splat.light[1];
+  row.plane2 += shape * splat.light[2];
+#if PLANES == 6
+  row.plane3 += shape * splat.light[3];
+  row.plane4 += shape * splat.light[4];
+  row.plane5 += shape * splat.light[5];
+#endif
   return row;
 }
 #endif
@@ -276,25 +309,36 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
 #define ADD_TO_SUMS(k) row##k = add_to_sums(row##k, splat, k);
 #define ADD_ONE_TERM(k) row##k = add_one_term(row##k, splat, k);
 #define ADD_TWO_TERMS(k) row##k = add_two_terms(row##k, splat, k);
+#define ADD_THREE_TERMS(k) row##k = add_three_terms(row##k, splat, k);
+#define ADD_AS_FORMS_ARE                          \
+  if (!(waiting->of_more_terms >> k & 1u)) {      \
+    EACH_ROW(ADD_ONE_TERM)                        \
+  } else if (waiting->of_three_terms >> k & 1u) { \
+    EACH_ROW(ADD_THREE_TERMS)                     \
+  } else {                                        \
+    EACH_ROW(ADD_TWO_TERMS)                       \
+  }
 
 // Those of `splats`, of which there are some, to the patch from (x, y) on.
+#define EACH_SPLAT(ROWS)                                              \
+  for (; splats != 0; splats &= splats - 1u) {                        \
+    const uint k = popcount(~splats & (splats - 1u));                 \
+    const PatchSplat splat = splat_of_patch(waiting, k, x, y, lanes); \
+    ROWS                                                              \
+  }
 INLINED void add_to_patch(float* tile, int x, int y, uint splats, const WaitingSplats* waiting,
                           PATCH lanes) {
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
-  for (; splats != 0; splats &= splats - 1u) {
-    const uint k = popcount(~splats & (splats - 1u));
-    const PatchSplat splat = splat_of_patch(waiting, k, x, y, lanes);
 #ifdef LIGHT_ORDERED
-    if (waiting->of_two_terms >> k & 1u) {
-      EACH_ROW(ADD_TWO_TERMS)
-    } else {
-      EACH_ROW(ADD_ONE_TERM)
-    }
-#else
-    EACH_ROW(ADD_TO_SUMS)
-#endif
+  if ((splats & waiting->of_more_terms) == 0) {
+    EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
+  } else {
+    EACH_SPLAT(ADD_AS_FORMS_ARE)
   }
+#else
+  EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
+#endif
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
 

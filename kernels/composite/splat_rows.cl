@@ -101,15 +101,6 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
   fill_limits(along_y, first_y, LOW_Y(*splat), rows_count, splat);
   Window window;
   window.x = columns.x;
-#ifdef ROWS_OF_16
-  if (takes_rows_of_16(form)) {
-    for (; columns.y - window.x >= 8; window.x += 16) {
-      const float* along = along_y + (set_rows(&window, rows, 16, splat) - rows.x);
-      update_window_of_16(tile, &window, load_sixteen(along_x + (window.x - columns.x)), along,
-                          splat, form);
-    }
-  }
-#endif
   for (; window.x <= columns.y; window.x += 8) {
     const float* along = along_y + (set_rows(&window, rows, 8, splat) - rows.x);
     update_window(tile, &window, load_eight(along_x + (window.x - columns.x)), along, splat, form);
@@ -212,22 +203,5 @@ static inline void add_splat(float* tile, __global const TileSplat* splat, int2 
     update_window(tile, &window, across, along, splat, form);
     return;
   }
-#ifdef WINDOWS_OF_16
-  if (takes_rows_of_16(form)) {
-    const float16 ramp = (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-    if (fits_window_of_16(columns, rows_count, sigma, mean_sigma)) {
-      add_window_of_16(tile, rows, first_column(columns.x, 16), ramp, splat, mean_sigma, form);
-      return;
-    }
-    if (sigma >= mean_sigma) {
-      add_centers_of_16(tile, rows, columns, ramp, splat, form);
-      return;
-    }
-    if (sigma > 0.0f) {
-      add_means_of_16(tile, rows, columns, ramp, splat, form);
-      return;
-    }
-  }
-#endif
   add_wide_splat(tile, splat, rows, columns, mean_sigma, form);
 }

@@ -265,12 +265,11 @@ std::vector<std::string> Specialization::composite_files() const {
   files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(),
-                 {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "wide_rows.cl", "patches.cl"});
+    files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patches.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {
-      files.insert(files.end(), {"wide_windows.cl", "splat_rows.cl"});
+      files.push_back("splat_rows.cl");
     }
     files.insert(files.end(), {"prefetch.cl", "composite_rows.cl"});
   } else {
