@@ -116,13 +116,17 @@ EACH_VECTOR(DECLARE, double)
   CONVERSION(FROM, float, 2) \
   CONVERSION(FROM, float, 4) \
   CONVERSION(FROM, float, 8) \
+  CONVERSION(FROM, float, 16) \
   CONVERSION(FROM, int, ) \
   CONVERSION(FROM, int, 4) \
   CONVERSION(FROM, int, 8) \
+  CONVERSION(FROM, int, 16) \
   CONVERSION(FROM, long, ) \
   CONVERSION(FROM, long, 8) \
+  CONVERSION(FROM, long, 16) \
   CONVERSION(FROM, ulong, ) \
   CONVERSION(FROM, ulong, 8) \
+  CONVERSION(FROM, ulong, 16) \
   int BUILTIN_CONST convert_int_sat(FROM);
 EACH_SCALAR(DECLARE)
 #undef DECLARE

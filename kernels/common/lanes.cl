@@ -1,12 +1,32 @@
-// One particle or pixel at a time on a GPU, eight on a processor: LANES_8 chooses. Stages
-// written in VALUE and INTEGER share every formula between the two.
+// One particle or pixel at a time on a GPU, eight on a processor, or sixteen where its registers
+// hold as many: LANES_8 and LANES_16 choose. Stages written in VALUE and INTEGER share every
+// formula between them. A compiler keeps away from registers of sixteen floats but in a function
+// that is called with some.
 #undef VALUE
 #undef INTEGER
 #undef AS_VALUE
 #undef AS_INTEGER
 #undef ANY
-#ifdef LANES_8
+#undef LANES
+#if defined(LANES_16)
+#define LANES 16
+#define NUMBERS_OF_LANES (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define VALUE float16
+#define INTEGER int16
+#define AS_VALUE as_float16
+#define AS_INTEGER as_int16
+#define AS_WIDE as_long16
+#define WIDE long16
+#define UNSIGNED_WIDE ulong16
+#define TO_VALUE convert_float16
+#define TO_INTEGER convert_int16
+#define TO_WIDE convert_long16
+#define TO_UNSIGNED_WIDE convert_ulong16
+#define LOAD(p) vload16(0, p)
+#define STORE(v, p) vstore16(v, 0, p)
+#elif defined(LANES_8)
 #define LANES 8
+#define NUMBERS_OF_LANES (int8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define VALUE float8
 #define INTEGER int8
 #define AS_VALUE as_float8
@@ -20,15 +40,6 @@
 #define TO_UNSIGNED_WIDE convert_ulong8
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
-// Two instructions, where PoCL's any() looks at one lane after the other.
-#ifdef __has_builtin
-#if __has_builtin(__builtin_reduce_or)
-#define ANY(mask) (__builtin_reduce_or(mask) != 0)
-#endif
-#endif
-#ifndef ANY
-#define ANY(mask) any(mask)
-#endif
 #else
 #define LANES 1
 #define VALUE float
@@ -48,6 +59,17 @@
 // vectors and any non-zero scalar, so masks work alike as long as they are only combined
 // with & and |.
 #define ANY(mask) (mask)
+#endif
+#if LANES > 1
+// Two instructions, where PoCL's any() looks at one lane after the other.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define ANY(mask) (__builtin_reduce_or(mask) != 0)
+#endif
+#endif
+#ifndef ANY
+#define ANY(mask) any(mask)
+#endif
 #endif
 
 // 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.

@@ -83,33 +83,58 @@ static inline int waits_for_others(const WaitingSplats* waiting, int2 rows, int2
 #endif
 }
 
+// What the shape along one axis follows from: the center lies at `place` + `low`, the tile's first
+// pixel at `first`; `square` is the range of pixels that are drawn.
+typedef struct Axis {
+  float first, place, low, sigma;
+  int2 square;
+} Axis;
+
+// Limits cut more than the square.
 #ifdef CUT_BY_ROWS
-#define WITHIN_SQUARE(shape, pixel, square) (shape)
+#define WITHIN_SQUARE(shape, pixel, axis) (shape)
 #else
-#define WITHIN_SQUARE(shape, pixel, square) \
-  select(shape, (PATCH)(0.0f), ((pixel) < (float)(square).x) | ((pixel) > (float)(square).y))
+#define WITHIN_SQUARE(shape, pixel, axis) \
+  select(shape, (PATCH)(0.0f),            \
+         ((pixel) < (float)(axis).square.x) | ((pixel) > (float)(axis).square.y))
 #endif
 
-// The shape along an axis of a whole tile, of `count` pixels: which part of it a splat reaches no
-// processor foresees. `square` is that part; the center lies at `place` + `low`, the first pixel's
-// at `first`.
-INLINED void fill_axis_of_tile(float* values, int count, int2 square, float first, float place,
-                               float low, float sigma, float mean_sigma, PATCH lanes) {
-  PATCH pixel = lanes;
-  if (sigma >= mean_sigma) {
-    const float inverse = inverse_of(sigma);
-    for (int k = 0; k < count; k += PATCH_WIDTH, pixel += (float)PATCH_WIDTH) {
-      const PATCH d = (pixel + first) - place - low;
-      store_patch(WITHIN_SQUARE(gaussian(d, inverse), pixel, square), values + k);
-    }
-    return;
+INLINED PATCH centers_along(const Axis axis, PATCH pixel, float inverse) {
+  const PATCH d = (pixel + axis.first) - axis.place - axis.low;
+  return WITHIN_SQUARE(gaussian(d, inverse), pixel, axis);
+}
+INLINED PATCH means_along(const Axis axis, PATCH pixel, float per_sigma) {
+  const PATCH d = (pixel + axis.first) - axis.place - axis.low;
+  const PATCH mean =
+      error_function((d + 0.5f) * per_sigma) - error_function((d - 0.5f) * per_sigma);
+  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * axis.sigma), pixel, axis);
+}
+
+// The shape along an axis of a tile of `size` pixels, all of it, since no processor foresees which
+// part a splat reaches; in wide tiles, where most splats fit into a line, of a line alone.
+#define LINE_PIXELS 16
+#if TILE_WIDTH > 2 * LINE_PIXELS && !defined(KERNEL_CUT)
+#define CAN_FIT 1
+#else
+#define CAN_FIT 0
+#endif
+INLINED void fill_axis_of_tile(float* values, int size, const Axis axis, float mean_sigma,
+                               PATCH lanes) {
+  const int fits = CAN_FIT && axis.square.y - axis.square.x < LINE_PIXELS;
+  const int begin = fits ? min(axis.square.x, size - LINE_PIXELS) : 0;
+  const int end = fits ? begin + LINE_PIXELS : size;
+  if (fits) {
+    for (int k = 0; k < size; k += PATCH_WIDTH)
+      store_patch((PATCH)(0.0f), values + k);
   }
-  const float per_sigma = 1.0f / sigma;
-  for (int k = 0; k < count; k += PATCH_WIDTH, pixel += (float)PATCH_WIDTH) {
-    const PATCH d = (pixel + first) - place - low;
-    const PATCH mean =
-        error_function((d + 0.5f) * per_sigma) - error_function((d - 0.5f) * per_sigma);
-    store_patch(WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * sigma), pixel, square), values + k);
+  if (axis.sigma >= mean_sigma) {
+    const float inverse = inverse_of(axis.sigma);
+    for (int k = begin; k < end; k += PATCH_WIDTH)
+      store_patch(centers_along(axis, (float)k + lanes, inverse), values + k);
+  } else {
+    const float per_sigma = 1.0f / axis.sigma;
+    for (int k = begin; k < end; k += PATCH_WIDTH)
+      store_patch(means_along(axis, (float)k + lanes, per_sigma), values + k);
   }
 }
 
@@ -168,10 +193,10 @@ __attribute__((noinline)) static void put_to_waiting(WaitingSplats* waiting, int
                                                      float mean_sigma, int form) {
   const uint number = waiting->count, bit = 1u << number;
   waiting->count = number + 1u;
-  fill_axis_of_tile(waiting->across + number * TILE_WIDTH, TILE_WIDTH, columns, FIRST_X, splat->x,
-                    LOW_X(*splat), SIGMA_X(*splat), mean_sigma, lanes);
-  fill_axis_of_tile(waiting->along + number * TILE_HEIGHT, TILE_HEIGHT, rows, FIRST_Y, splat->y,
-                    LOW_Y(*splat), splat->sigma, mean_sigma, lanes);
+  const Axis along_x = {FIRST_X, splat->x, LOW_X(*splat), SIGMA_X(*splat), columns};
+  const Axis along_y = {FIRST_Y, splat->y, LOW_Y(*splat), splat->sigma, rows};
+  fill_axis_of_tile(waiting->across + number * TILE_WIDTH, TILE_WIDTH, along_x, mean_sigma, lanes);
+  fill_axis_of_tile(waiting->along + number * TILE_HEIGHT, TILE_HEIGHT, along_y, mean_sigma, lanes);
   fill_limits_of_tile(waiting, number, lanes, splat);
   put_light(waiting->light + number * PLANES, splat);
 #ifdef LIGHT_ORDERED

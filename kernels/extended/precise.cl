@@ -14,7 +14,7 @@ static inline VALUE precise_exp_negative(VALUE high, VALUE low) {
   p = p * r + 0.5f;
   p = p * r + 1.0f;
   p = p * r + 1.0f;
-#ifdef LANES_8
+#if LANES > 1
   const VALUE scaled = AS_VALUE(AS_INTEGER(p) + (convert_int8(n) << 23));
 #else
   const VALUE scaled = AS_VALUE(AS_INTEGER(p) + ((int)n << 23));

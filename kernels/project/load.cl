@@ -4,12 +4,12 @@
 // file may end with its last value. Stride 0: one value for all.
 static inline VALUE load_values(__global const float* values, uint i, uint end, int stride) {
   if (stride == 0) return (VALUE)(values[0]);
-#ifdef LANES_8
+#if LANES > 1
   if (i + LANES > end) {
     float lanes[LANES];
     for (uint k = 0; k < LANES; ++k)
       lanes[k] = values[min(i + k, end - 1)];
-    return vload8(0, lanes);
+    return LOAD(lanes);
   }
 #endif
   return LOAD(values + i);
@@ -21,13 +21,20 @@ typedef struct Vectors {
 
 INLINED Vectors load_vectors(__global const float* vectors, uint i, uint end) {
   Vectors v;
-#ifdef LANES_8
+#if LANES > 1
   if (i + LANES <= end) {
     __global const float* first = vectors + (size_t)i * 3;
+#if LANES == 16
+    const float16 a = vload16(0, first), b = vload16(1, first), c = vload16(2, first);
+    v.x = (float16)(a.s0369, a.scf, b.s258b, b.se, c.s147a, c.sd);
+    v.y = (float16)(a.s147a, a.sd, b.s0369, b.scf, c.s258b, c.se);
+    v.z = (float16)(a.s258b, a.se, b.s147a, b.sd, c.s0369, c.scf);
+#else
     const float8 a = vload8(0, first), b = vload8(1, first), c = vload8(2, first);
     v.x = (float8)(a.s036, b.s147, c.s25);
     v.y = (float8)(a.s147, b.s25, c.s036);
     v.z = (float8)(a.s25, b.s036, c.s147);
+#endif
     return v;
   }
   float x[LANES], y[LANES], z[LANES];
@@ -37,9 +44,9 @@ INLINED Vectors load_vectors(__global const float* vectors, uint i, uint end) {
     y[k] = vector[1];
     z[k] = vector[2];
   }
-  v.x = vload8(0, x);
-  v.y = vload8(0, y);
-  v.z = vload8(0, z);
+  v.x = LOAD(x);
+  v.y = LOAD(y);
+  v.z = LOAD(z);
 #else
   v.x = vectors[(size_t)i * 3];
   v.y = vectors[(size_t)i * 3 + 1];
@@ -101,7 +108,7 @@ typedef struct ParticleLanes {
 #endif
 } ParticleLanes;
 
-#ifdef LANES_8
+#if LANES > 1
 // Columns are read once, from front to back, but several of them, and hardware asks for no line
 // beyond a page. So many particles ahead.
 #define PARTICLES_AHEAD 256
@@ -109,6 +116,9 @@ INLINED void ask_for_particles(const Columns columns, uint i, const ProjectParam
   const uint ahead = i + PARTICLES_AHEAD;
   ask_for(columns.positions + (size_t)ahead * 3);
   ask_for(columns.positions + (size_t)ahead * 3 + 16);
+#if LANES == 16
+  ask_for(columns.positions + (size_t)ahead * 3 + 32);
+#endif
   ask_for(columns.smoothing_lengths + (size_t)ahead * p.smoothing_length_stride);
   ask_for(columns.colors + (size_t)ahead * p.color_stride);
 }
@@ -118,9 +128,9 @@ INLINED void ask_for_particles(const Columns columns, uint i, const ProjectParam
 INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
                                      const ProjectParameters p) {
   ParticleLanes particles;
-#ifdef LANES_8
+#if LANES > 1
   ask_for_particles(columns, i, p);
-  particles.exists = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < (INTEGER)(int)(end - i);
+  particles.exists = NUMBERS_OF_LANES < (INTEGER)(int)(end - i);
 #else
   particles.exists = 1;
 #endif

@@ -11,10 +11,11 @@
       __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS \
           TILE_PARAMETERS
 
-// A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles.
+// A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
+// lanes' numbers are an argument so that their registers are used (lanes.cl).
 __attribute__((noinline)) static void project_block(uint block, const ProjectParameters* of_frame,
                                                     const ExtendedParameters* extended_of_frame,
-                                                    PROJECT_PARAMETERS) {
+                                                    INTEGER lane, PROJECT_PARAMETERS) {
   const ProjectParameters p = *of_frame;
   const ExtendedParameters e = *extended_of_frame;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
@@ -168,8 +169,8 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 // a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
 // more, else 0.
 __kernel void project(const ProjectParameters p, const ExtendedParameters e, PROJECT_PARAMETERS) {
-  project_block(get_global_id(0), &p, &e, positions, smoothing_lengths, weights, colors,
-                intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
+  project_block(get_global_id(0), &p, &e, NUMBERS_OF_LANES, positions, smoothing_lengths, weights,
+                colors, intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
                 width_needs,
                 left_out OWN_COLORS_ARGUMENT EXTENDED_ARGUMENTS KEY_ARGUMENTS TILE_ARGUMENTS);
 }

@@ -2,7 +2,7 @@
 
 #if defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)
 #define TILES_OF_LANES
-#if defined(LANES_8) && !defined(ELLIPSES) && !defined(VECTOR_COLORS) && !defined(FINE_PLACES)
+#if LANES > 1 && !defined(ELLIPSES) && !defined(VECTOR_COLORS) && !defined(FINE_PLACES)
 #define SPLATS_OF_EIGHT_WORDS  // as many as lanes
 #endif
 #endif
@@ -58,12 +58,11 @@ INLINED float8 last_pairs(float8 a, float8 b) {
 }
 
 // Word by word of eight splats to splat by splat, in three steps of neighbors.
-INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
-  const float8 x = AS_VALUE(s.place.x), y = AS_VALUE(s.place.y);
-  const float8 grid = AS_VALUE(s.component_and_grid), touched = AS_VALUE(tiles);
+INLINED void store_eight_splats(float8 x, float8 y, float8 sigma, float8 radius, float8 weight,
+                                float8 color, float8 grid, float8 touched, Splat* splats) {
   const float8 xy0 = first_words(x, y), xy2 = last_words(x, y);
-  const float8 widths0 = first_words(s.sigma, s.radius), widths2 = last_words(s.sigma, s.radius);
-  const float8 light0 = first_words(s.weight, s.color), light2 = last_words(s.weight, s.color);
+  const float8 widths0 = first_words(sigma, radius), widths2 = last_words(sigma, radius);
+  const float8 light0 = first_words(weight, color), light2 = last_words(weight, color);
   const float8 lists0 = first_words(grid, touched), lists2 = last_words(grid, touched);
   // Of splats 0 and 4, 1 and 5 ...: their first four words, and their last.
   const float8 first04 = first_pairs(xy0, widths0), first15 = last_pairs(xy0, widths0);
@@ -80,6 +79,19 @@ INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
   vstore8((float8)(first15.hi, last15.hi), 5, words);
   vstore8((float8)(first26.hi, last26.hi), 6, words);
   vstore8((float8)(first37.hi, last37.hi), 7, words);
+}
+
+INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
+  const VALUE x = AS_VALUE(s.place.x), y = AS_VALUE(s.place.y);
+  const VALUE grid = AS_VALUE(s.component_and_grid), touched = AS_VALUE(tiles);
+#if LANES == 16
+  store_eight_splats(x.lo, y.lo, s.sigma.lo, s.radius.lo, s.weight.lo, s.color.lo, grid.lo,
+                     touched.lo, splats);
+  store_eight_splats(x.hi, y.hi, s.sigma.hi, s.radius.hi, s.weight.hi, s.color.hi, grid.hi,
+                     touched.hi, splats + 8);
+#else
+  store_eight_splats(x, y, s.sigma, s.radius, s.weight, s.color, grid, touched, splats);
+#endif
 }
 #endif
 

@@ -13,7 +13,7 @@ struct DeviceTraits {
   bool shares_host_memory = false;   // buffers may lie in the caller's own memory
   bool large_pages = false;          // working memory is the host's, on large pages (large_pages.h)
   bool rows = true;                  // the shape: eight lanes, rows; not work-groups
-  bool rows_of_16 = false;           // registers hold sixteen floats: wide splats take them
+  bool rows_of_16 = false;           // registers hold sixteen floats
   bool double_numbers = false;       // extended numbers are double precision, not pairs
   std::uint64_t largest_buffer = 0;  // bytes
   std::uint32_t project_block = 0;   // particles per work-item of a projection

@@ -1,7 +1,9 @@
-// Rows of sixteen pixels (kernels/composite/wide_rows.cl), on processors of any width.
+// Patches of sixteen columns and sixteen particles at a time (kernels/composite/patches.cl,
+// kernels/common/lanes.cl), on processors of any width.
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
 
 #include "device/pictures.h"
 
@@ -9,7 +11,7 @@ namespace splotchcl::test {
 namespace {
 
 // Drawn with the frame's first plan.
-Image draw_in_rows_of(int pixels, const Frame& frame) {
+Image draw_in_lanes_of(int pixels, const Frame& frame) {
   DeviceContext device(choose_device(""));
   device.traits.rows_of_16 = pixels == 16;
   return draw_once(device, frame, CompositeShape::rows);
@@ -37,13 +39,17 @@ Frame clouds(LightPlan plan, std::optional<double> cut, Projection projection) {
   return frame;
 }
 
-TEST(RowsOfSixteen, GiveTheBitsOfRowsOfEight) {
+void expect_same_bits(const Frame& frame, const std::string& what) {
+  EXPECT_EQ(draw_in_lanes_of(16, frame).pixels, draw_in_lanes_of(8, frame).pixels) << what;
+}
+
+TEST(LanesOfSixteen, GiveTheBitsOfLanesOfEight) {
   for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
-    const Frame flat = clouds(plan, std::nullopt, Projection::orthographic);
-    EXPECT_EQ(draw_in_rows_of(16, flat).pixels, draw_in_rows_of(8, flat).pixels) << name(plan);
-    const Frame ellipses = clouds(plan, 1.8, Projection::equirectangular);
-    EXPECT_EQ(draw_in_rows_of(16, ellipses).pixels, draw_in_rows_of(8, ellipses).pixels)
-        << name(plan) << ", cut ellipses";
+    expect_same_bits(clouds(plan, std::nullopt, Projection::orthographic), name(plan));
+    expect_same_bits(clouds(plan, 1.8, Projection::orthographic),
+                     name(plan) + std::string(", cut"));
+    expect_same_bits(clouds(plan, 1.8, Projection::equirectangular),
+                     name(plan) + std::string(", cut ellipses"));
   }
 }
 
