@@ -183,7 +183,7 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   const size_t corner = first_float(grid) +
                         (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
-  float tile[PLANES * TILE_PIXELS];
+  float tile[PLANES * TILE_PIXELS] __attribute__((aligned(64)));
   clear_planes(tile);
 #ifdef SPLATS_OF_BLOCK
   float front[PLANES * TILE_PIXELS];

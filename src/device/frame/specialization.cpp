@@ -267,7 +267,8 @@ std::vector<std::string> Specialization::composite_files() const {
   files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patches.cl"});
+    files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patch_shapes.cl",
+                               "patches.cl", "waiting.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {

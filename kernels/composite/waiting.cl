@@ -1,0 +1,63 @@
+// Splats of a tile's list that wait until there are some, to be added to it together (patches.cl).
+#ifdef FACE_OF_CUBE
+// None waits.
+typedef struct WaitingSplats {
+  uint count;
+} WaitingSplats;
+#define clear_waiting(waiting) ((waiting)->count = 0)
+#define add_waiting(tile, waiting)
+#define let_wait(tile, waiting, rows, columns, splat, mean_sigma, form) 0
+#else
+
+typedef struct WaitingSplats {
+  PatchShapes shapes;
+  uint count;
+  LayerForms forms;
+} WaitingSplats;
+
+static inline void clear_waiting(WaitingSplats* waiting) {
+  clear_shapes(&waiting->shapes);
+  waiting->count = 0;
+  waiting->forms.more_terms = waiting->forms.three_terms = 0;
+}
+
+// Adds those that wait to the tile.
+static inline void add_waiting(float* tile, WaitingSplats* waiting) {
+  if (waiting->count == 0) return;
+  add_to_patches(tile, &waiting->shapes, waiting->forms, PATCH_LANES);
+  clear_waiting(waiting);
+}
+
+// Whether a splat that touches `rows` and `columns` of the tile waits: wide ones do, and in order
+// all behind them. Bright ones take other formulas, and deep layers, one by one.
+static inline int waits(const WaitingSplats* waiting, int2 rows, int2 columns,
+                        __global const TileSplat* splat, int form) {
+  const int widest = max(columns.y - columns.x, rows.y - rows.x);
+  const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
+#ifdef LIGHT_ORDERED
+  return form <= BY_THREE_TERMS && is_dim && (widest >= 7 || waiting->count > 0);
+#else
+  return is_dim && widest >= 7;
+#endif
+}
+
+// Lets a splat wait if it is one that does, and adds those that wait when there is no room for
+// more, and before one in order that does not wait.
+static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
+                           __global const TileSplat* splat, float mean_sigma, int form) {
+  if (!waits(waiting, rows, columns, splat, form)) {
+#ifdef LIGHT_ORDERED
+    add_waiting(tile, waiting);
+#endif
+    return 0;
+  }
+  const uint number = waiting->count++;
+  put_shape(&waiting->shapes, number, rows, columns, splat, mean_sigma, PATCH_LANES);
+#ifdef LIGHT_ORDERED
+  waiting->forms.more_terms |= (uint)(form > BY_ONE_TERM) << number;
+  waiting->forms.three_terms |= (uint)(form == BY_THREE_TERMS) << number;
+#endif
+  if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
+  return 1;
+}
+#endif
