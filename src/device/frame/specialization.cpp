@@ -121,9 +121,9 @@ std::string Specialization::number_defines() const {
 
 ProgramSource Specialization::project(ProjectOutput output) const {
   // Extended numbers are of one particle at a time.
-  const std::string lanes = rows_of_16_ && !extended_ ? "LANES_16" : "LANES_8";
-  std::string defines =
-      define_if(rows_, lanes) + splat_defines() + define_if(clouds_around_, "CLOUDS_AROUND");
+  std::string defines = define_if(rows_ && rows_of_16_ && !extended_, "LANES_16") +
+                        define_if(rows_, "LANES_8") + splat_defines() +
+                        define_if(clouds_around_, "CLOUDS_AROUND");
   if (writes_splats(output)) defines += define("OUTPUT_SPLATS");
   if (output == ProjectOutput::splats_and_keys || output == ProjectOutput::window_splats)
     defines += define("OUTPUT_KEYS");
