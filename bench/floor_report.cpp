@@ -10,12 +10,11 @@ const char* const note =
     "cache\nare read first, and read once; those that hold a chunk only, at the bandwidth of "
     "arrays as large as\na chunk's entries. Not counted: tables, what a stage keeps for itself, "
     "planes once more for every\nchunk, all but the position of particles out of view. sort: "
-    "passes of this radix sort; another one\nmay take fewer. Operations: known for composite "
-    "alone, the yardstick's time for as many entries of\nlists and row parts (eight pixels of a "
-    "row within a splat), in layers or in sums, which the coarse\ngrids of slabs are too. That "
-    "is what was reached by hand in vectors of eight, not a proof. project,\nsort, bin, certify "
-    "and resolve compute as well, so their least is lower than can be reached. The\nleast is the "
-    "larger one of both, for a frame drawn once.\n";
+    "passes of this radix sort; another one\nmay take fewer. Operations: of composite alone, the "
+    "multiplications with an addition of its pixels, three\nin sums and nine in layers, in row "
+    "parts (eight pixels of a row within a splat). What it takes to\nwork out shapes, and what "
+    "other stages compute, is not counted, so that the least is lower than can\nbe reached. It "
+    "is the larger one of both, for a frame drawn once.\n";
 
 double measured_of(const FrameFloors& frame, const std::string& stage) {
   double seconds = 0;
@@ -65,12 +64,10 @@ std::vector<std::string> cells_of(const StageFloor& floor, double measured, doub
           goal};
 }
 
-std::string work_of(const ListWork& work, const SplatSeconds& seconds, const char* plan) {
+std::string work_of(const ListWork& work, const char* plan) {
   if (work.entries == 0) return "";
   return std::string(plan) + ": " + fixed(1e-6 * work.entries, 2) + " M entries, " +
-         fixed(1e-6 * work.row_parts, 1) + " M row parts; the yardstick takes " +
-         fixed(1e9 * seconds.entry, 2) + " ns and " + fixed(1e9 * seconds.row_part, 2) +
-         " ns for each\n";
+         fixed(1e-6 * work.row_parts, 1) + " M row parts\n";
 }
 
 std::string heading_of(const FrameFloors& frame) {
@@ -79,9 +76,10 @@ std::string heading_of(const FrameFloors& frame) {
          (frame.drawings == 1 ? "once" : std::to_string(frame.drawings) + " times") +
          "; memory gives " + fixed(1e-9 * rates.memory_bandwidth, 1) + " GB/s, arrays of " +
          fixed(1e-6 * chunk_bytes(frame.counts), 0) + " MB " +
-         fixed(1e-9 * rates.chunk_bandwidth, 1) + " GB/s\n" +
-         work_of(frame.counts.summed, rates.yardstick.summed, "sums") +
-         work_of(frame.counts.layered, rates.yardstick.layered, "layers") + "\n";
+         fixed(1e-9 * rates.chunk_bandwidth, 1) + " GB/s\n" + work_of(frame.counts.summed, "sums") +
+         work_of(frame.counts.layered, "layers") + fixed(1e-9 * multiply_adds_of(frame.counts), 1) +
+         " G multiply-adds, of which registers do " + fixed(1e-9 * rates.multiply_adds, 0) +
+         " G/s\n\n";
 }
 
 // What stands between the frame and its goal.

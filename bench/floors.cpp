@@ -67,10 +67,6 @@ StageBytes resolve(const FrameCounts& counts) {
   return {counts.slabs * 2 * planes + planes + written * counts.pixels * picture_bytes, 0};
 }
 
-double seconds_of(const ListWork& work, const SplatSeconds& seconds) {
-  return work.entries * seconds.entry + work.row_parts * seconds.row_part;
-}
-
 StageFloor floor_of(const char* stage, const StageBytes& bytes, const MachineRates& rates) {
   StageFloor floor;
   floor.stage = stage;
@@ -86,6 +82,12 @@ double chunk_bytes(const FrameCounts& counts) {
   return counts.entries() * counts.entry_bytes / std::max(1.0, counts.chunks);
 }
 
+double multiply_adds_of(const FrameCounts& counts) {
+  constexpr double pixels_of_part = 8, of_sums = 3, of_layers = 9;
+  return pixels_of_part *
+         (of_sums * counts.summed.row_parts + of_layers * counts.layered.row_parts);
+}
+
 double StageFloor::seconds() const {
   return std::max(byte_seconds, operation_seconds);
 }
@@ -96,8 +98,7 @@ std::vector<StageFloor> floors_of(const FrameCounts& counts, const MachineRates&
   floors.push_back(floor_of("bin", bin(counts), rates));
   if (counts.is_collected) floors.push_back(floor_of("certify", certify(counts), rates));
   floors.push_back(floor_of("composite", composite(counts), rates));
-  floors.back().operation_seconds = seconds_of(counts.layered, rates.yardstick.layered) +
-                                    seconds_of(counts.summed, rates.yardstick.summed);
+  floors.back().operation_seconds = multiply_adds_of(counts) / rates.multiply_adds;
   floors.push_back(floor_of("resolve", resolve(counts), rates));
   return floors;
 }

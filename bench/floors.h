@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "yardstick.h"
-
 // The least that each stage of a frame could take on this machine, from what it has to move and
 // to compute and from what the machine was just seen to do. It tells what forbids a goal.
 //
@@ -15,12 +13,14 @@
 // and all but the position of a particle that is not visible. Sorting is the exception: its passes
 // are those of this radix sort.
 //
-// Operations: known for compositing alone, as the yardstick's time for as many entries of lists and
-// as many row parts, eight pixels of a row each, in layers or in sums. That is what was reached by
-// hand with vectors of eight, not a proof. Lists of tiles that turn opaque count in full.
+// Operations: of compositing alone, the multiplications with an addition of the pixels themselves:
+// three for a pixel of a splat in sums, and nine in layers, which take each channel's light and
+// opacity. What splats take before that, their shapes, is not counted, and no stage but this one.
+// Lists of tiles that turn opaque count in full.
 namespace splotchcl::bench {
 
-// Entries of tiles' lists, and the row parts that lie within their splats.
+// Entries of tiles' lists, and the row parts, eight pixels of a row each, that lie within their
+// splats.
 struct ListWork {
   double entries = 0, row_parts = 0;
 };
@@ -51,8 +51,10 @@ double chunk_bytes(const FrameCounts& counts);
 struct MachineRates {
   double memory_bandwidth = 0;  // bytes/s, through arrays far larger than caches
   double chunk_bandwidth = 0;   // bytes/s, through arrays of chunk_bytes()
-  YardstickParts yardstick;
+  double multiply_adds = 0;     // of floats, a second
 };
+
+double multiply_adds_of(const FrameCounts& counts);
 
 struct StageFloor {
   std::string stage;

@@ -17,6 +17,7 @@
 #include "frame_error.h"
 #include "machine.h"
 #include "measure.h"
+#include "multiply_adds.h"
 #include "process.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
@@ -185,7 +186,7 @@ constexpr std::uint64_t memory_bytes = 1ull << 30;
 MachineRates measure_rates(const FrameCounts& counts, int threads) {
   return {measure_bandwidth(memory_bytes, threads),
           measure_bandwidth(static_cast<std::uint64_t>(chunk_bytes(counts)), threads),
-          measure_yardstick_parts(threads)};
+          measure_multiply_adds(threads)};
 }
 
 Measured measure_scene(const std::string& name, const Options& options, Renderer& renderer,

@@ -113,13 +113,6 @@ Corner corner_of(std::size_t tile) {
           static_cast<float>(static_cast<int>(tile) / tiles_x * tile_height)};
 }
 
-double row_parts_of(const Disc& disc, Corner tile) {
-  const Range columns = pixels_within(disc.x - tile.x, disc.radius, tile_width);
-  const Range rows = pixels_within(disc.y - tile.y, disc.radius, tile_height);
-  return static_cast<double>(rows.last - rows.first + 1) *
-         (columns.last / lanes - columns.first / lanes + 1);
-}
-
 template <bool ordered>
 void add_disc(Tile& tile, const Disc& disc, Corner corner) {
   const float x = disc.x - corner.x, y = disc.y - corner.y;
@@ -158,7 +151,7 @@ struct YardstickScene::Lists {
   std::vector<std::uint32_t> starts;  // tile_count + 1
   std::vector<Disc> discs;            // tile by tile
   std::vector<float> image;
-  double updates = 0, row_parts = 0;
+  double updates = 0;
 
   explicit Lists(const std::vector<Disc>& all_discs);
 
@@ -204,10 +197,6 @@ YardstickScene::Lists::Lists(const std::vector<Disc>& all_discs)
   for (const Disc& disc : all_discs)
     for_each_tile(disc, [&](std::size_t tile) { discs[next[tile]++] = disc; });
   updates = updates_of(all_discs);
-  for (std::size_t t = 0; t < tile_count; ++t) {
-    for (std::uint32_t i = starts[t]; i < starts[t + 1]; ++i)
-      row_parts += row_parts_of(discs[i], corner_of(t));
-  }
 }
 
 YardstickScene::YardstickScene(float mean_radius_pixels, int splat_count)
@@ -217,14 +206,6 @@ YardstickScene::YardstickScene(YardstickScene&&) noexcept = default;
 
 double YardstickScene::updates() const {
   return lists_->updates;
-}
-
-double YardstickScene::entries() const {
-  return static_cast<double>(lists_->discs.size());
-}
-
-double YardstickScene::row_parts() const {
-  return lists_->row_parts;
 }
 
 void YardstickScene::draw(bool ordered, int threads) {
@@ -246,19 +227,6 @@ double best_seconds(YardstickScene& scene, bool ordered, int threads) {
     best = std::min(best, stopwatch.elapsed().wall_seconds);
   }
   return best;
-}
-
-struct TimedLists {
-  double entries, row_parts, seconds;
-};
-
-// Two kinds of lists, two unknowns.
-SplatSeconds split(const TimedLists& small, const TimedLists& large) {
-  const double determinant = small.entries * large.row_parts - large.entries * small.row_parts;
-  return {
-      std::max(0.0,
-               (small.seconds * large.row_parts - large.seconds * small.row_parts) / determinant),
-      std::max(0.0, (small.entries * large.seconds - large.entries * small.seconds) / determinant)};
 }
 
 YardstickCost measure_size(float radius_pixels, int splat_count, int threads) {
@@ -286,15 +254,6 @@ Yardstick mean_of(const Yardstick& first, const Yardstick& second) {
     return {0.5 * (a.additive_ns + b.additive_ns), 0.5 * (a.ordered_ns + b.ordered_ns)};
   };
   return {mean(first.small, second.small), mean(first.large, second.large), first.threads};
-}
-
-YardstickParts measure_yardstick_parts(int threads) {
-  YardstickScene small(1.5f, 2000000), large(20, 200000);
-  const auto parts = [&](bool ordered) -> SplatSeconds {
-    return split({small.entries(), small.row_parts(), best_seconds(small, ordered, threads)},
-                 {large.entries(), large.row_parts(), best_seconds(large, ordered, threads)});
-  };
-  return {parts(false), parts(true)};
 }
 
 std::string describe(const Yardstick& yardstick) {

@@ -16,9 +16,7 @@ class YardstickScene {
   ~YardstickScene();
   YardstickScene(YardstickScene&&) noexcept;
 
-  double updates() const;    // pixels inside the splats' discs, three channels each
-  double entries() const;    // of the tiles' lists
-  double row_parts() const;  // in all of them, of eight pixels each
+  double updates() const;  // pixels inside the splats' discs, three channels each
   void draw(bool ordered, int threads);
 
  private:
@@ -42,16 +40,5 @@ struct Yardstick {
 Yardstick measure_yardstick(int threads);
 Yardstick mean_of(const Yardstick& first, const Yardstick& second);
 std::string describe(const Yardstick& yardstick);
-
-// What its time consists of: seconds, on all threads together, for each entry of a tile's list, and
-// for each row part, eight pixels of a row, within it. From splats of 1.5 and of 20 pixels, the
-// best of several runs.
-struct SplatSeconds {
-  double entry = 0, row_part = 0;
-};
-struct YardstickParts {
-  SplatSeconds summed, layered;
-};
-YardstickParts measure_yardstick_parts(int threads);
 
 }  // namespace splotchcl::bench

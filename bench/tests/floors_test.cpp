@@ -117,13 +117,13 @@ TEST(Floors, ArraysOfAChunkMoveAtTheirOwnBandwidth) {
   EXPECT_DOUBLE_EQ(floor.byte_seconds, floor.frame_bytes / 100 + floor.chunk_bytes / 10);
 }
 
-TEST(Floors, LayersAndSumsTakeWhatTheYardstickTakesForThem) {
+TEST(Floors, APixelTakesThreeMultiplyAddsInSumsAndNineInLayers) {
   FrameCounts counts = ordered();
   counts.summed = {3, 7};
   MachineRates rates = slow_machine();
-  rates.yardstick.layered = {1, 10};
-  rates.yardstick.summed = {100, 1000};
-  EXPECT_EQ(floor_of("composite", counts, rates).operation_seconds, 20 + 500 + 300 + 7000);
+  rates.multiply_adds = 2;
+  EXPECT_EQ(multiply_adds_of(counts), 8 * (9 * 50 + 3 * 7));
+  EXPECT_EQ(floor_of("composite", counts, rates).operation_seconds, 4 * (9 * 50 + 3 * 7));
 }
 
 TEST(Floors, TheLeastIsTheLongerOfBytesAndOperations) {
