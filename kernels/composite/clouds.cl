@@ -4,6 +4,7 @@
 #define CLOUDS_PARAMETERS                                                       \
   , __global const CloudEntry *clouds, __global const CloudSplat *cloud_splats, \
       __global const float *directions, __global const DirectionCone *cones
+#define CLOUDS_ARGUMENTS , clouds, cloud_splats, directions, cones
 
 #ifdef LANES_8
 #define PIXEL_RAMP (float8)(0, 1, 2, 3, 4, 5, 6, 7)
@@ -137,4 +138,5 @@ INLINED TileClouds clouds_of_tile(__global const CloudEntry* clouds,
 }
 #else
 #define CLOUDS_PARAMETERS
+#define CLOUDS_ARGUMENTS
 #endif

@@ -172,12 +172,13 @@ static inline int is_opaque(const float* front, __global const float* planes, co
 }
 #endif
 
-__kernel void composite(const CompositeParameters p, __global const Grid* grids,
-                        __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials CLOUDS_PARAMETERS) {
-  const uint id = p.first_segment + get_global_id(0);
-  if (id >= p.end_segment) return;
-  const Segment segment = segments[id];
+// A call: of a kernel itself PoCL makes three copies. Its last argument tells the compiler that it
+// may use registers of sixteen floats (lanes.cl).
+__attribute__((noinline)) static void composite_segment(
+    const Segment segment, const CompositeParameters* parameters, __global const Grid* grids,
+    __global const TileSplat* entries, __global float* planes,
+    __global float* partials CLOUDS_PARAMETERS, PATCH lanes) {
+  const CompositeParameters p = *parameters;
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
   const size_t corner = first_float(grid) +
@@ -271,4 +272,13 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
   } else {
     store_partial(all, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
   }
+}
+
+__kernel void composite(const CompositeParameters p, __global const Grid* grids,
+                        __global const Segment* segments, __global const TileSplat* entries,
+                        __global float* planes, __global float* partials CLOUDS_PARAMETERS) {
+  const uint id = p.first_segment + get_global_id(0);
+  if (id >= p.end_segment) return;
+  composite_segment(segments[id], &p, grids, entries, planes, partials CLOUDS_ARGUMENTS,
+                    PATCH_LANES);
 }

@@ -174,4 +174,7 @@ __attribute__((noinline)) static void put_shape(PatchShapes* shapes, uint number
   set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, 1u << number);
   set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, 1u << number);
 }
+#else
+#define PATCH float8
+#define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
 #endif
