@@ -78,23 +78,18 @@ INLINED PATCH means_along(const Axis axis, PATCH pixel, float per_sigma) {
   return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * axis.sigma), pixel, axis);
 }
 
-// The shape along an axis of a tile of `size` pixels, all of it, since no processor foresees which
-// part a splat reaches; in wide tiles, where most splats fit into a line, of a line alone.
-#define LINE_PIXELS 16
-#if TILE_WIDTH > 2 * LINE_PIXELS && !defined(KERNEL_CUT)
-#define CAN_FIT 1
-#else
-#define CAN_FIT 0
-#endif
+// The shape along an axis of a tile of `size` pixels: as many as hold the square, or, of a cut
+// kernel, whose squares differ more, all, since no processor foresees how many a splat has.
 INLINED void fill_axis_of_tile(float* values, int size, const Axis axis, float mean_sigma,
                                PATCH lanes) {
-  const int fits = CAN_FIT && axis.square.y - axis.square.x < LINE_PIXELS;
-  const int begin = fits ? min(axis.square.x, size - LINE_PIXELS) : 0;
-  const int end = fits ? begin + LINE_PIXELS : size;
-  if (fits) {
-    for (int k = 0; k < size; k += PATCH_WIDTH)
-      store_patch((PATCH)(0.0f), values + k);
-  }
+#ifdef KERNEL_CUT
+  const int begin = 0, end = size;
+#else
+  const int count = (axis.square.y - axis.square.x + PATCH_WIDTH) & ~(PATCH_WIDTH - 1);
+  const int begin = min(axis.square.x, size - count), end = begin + count;
+  for (int k = 0; k < size; k += PATCH_WIDTH)
+    store_patch((PATCH)(0.0f), values + k);
+#endif
   if (axis.sigma >= mean_sigma) {
     const float inverse = inverse_of(axis.sigma);
     for (int k = begin; k < end; k += PATCH_WIDTH)

@@ -28,16 +28,24 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
   clear_waiting(waiting);
 }
 
+// Splats up to so many pixels are drawn row by row. Narrow registers hold patches of so few pixels
+// that splats which are not cut fill too few of them.
+#if defined(ROWS_OF_16) || defined(KERNEL_CUT)
+#define WIDEST_ALONE 7
+#else
+#define WIDEST_ALONE 16
+#endif
+
 // Whether a splat that touches `rows` and `columns` of the tile waits: wide ones do, and in order
 // all behind them. Bright ones take other formulas, and deep layers, one by one.
 static inline int waits(const WaitingSplats* waiting, int2 rows, int2 columns,
                         __global const TileSplat* splat, int form) {
-  const int widest = max(columns.y - columns.x, rows.y - rows.x);
+  const int widest = max(columns.y - columns.x, rows.y - rows.x) + 1;
   const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
 #ifdef LIGHT_ORDERED
-  return form <= BY_THREE_TERMS && is_dim && (widest >= 7 || waiting->count > 0);
+  return form <= BY_THREE_TERMS && is_dim && (widest > WIDEST_ALONE || waiting->count > 0);
 #else
-  return is_dim && widest >= 7;
+  return is_dim && widest > WIDEST_ALONE;
 #endif
 }
 

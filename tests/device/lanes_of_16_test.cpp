@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <string>
 
 #include "device/pictures.h"
 
@@ -39,17 +38,25 @@ Frame clouds(LightPlan plan, std::optional<double> cut, Projection projection) {
   return frame;
 }
 
-void expect_same_bits(const Frame& frame, const std::string& what) {
-  EXPECT_EQ(draw_in_lanes_of(16, frame).pixels, draw_in_lanes_of(8, frame).pixels) << what;
+// Of cut splats the same ones wait for each other.
+TEST(LanesOfSixteen, GiveTheBitsOfLanesOfEightWhereSplatsAreCut) {
+  for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
+    for (const Projection projection : {Projection::orthographic, Projection::equirectangular}) {
+      const Frame frame = clouds(plan, 1.8, projection);
+      EXPECT_EQ(draw_in_lanes_of(16, frame).pixels, draw_in_lanes_of(8, frame).pixels)
+          << name(plan) << ", projection " << static_cast<int>(projection);
+    }
+  }
 }
 
-TEST(LanesOfSixteen, GiveTheBitsOfLanesOfEight) {
+// Others are added up in another order: each of 300 splats may be rounded in another way.
+TEST(LanesOfSixteen, GiveTheLightOfLanesOfEight) {
+  constexpr double roundings = 300 * 0x1p-24;
   for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
-    expect_same_bits(clouds(plan, std::nullopt, Projection::orthographic), name(plan));
-    expect_same_bits(clouds(plan, 1.8, Projection::orthographic),
-                     name(plan) + std::string(", cut"));
-    expect_same_bits(clouds(plan, 1.8, Projection::equirectangular),
-                     name(plan) + std::string(", cut ellipses"));
+    const Frame frame = clouds(plan, std::nullopt, Projection::orthographic);
+    EXPECT_LT(largest_difference(draw_in_lanes_of(16, frame), draw_in_lanes_of(8, frame)),
+              roundings)
+        << name(plan);
   }
 }
 
