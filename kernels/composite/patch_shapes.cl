@@ -82,7 +82,7 @@ INLINED PATCH means_along(const Axis axis, PATCH pixel, float per_sigma) {
 // kernel, whose squares differ more, all, since no processor foresees how many a splat has.
 INLINED void fill_axis_of_tile(float* values, int size, const Axis axis, float mean_sigma,
                                PATCH lanes) {
-#ifdef KERNEL_CUT
+#ifdef CUT_BY_ROWS
   const int begin = 0, end = size;
 #else
   const int count = (axis.square.y - axis.square.x + PATCH_WIDTH) & ~(PATCH_WIDTH - 1);

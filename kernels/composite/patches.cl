@@ -77,34 +77,30 @@ INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
 }
 
 #ifdef LIGHT_ORDERED
-// A layer as THIN_CHANNEL() has it, of the plane of light `s` and the plane of opacity `o`.
-#define PATCH_CHANNEL(s, o, COVERED)                  \
+// A layer as THIN_LAYER() (rows.cl) has it: channel c's light and opacity are planes c and `o`.
+#define PATCH_CHANNEL(c, o, COVERED)                  \
   {                                                   \
-    const PATCH covered = COVERED(splat.light[o]);    \
+    const float absorption##c = splat.light[o];       \
+    const PATCH covered = COVERED(c);                 \
     const PATCH u = covered - row.plane##o * covered; \
-    row.plane##s += u * splat.light[s];               \
-    row.plane##o += u * splat.light[o];               \
+    row.plane##c += u * splat.light[c];               \
+    row.plane##o += u * absorption##c;                \
   }
-#define PATCH_OF_ONE_TERM(absorption) (shape)
-#define PATCH_OF_TWO_TERMS(absorption) (shape + (shape * shape) * (-0.5f * (absorption)))
-#define PATCH_OF_THREE_TERMS(absorption) \
-  (shape +                               \
-   (shape * shape) * (shape * (0.166666667f * (absorption) * (absorption)) - 0.5f * (absorption)))
 #define PATCH_CHANNELS(COVERED) \
   PATCH_CHANNEL(0, 3, COVERED) PATCH_CHANNEL(1, 4, COVERED) PATCH_CHANNEL(2, 5, COVERED)
 INLINED PatchRow add_one_term(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(PATCH_OF_ONE_TERM)
+  PATCH_CHANNELS(COVERED_BY_ONE_TERM)
   return row;
 }
 INLINED PatchRow add_two_terms(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(PATCH_OF_TWO_TERMS)
+  PATCH_CHANNELS(COVERED_BY_TWO_TERMS)
   return row;
 }
 INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
   const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(PATCH_OF_THREE_TERMS)
+  PATCH_CHANNELS(COVERED_BY_THREE_TERMS)
   return row;
 }
 #else
