@@ -28,9 +28,9 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
   clear_waiting(waiting);
 }
 
-// Splats up to so many pixels are drawn row by row. Narrow registers hold patches of so few pixels
-// that splats which are not cut fill too few of them.
-#if defined(ROWS_OF_16) || defined(KERNEL_CUT)
+// Splats up to so many pixels are drawn row by row. Patches of layers, and of narrow registers,
+// have so few pixels that splats which are not cut fill too few of them.
+#if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED))
 #define WIDEST_ALONE 7
 #else
 #define WIDEST_ALONE 16
