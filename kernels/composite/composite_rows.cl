@@ -137,7 +137,7 @@ __attribute__((noinline)) static int add_cloud(float* tile, __global const Cloud
   *depth_of_block += cloud->deepest;
   const int form = form_of_layer(cloud->deepest, *depth_of_block, p);
   if (form <= BY_THREE_TERMS) {
-    CLOUD_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS, float8, load_eight, store_eight))
+    CLOUD_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS))
   } else if (form == BY_SERIES) {
     CLOUD_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
   } else {

@@ -99,21 +99,21 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define COVERED_BY_THREE_TERMS(c) \
   (shape + (shape * shape) *      \
                (shape * (0.166666667f * absorption##c * absorption##c) - 0.5f * absorption##c))
-#define THIN_CHANNEL(c, COVERED, FLOATS, LOAD_ROW, STORE_ROW) \
-  {                                                           \
-    float* const source = pixel + c * TILE_PIXELS;            \
-    float* const opacity = pixel + (c + 3) * TILE_PIXELS;     \
-    const FLOATS o = LOAD_ROW(opacity);                       \
-    const FLOATS covered = COVERED(c);                        \
-    const FLOATS u = covered - o * covered;                   \
-    STORE_ROW(LOAD_ROW(source) + u * emission##c, source);    \
-    STORE_ROW(o + u * absorption##c, opacity);                \
+#define THIN_CHANNEL(c, COVERED)                               \
+  {                                                            \
+    float* const source = pixel + c * TILE_PIXELS;             \
+    float* const opacity = pixel + (c + 3) * TILE_PIXELS;      \
+    const float8 o = load_eight(opacity);                      \
+    const float8 covered = COVERED(c);                         \
+    const float8 u = covered - o * covered;                    \
+    store_eight(load_eight(source) + u * emission##c, source); \
+    store_eight(o + u * absorption##c, opacity);               \
   }
 
-#define THIN_LAYER(COVERED, FLOATS, LOAD_ROW, STORE_ROW) \
-  THIN_CHANNEL(0, COVERED, FLOATS, LOAD_ROW, STORE_ROW)  \
-  THIN_CHANNEL(1, COVERED, FLOATS, LOAD_ROW, STORE_ROW)  \
-  THIN_CHANNEL(2, COVERED, FLOATS, LOAD_ROW, STORE_ROW)
+#define THIN_LAYER(COVERED) \
+  THIN_CHANNEL(0, COVERED)  \
+  THIN_CHANNEL(1, COVERED)  \
+  THIN_CHANNEL(2, COVERED)
 
 // Differences of the error function may be negative by their error. A thin layer's opacity must
 // not be: it would be read as a transmittance.
@@ -161,26 +161,24 @@ static inline int form_of_layer(float deepest, float depth_of_block, const Compo
 
 #ifndef LIGHT_ORDERED
 // A row of a splat added to the sums, written out for each of them, as layers are.
-#define SUMMED_CHANNEL(c, FLOATS) const FLOATS summed##c = across * splat->summed[c];
-#define ADD_CHANNEL(c, LOAD_ROW, STORE_ROW) \
-  STORE_ROW(LOAD_ROW(pixel + c * TILE_PIXELS) + shape * summed##c, pixel + c * TILE_PIXELS);
-#define SUMMED_LIGHT(FLOATS) \
-  SUMMED_CHANNEL(0, FLOATS) SUMMED_CHANNEL(1, FLOATS) SUMMED_CHANNEL(2, FLOATS)
-#define ADD_LIGHT(LOAD_ROW, STORE_ROW) \
-  ADD_CHANNEL(0, LOAD_ROW, STORE_ROW)  \
-  ADD_CHANNEL(1, LOAD_ROW, STORE_ROW)  \
-  ADD_CHANNEL(2, LOAD_ROW, STORE_ROW)
+#define SUMMED_CHANNEL(c) const float8 summed##c = across * splat->summed[c];
+#define ADD_CHANNEL(c) \
+  store_eight(load_eight(pixel + c * TILE_PIXELS) + shape * summed##c, pixel + c * TILE_PIXELS);
+#define SUMMED_LIGHT SUMMED_CHANNEL(0) SUMMED_CHANNEL(1) SUMMED_CHANNEL(2)
+#define ADD_LIGHT \
+  ADD_CHANNEL(0)  \
+  ADD_CHANNEL(1)  \
+  ADD_CHANNEL(2)
 #if SUMMED == 6
-#define SUMMED_CHANNELS(FLOATS) \
-  SUMMED_LIGHT(FLOATS) SUMMED_CHANNEL(3, FLOATS) SUMMED_CHANNEL(4, FLOATS) SUMMED_CHANNEL(5, FLOATS)
-#define ADD_CHANNELS(LOAD_ROW, STORE_ROW) \
-  ADD_LIGHT(LOAD_ROW, STORE_ROW)          \
-  ADD_CHANNEL(3, LOAD_ROW, STORE_ROW)     \
-  ADD_CHANNEL(4, LOAD_ROW, STORE_ROW)     \
-  ADD_CHANNEL(5, LOAD_ROW, STORE_ROW)
+#define SUMMED_CHANNELS SUMMED_LIGHT SUMMED_CHANNEL(3) SUMMED_CHANNEL(4) SUMMED_CHANNEL(5)
+#define ADD_CHANNELS \
+  ADD_LIGHT          \
+  ADD_CHANNEL(3)     \
+  ADD_CHANNEL(4)     \
+  ADD_CHANNEL(5)
 #else
-#define SUMMED_CHANNELS(FLOATS) SUMMED_LIGHT(FLOATS)
-#define ADD_CHANNELS(LOAD_ROW, STORE_ROW) ADD_LIGHT(LOAD_ROW, STORE_ROW)
+#define SUMMED_CHANNELS SUMMED_LIGHT
+#define ADD_CHANNELS ADD_LIGHT
 #endif
 #endif
 
@@ -236,18 +234,18 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
   if (form == BY_ONE_TERM) {
-    LAYER_ROWS(THIN_LAYER(COVERED_BY_ONE_TERM, float8, load_eight, store_eight))
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_ONE_TERM))
   } else if (form == BY_TWO_TERMS) {
-    LAYER_ROWS(THIN_LAYER(COVERED_BY_TWO_TERMS, float8, load_eight, store_eight))
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_TWO_TERMS))
   } else if (form == BY_THREE_TERMS) {
-    LAYER_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS, float8, load_eight, store_eight))
+    LAYER_ROWS(THIN_LAYER(COVERED_BY_THREE_TERMS))
   } else if (form == BY_SERIES) {
     LAYER_ROWS(LAYER_CHANNELS(phi_series, passed_by_series))
   } else {
     LAYER_ROWS(LAYER_CHANNELS(phi_full, passed_in_full))
   }
 #else
-  SUMMED_CHANNELS(float8)
+  SUMMED_CHANNELS
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
 #ifdef FACE_OF_CUBE
     const float8 shape = SHAPE_OF_ROW(k);
@@ -255,7 +253,7 @@ static inline void update_window(float* tile, const Window* window, float8 acros
     const float8 shape =
         cut_shape((float8)(along[k]), dx, dy + (float)k, along[LIMITS + k], squeeze);
 #endif
-    ADD_CHANNELS(load_eight, store_eight)
+    ADD_CHANNELS
   }
 #endif
 }

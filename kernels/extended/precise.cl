@@ -14,11 +14,7 @@ static inline VALUE precise_exp_negative(VALUE high, VALUE low) {
   p = p * r + 0.5f;
   p = p * r + 1.0f;
   p = p * r + 1.0f;
-#if LANES > 1
-  const VALUE scaled = AS_VALUE(AS_INTEGER(p) + (convert_int8(n) << 23));
-#else
-  const VALUE scaled = AS_VALUE(AS_INTEGER(p) + ((int)n << 23));
-#endif
+  const VALUE scaled = AS_VALUE(AS_INTEGER(p) + (TO_INTEGER(n) << 23));
   return select(scaled, (VALUE)(0.0f), high >= 86.0f);
 }
 

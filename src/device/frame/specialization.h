@@ -106,7 +106,7 @@ class Specialization {
   LightPlan light_;
   Projection projection_;
   bool rows_;            // eight lanes, else one
-  bool rows_of_16_;      // of a patch (kernels/composite/patches.cl)
+  bool rows_of_16_;      // of a patch, and sixteen lanes of a projection
   bool extended_;        // numbers of 45 bits
   bool double_numbers_;  // as doubles, else pairs of floats
   bool full_precision_, fine_places_, small_blocks_;
