@@ -82,19 +82,45 @@ struct RefinementFilter {
   double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
 };
 
-// The grids of a frame: grid 0 is the picture. Sums add wide splats to coarser grids, which
-// are interpolated up afterwards.
+// Weights that become a round Gaussian of peak 1 when the grid is blurred, the same along either
+// axis: of so many pixels, from 3 before to 4 behind the last one whose center lies before the
+// splat's (or at it). With g the distance of the splat's center from the middle between that pixel
+// and the next, v = (sigma^2 - middle) per_width, and a polynomial p_k(g^2, v) for each pixel, the
+// weights are p_k + g p_(4 + k) from the first pixel on and p_k - g p_(4 + k) from the last one
+// back, k = 0 .. 3.
+constexpr std::size_t stencil_pixels = 8, stencil_place_powers = 3, stencil_width_powers = 4;
+struct Stencil {
+  double largest_sigma = 0;  // pixels of the grid
+  double error = 0;          // of the peak, for one axis
+  float middle = 0, per_width = 0;
+  // Of the eight pixels' polynomials, for each power of g^2 those of all powers of v.
+  std::array<float, stencil_place_powers * stencil_width_powers * stencil_pixels> coefficients{};
+};
+
+// The grids of a frame: grid 0 is the picture. Sums add wide splats to other grids, most of them
+// coarser, which are blurred and interpolated up afterwards.
 struct GridPyramid {
   std::vector<PictureGrid> grids;
   std::vector<int> level_grids;  // the grid that collects each level
-  // As many grids for each coarse level as there are blurs: splats are drawn narrower, and the
-  // grid is blurred by this sigma^2 (its own pixels^2), the first of a level by the least. Empty:
-  // one grid, not blurred.
+  // As many grids for each level from first_level on as there are blurs: splats are drawn narrower,
+  // and the grid is blurred by this sigma^2 (its own pixels^2), the first of a level by the least.
+  // Empty: one grid, not blurred.
   std::vector<double> blurs;
   double blur_error = 0;  // of a splat's peak
+  // The level of grid 1: 1, or 0 where there are grids of the picture's own pixels that are
+  // blurred.
+  int first_level = 1;
+  // What splats of peaks up to 1 are drawn by on the grid of each blur; empty: by narrower
+  // Gaussians.
+  std::vector<Stencil> stencils;
 
   bool is_blurred() const { return !blurs.empty(); }
+  bool has_stencils() const { return !stencils.empty(); }
   std::size_t grids_of_level() const { return is_blurred() ? blurs.size() : 1; }
+  // Of a level from first_level on: of grids that are not the picture.
+  std::size_t first_grid_of(int level) const {
+    return 1 + static_cast<std::size_t>(level - first_level) * grids_of_level();
+  }
   // Of grid 0 nothing.
   double blur_of(std::size_t grid) const {
     return is_blurred() && grid > 0 ? blurs[(grid - 1) % blurs.size()] : 0;

@@ -33,7 +33,7 @@ INLINED INTEGER last_pixel(VALUE place, VALUE radius, const AxisLanes axis) {
 
 INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
   const INTEGER level = level_of(s.grid, p);
-  const INTEGER guard = select((INTEGER)(0), (INTEGER)(p.guard), level > 0);
+  const INTEGER guard = select((INTEGER)(0), (INTEGER)(p.guard), s.grid > 0);
   const AxisLanes across = axis_of(p.middle_x, p.width, level, guard);
   const AxisLanes along = axis_of(p.middle_y, p.height, level, guard);
   // Places are rounded to floats here, twice (Grid::room).

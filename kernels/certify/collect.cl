@@ -19,7 +19,7 @@ typedef struct Batch {
   __global const TileSplat* entries;
   int counts[LANES];  // whether they do: in this tile
   int x[LANES], y[LANES], octave[LANES];
-  float peak[LANES], width2[LANES];
+  float peak[LANES], width2[LANES], ending[LANES];
 } Batch;
 
 INLINED Measured one_of(const Batch* batch, int i) {
@@ -29,6 +29,7 @@ INLINED Measured one_of(const Batch* batch, int i) {
   m.octave = batch->octave[i];
   m.peak = batch->peak[i];
   m.width2 = batch->width2[i];
+  m.ending = batch->ending[i];
   return m;
 }
 
@@ -67,11 +68,13 @@ INLINED void collect_batch(__global const TileSplat* entries, int count, const T
     STORE(counts, batch.counts);
     STORE(m.peak, batch.peak);
     STORE(m.width2, batch.width2);
+    STORE(m.ending, batch.ending);
     add_one_by_one(&batch, count, tile, p);
     return;
   }
   // Those that do not count add nothing, which takes less than to leave them out.
   STORE(choose((VALUE)(0.0f), m.peak, counts), batch.peak);
+  STORE(choose((VALUE)(0.0f), m.ending, counts), batch.ending);
   for (int i = 0; i < LANES; ++i)
     add(contribution_of_drawn(one_of(&batch, i), tile->of_grid.most_peak, p), tile->cells);
 }

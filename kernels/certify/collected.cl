@@ -115,12 +115,13 @@ typedef struct MeasuredLanes {
   INTEGER x, y;  // the pixel of the center, or the tile's nearest
   INTEGER octave;
   VALUE peak, width2;
+  VALUE ending;  // the peak, or 0 of a stencil, which leaves nothing out
 } MeasuredLanes;
 
 // The same of one.
 typedef struct Measured {
   int x, y, octave;
-  float peak, width2;
+  float peak, width2, ending;
 } Measured;
 
 INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParameters* p,
@@ -132,7 +133,8 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
 #else
   const VALUE area = sigma * sigma;
 #endif
-  const INTEGER by_mean = drawn_sigma < grid.mean_sigma;
+  const INTEGER is_stencil = (drawn_sigma < 0.0f) & (INTEGER)(grid.blur > 0.0f ? -1 : 0);
+  const INTEGER by_mean = (drawn_sigma < grid.mean_sigma) & (is_stencil == 0);
   MeasuredLanes m;
   m.counts_here = (x >= reach.x0) & (x < reach.x1) & (y >= reach.y0) & (y < reach.y1);
   m.x = pixel_of(x + 0.5f * TILE_WIDTH, TILE_WIDTH - 1);
@@ -140,11 +142,13 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
   const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
   m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
+  const VALUE lacking = choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
   m.width2 =
-      larger_of(sigma * sigma, area) + choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
+      larger_of(sigma * sigma, area) + choose(lacking, (VALUE)(0.0f), is_stencil);
   // On a grid that is blurred a splat is drawn narrower and brighter than it is in the picture, and
   // what it leaves out is spread as well (docs/accuracy.md, "Checked after drawing").
   if (grid.blur > 0.0f) m.peak *= area / m.width2;
+  m.ending = choose(m.peak, (VALUE)(0.0f), is_stencil);
   const INTEGER octave = (((AS_INTEGER(m.width2) >> 23) - 127) >> 1) + 1;
   const INTEGER at_least = octave < 0 ? (INTEGER)(0) : octave;
   m.octave = at_least >= WIDTH_OCTAVES ? (INTEGER)(WIDTH_OCTAVES - 1) : at_least;
@@ -183,7 +187,7 @@ INLINED Contribution contribution_of_drawn(const Measured m, float most_peak,
   added.peak_cell = cell_at(p->peaks[m.octave], m.x, m.y);
   added.peak = smaller(m.peak, most_peak);
   added.ending_cell = cell_at(p->endings[m.octave], m.x, m.y);
-  added.ending = m.peak;
+  added.ending = m.ending;
   return added;
 }
 
@@ -196,6 +200,6 @@ INLINED Contribution contribution_of_bright(const Measured m, float radius, floa
                                               p->extent2[octave_in_picture(m.octave, level)]);
   Contribution added = contribution_of_drawn(m, most_peak, p);
   added.ending_cell = cell_at(p->endings[as_far], m.x, m.y);
-  added.ending = p->edge_peak * part;
+  added.ending = m.ending > 0.0f ? p->edge_peak * part : 0.0f;
   return added;
 }

@@ -62,7 +62,7 @@ INLINED uint grid_of(const Splat splat) {
 }
 // Its pixels are 2^level of the picture's wide.
 INLINED int level_of_grid(uint grid, const GridBlurs blurs) {
-  return (int)((grid + (1u << blurs.shift) - 1u) >> blurs.shift);
+  return grid == 0 ? 0 : (int)((grid - 1u) >> blurs.shift) + blurs.first_level;
 }
 INLINED float blur_of_grid(uint grid, const GridBlurs blurs) {
   return grid == 0 ? 0.0f : blurs.sigma2[(grid - 1u) & (MOST_BLURS - 1u)];

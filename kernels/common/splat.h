@@ -32,12 +32,27 @@ struct Grid {
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
 };
 
-// A coarse level has 2^shift grids, each blurred afterwards by one of these sigma^2, in pixels of
-// its own; all 0 where nothing is blurred. As many as there may be, over and over again.
+// Levels from first_level on (plan.h, GridPyramid) have 2^shift grids beside the picture's own, each
+// blurred afterwards by one of these sigma^2, in pixels of its own; all 0 where nothing is blurred.
+// As many as there may be, over and over again.
 #define MOST_BLURS 4
 struct GridBlurs {
-  int shift;
+  int shift, first_level;
   float sigma2[MOST_BLURS];
+  // Splats up to this sigma are stencils, their weights what becomes of them when they are blurred;
+  // 0: none is.
+  float stencil_sigma[MOST_BLURS];
+};
+
+// What splats of a blurred grid are drawn by (plan.h, Stencil). Their sigma is that which the blur
+// makes of them, with a minus.
+#define STENCIL_PIXELS 8
+#define STENCIL_PLACE_POWERS 3
+#define STENCIL_WIDTH_POWERS 4
+#define STENCIL_RADIUS 4.0f
+struct Stencil {
+  float middle, per_width;
+  float coefficients[STENCIL_PLACE_POWERS * STENCIL_WIDTH_POWERS * STENCIL_PIXELS];
 };
 
 // Splats of equirectangular pictures are wider than high: x and y have widths of their own.
@@ -62,7 +77,8 @@ struct OwnColor {
 struct Splat {
   int x, y;
   float sigma;                      // widened, unless pixel means are taken; negative: of a
-                                    // bright splat, whose means keep more digits (shape.cl)
+                                    // bright splat, whose means keep more digits (shape.cl), or
+                                    // on another grid of a stencil
   float radius;                     // drawn up to here; negative: only listed, so far
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
@@ -137,6 +153,7 @@ struct ComponentColors {
 typedef struct FloatPair FloatPair;
 typedef struct Grid Grid;
 typedef struct GridBlurs GridBlurs;
+typedef struct Stencil Stencil;
 typedef struct WidthAlongX WidthAlongX;
 typedef struct Tilt Tilt;
 typedef struct OwnColor OwnColor;

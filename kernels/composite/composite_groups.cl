@@ -54,11 +54,40 @@ static inline float axis_shape(float d, float sigma, float factor, float mean_si
 // splat's radius.
 #define NOT_DRAWN 1e30f
 
+#ifdef STENCILS
+#define STENCIL_PARAMETER , __global const Stencil* stencil
+#define STENCIL_ARGUMENT , stencil
+
+// stencil_weights() of stencil_rows.cl, of one pixel.
+static inline float weight_of_stencil(__global const Stencil* stencil, float sigma,
+                                      const StencilPlaces place, int pixel) {
+  const int half_of_it = STENCIL_PIXELS / 2, number = pixel - place.first;
+  if (number < 0 || number >= STENCIL_PIXELS) return 0.0f;
+  const int is_last = number >= half_of_it;
+  const int pair = is_last ? STENCIL_PIXELS - 1 - number : number;
+  const float square = place.distance * place.distance, width = stencil_widths(sigma, stencil);
+  const float even = stencil_polynomials(stencil_of_width(stencil, width, pair), square);
+  const float odd =
+      stencil_polynomials(stencil_of_width(stencil, width, half_of_it + pair), square);
+  return is_last ? even - place.distance * odd : even + place.distance * odd;
+}
+#else
+#define STENCIL_PARAMETER
+#define STENCIL_ARGUMENT
+#endif
+
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
-// `center` is that of the item's column or row.
-static inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, float center,
-                                  float mean_sigma) {
+// `center` is that of the item's column or row, whose number is `pixel`.
+static inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, int pixel,
+                                  float center, float mean_sigma STENCIL_PARAMETER) {
   const __local TileSplat* splat = batch->splats + k;
+#ifdef STENCILS
+  if (stencil && splat->sigma < 0.0f) {
+    const StencilPlaces place = is_column ? stencil_places(splat->x + LOW_X(*splat), FIRST_X)
+                                          : stencil_places(splat->y + LOW_Y(*splat), FIRST_Y);
+    return weight_of_stencil(stencil, splat->sigma, place, pixel);
+  }
+#endif
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
 #ifdef FACE_OF_CUBE
@@ -200,12 +229,14 @@ INLINED int touches_part(const __local Batch* batch, uint k, float x, float y,
 // What all pixels of the tile need of the batch. An item has one column or row of all splats that
 // it takes, and one part: there are as many parts of all splats as items.
 INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
-                     const CompositeParameters p TILE_CLOUDS_PARAMETER) {
+                     const CompositeParameters p TILE_CLOUDS_PARAMETER STENCIL_PARAMETER) {
   const uint item = get_local_id(0), axis = item % AXES;
   const int is_column = axis < TILE_WIDTH;
-  const float center = is_column ? (float)axis + FIRST_X : (float)(axis - TILE_WIDTH) + FIRST_Y;
+  const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
+  const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
   for (uint k = item / AXES; k < count; k += GROUP / AXES)
-    batch->axes[k * AXES + axis] = axis_of_splat(batch, k, is_column, center, mean_sigma);
+    batch->axes[k * AXES + axis] =
+        axis_of_splat(batch, k, is_column, pixel, center, mean_sigma STENCIL_ARGUMENT);
   if (item < count) {
     prepare_amplitudes(batch, item, mean_sigma, p TILE_CLOUDS_PASSED);
     if (touches(batch, item TILE_CLOUDS_PASSED)) atomic_or(&batch->touching, BIT_OF(item));
@@ -380,12 +411,16 @@ static inline uint bits_behind(uint counted, uint n) {
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes,
-    __global float* partials CLOUDS_PARAMETERS) {
+    __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
   __local Batch batch;
   const uint item = get_local_id(0), part = item / PART_ITEMS;
   // The launch has as many groups as there are segments.
   const Segment segment = segments[p.first_segment + get_group_id(0)];
-  const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
+  const uint grid_number = grid_of_tile(grids, p.grid_count, segment.tile);
+  const Grid grid = grids[grid_number];
+#ifdef STENCILS
+  __global const Stencil* const stencil = stencil_of_grid(stencils, grid_number);
+#endif
   const uint in_grid = segment.tile - grid.first_tile;
   const uint x = part % PARTS_ACROSS * PART_WIDTH + item % PART_WIDTH;
   const uint y = part / PARTS_ACROSS * PART_HEIGHT + item % PART_ITEMS / PART_WIDTH;
@@ -416,7 +451,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const uint count = min((uint)BATCH, segment.end - first);
     fetch(&batch, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT);
+    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT STENCIL_ARGUMENT);
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = batch.touching, drawn = batch.drawn[part];
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;

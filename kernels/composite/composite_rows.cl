@@ -177,14 +177,16 @@ static inline int is_opaque(const float* front, __global const float* planes, co
 __attribute__((noinline)) static void composite_segment(
     const Segment segment, const CompositeParameters* parameters, __global const Grid* grids,
     __global const TileSplat* entries, __global float* planes,
-    __global float* partials CLOUDS_PARAMETERS, PATCH lanes) {
+    __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS, PATCH lanes) {
   const CompositeParameters p = *parameters;
-  const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
+  const uint grid_number = grid_of_tile(grids, p.grid_count, segment.tile);
+  const Grid grid = grids[grid_number];
   const uint in_grid = segment.tile - grid.first_tile;
   const size_t corner = first_float(grid) +
                         (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
-  float tile[PLANES * TILE_PIXELS] __attribute__((aligned(64)));
+  float memory_of_tile[BEFORE_TILE + PLANES * TILE_PIXELS] __attribute__((aligned(64)));
+  float* const tile = memory_of_tile + BEFORE_TILE;
   clear_planes(tile);
 #ifdef SPLATS_OF_BLOCK
   float front[PLANES * TILE_PIXELS];
@@ -211,11 +213,29 @@ __attribute__((noinline)) static void composite_segment(
   const float* const own_front = is_one_block ? 0 : front;
   if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) end = segment.begin;
 #endif
+#ifdef STENCILS
+  __global const Stencil* const stencil = stencil_of_grid(stencils, grid_number);
+  StencilBatch stencil_batch;
+  clear_stencils(&stencil_batch);
+#endif
   WaitingSplats waiting;
   clear_waiting(&waiting);
   EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
     const int in_batch = (int)((k - segment.begin) % LANES);
+#ifdef STENCILS
+    if (in_batch == 0 && stencil) {
+      find_stencils(entries + k, stencil, &stencil_batch);
+      if (k + LANES <= end && are_all_stencils(entries + k)) {
+        ask_for_rows(planes, grid, corner, asked, LANES * rows_at_a_time);
+        asked += LANES * rows_at_a_time;
+        for (int i = 0; i < LANES; ++i)
+          add_stencil(tile, &stencil_batch, i, entries + k + i, stencil);
+        k += LANES - 1;
+        continue;
+      }
+    }
+#endif
     if (in_batch == 0) find_windows(entries + k, &windows);
     const int2 rows = rows_of_entry(&windows, in_batch);
     const int2 columns = columns_of_entry(&windows, in_batch);
@@ -234,9 +254,16 @@ __attribute__((noinline)) static void composite_segment(
       // Lists have splats that do not touch the tile, too (splat.h), and those of a crop other
       // ones.
       if (rows.x > rows.y || columns.x > columns.y) continue;
-      const int form = form_of_splat(entries + k, &tile_of_splats, &depth_of_block, &p);
-      if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma, form))
-        add_splat(tile, entries + k, rows, columns, &tile_of_splats, form);
+#ifdef STENCILS
+      if (stencil && entries[k].sigma < 0.0f) {
+        add_stencil(tile, &stencil_batch, in_batch, entries + k, stencil);
+      } else
+#endif
+      {
+        const int form = form_of_splat(entries + k, &tile_of_splats, &depth_of_block, &p);
+        if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma, form))
+          add_splat(tile, entries + k, rows, columns, &tile_of_splats, form);
+      }
     }
     ++drawn;
 #ifdef LIGHT_ORDERED
@@ -276,9 +303,10 @@ __attribute__((noinline)) static void composite_segment(
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials CLOUDS_PARAMETERS) {
+                        __global float* planes,
+                        __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
   const uint id = p.first_segment + get_global_id(0);
   if (id >= p.end_segment) return;
-  composite_segment(segments[id], &p, grids, entries, planes, partials CLOUDS_ARGUMENTS,
-                    PATCH_LANES);
+  composite_segment(segments[id], &p, grids, entries, planes,
+                    partials CLOUDS_ARGUMENTS STENCIL_ARGUMENTS, PATCH_LANES);
 }

@@ -4,8 +4,13 @@
 // there are no eight columns left add nothing to the first pixels of the next row.
 #define ROW TILE_WIDTH
 // Planes at distances of 4096 bytes would share lines of the cache. Behind the last row there is
-// room for one that begins in it.
+// room for one that begins in it, and before the first plane for stencils that begin beside it.
 #define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
+#ifdef STENCILS
+#define BEFORE_TILE 16
+#else
+#define BEFORE_TILE 0
+#endif
 // The first pixel's center, from the tile's middle.
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)

@@ -70,20 +70,32 @@ static inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectPa
 
 // level_of_grid() and, of coarse grids, blur_of_grid() of common.cl, of VALUEs.
 static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
-  return (grid + ((1 << p.blurs.shift) - 1)) >> p.blurs.shift;
+  const INTEGER of_others = ((grid - 1) >> p.blurs.shift) + p.blurs.first_level;
+  return select(of_others, (INTEGER)(0), grid == 0);
 }
-static inline VALUE blur_of(INTEGER grid, const ProjectParameters p) {
+// `values` has one for each blur.
+INLINED VALUE value_of_blur(INTEGER grid, const float* values) {
 #if MOST_BLURS != 4
 #error "a blur is chosen by two bits"
 #endif
   const INTEGER of_level = grid - 1, is_odd = (of_level & 1) != 0, is_upper = (of_level & 2) != 0;
-  const VALUE lower = choose((VALUE)(p.blurs.sigma2[0]), (VALUE)(p.blurs.sigma2[1]), is_odd);
-  const VALUE upper = choose((VALUE)(p.blurs.sigma2[2]), (VALUE)(p.blurs.sigma2[3]), is_odd);
+  const VALUE lower = choose((VALUE)(values[0]), (VALUE)(values[1]), is_odd);
+  const VALUE upper = choose((VALUE)(values[2]), (VALUE)(values[3]), is_odd);
   return choose(lower, upper, is_upper);
+}
+INLINED VALUE blur_of(INTEGER grid, const ProjectParameters p) {
+  return value_of_blur(grid, p.blurs.sigma2);
+}
+
+// Whether a splat of this sigma, in pixels of its grid, is a stencil: of peaks above 1 they would
+// err by more than the interpolation of as wide ones does.
+INLINED INTEGER are_stencils(INTEGER grid, VALUE sigma, VALUE peak,
+                                   const ProjectParameters p) {
+  return (grid > 0) & (peak <= 1.0f) & (sigma <= value_of_blur(grid, p.blurs.stencil_sigma));
 }
 
 // Wide splats go to the coarsest grid that still shows their shape, bright ones finer. The grids
-// of a level share out an octave of widths.
+// of a level share out an octave of widths, the first ones from coarse_sigma on.
 static inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
   VALUE amplified = (VALUE)(p.coarse_sigma);
   if (ANY(peak > 1.0f)) amplified *= sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f)))));
@@ -91,5 +103,5 @@ static inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParamete
   VALUE power = min(sigma / amplified, (VALUE)(1e9f));
   for (int i = 0; i < p.blurs.shift; ++i)
     power *= power;
-  return grid_of_octave(power_of_two(power) - ((1 << p.blurs.shift) - 1), peak, p);
+  return grid_of_octave(power_of_two(power) + 1 - (p.blurs.first_level << p.blurs.shift), peak, p);
 }

@@ -241,12 +241,14 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
   s->weight = sampled.weight;
-  if (p.blurs.sigma2[0] > 0.0f) {
+  const INTEGER stencil = are_stencils(s->grid, s->sigma, brightness.own_peak, p);
+  const INTEGER narrowed = (s->grid > 0) & (stencil == 0);
+  if (p.blurs.sigma2[0] > 0.0f && ANY(narrowed)) {
     // The grid's blur widens what is drawn to the splat's width, and spreads its light.
     const VALUE drawn = sqrt(s->sigma * s->sigma - blur_of(s->grid, p));
     const VALUE spread = s->sigma / drawn;
-    s->weight *= choose((VALUE)(1.0f), spread * spread, s->grid > 0);
-    s->sigma = choose(s->sigma, drawn, s->grid > 0);
+    s->weight *= choose((VALUE)(1.0f), spread * spread, narrowed);
+    s->sigma = choose(s->sigma, drawn, narrowed);
   }
   // A pixel mean sees a splat that reaches the pixel's edge. A cut disc has the radius of
   // the model's sigma, not of the widened one, and means always keep the pixel at its center.
@@ -254,6 +256,8 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   const float cut_edge = p.widening > 0.0f ? 0.5f : 0.0f;
   s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * DRAWN_SIGMA(widths) * shrink + cut_edge
                                   : extent * s->sigma + edge;
+  s->radius = choose(s->radius, (VALUE)(STENCIL_RADIUS), stencil);
+  s->sigma = choose(s->sigma, -s->sigma, stencil);
 #ifdef ELLIPSES
   // Such pictures have no coarse grids.
   const VALUE edge_x = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean_x);
@@ -307,8 +311,10 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
 #ifdef COPIES
   s->visible &= reaches;
 #else
-  const INTEGER ends_short =
-      (reaches == 0) & (beyond <= 2.0f * s->radius) & (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
+  // Stencils leave nothing out.
+  const INTEGER ends_short = (reaches == 0) & (beyond <= 2.0f * s->radius) &
+                             ((s->grid == 0) | (s->sigma > 0.0f)) &
+                             (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
   s->visible &= reaches | ends_short;
 #ifdef FACE_OF_CUBE
   const VALUE in_widths = beyond / max(s->farther, (VALUE)(1.0f));
@@ -325,8 +331,8 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
 // falls as exp(-2 k t / sigma), whose mean over t from 0 to 1 is close to
 // sigma / (sigma + 2 k).
 INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER by_mean,
-                              const ProjectParameters p) {
-  const INTEGER faint = extent <= p.least_extent * 1.00001f;
+                              INTEGER stencil, const ProjectParameters p) {
+  const INTEGER faint = (extent <= p.least_extent * 1.00001f) & (stencil == 0);
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
   return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
 }
@@ -433,7 +439,8 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   keep_those_that_reach(&s, p);
-  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean, p);
+  const INTEGER stencil = (s.grid > 0) & (s.sigma < 0.0f);
+  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean, stencil, p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);
 #ifdef ELLIPSES

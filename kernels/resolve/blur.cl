@@ -27,8 +27,11 @@ __kernel void blur_columns(const BlurParameters p, __global const Grid* grids,
   const uint c = (uint)get_global_id(2);
   const int rows = p.part.bottom - p.part.top + 2 * p.half_width;
   if (p.part.left + x >= p.part.right_end || y >= rows) return;
+  // The part is the target's, which has no guard band where it is the picture's own grid.
+  const Grid source = grids[p.source];
+  const int shift = source.guard - grids[p.target].guard;
   __global const float* pixels =
-      planes + pixel_at(grids[p.source], c, p.part.left + x, p.part.top + y - p.half_width);
+      planes + pixel_at(source, c, p.part.left + x + shift, p.part.top + y - p.half_width + shift);
   vstore8(blurred(pixels, 1, p.weights, p.half_width), 0,
           temporary + ((size_t)c * rows + y) * temporary_stride(p.part) + x);
 }

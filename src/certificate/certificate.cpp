@@ -152,7 +152,7 @@ class FrameErrors {
     double peaks = 0, on_grids = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       peaks += parts[i].peaks;
-      if (octaves_[i].level() > 0) on_grids += parts[i].peak_light;
+      if (!octaves_[i].is_on_picture()) on_grids += parts[i].peak_light;
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
       if (parts[i].ends > least_part || parts[i].even > least_part)
         need.farther = std::max(need.farther, std::log(margin * of_ends));
@@ -166,7 +166,7 @@ class FrameErrors {
     if (is_cut_ && on_grids > 0) needs.grid_light = std::max(needs.grid_light, margin);
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
-      if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
+      if (octaves_[i].is_on_picture() && parts[i].peaks > least_part)
         need.light = std::max(need.light, more_light(octaves_[i], parts[i].peak_light, less));
     }
   }

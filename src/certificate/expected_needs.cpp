@@ -36,14 +36,24 @@ struct Sampled {
   }
 };
 
+// Where splats are drawn: on the picture's own grid, or on the others of a level.
+struct GridsOfSplats {
+  int level = 0;
+  bool are_picture = true;
+
+  bool operator==(const GridsOfSplats& other) const {
+    return level == other.level && are_picture == other.are_picture;
+  }
+};
+
 // The sampled splats of one octave of widths on the grid that they are drawn on, in cells as those
 // of the check (docs/accuracy.md, "Checked after drawing").
 class OctaveSample {
  public:
-  OctaveSample(int octave, int level)
-      : level_(level), shift_(level + peak_cell_shift(octave - level)) {}
+  OctaveSample(int octave, GridsOfSplats on)
+      : on_(on), shift_(on.level + peak_cell_shift(octave - on.level)) {}
 
-  int level() const { return level_; }
+  GridsOfSplats on() const { return on_; }
 
   void add(const SampledCloud& cloud, double most_peak) {
     Sampled& cell = cells_[key(cell_of(cloud.x), cell_of(cloud.y))];
@@ -97,7 +107,8 @@ class OctaveSample {
     return std::max(least, certain * here.peak - beside * square / around);
   }
 
-  int level_, shift_;
+  GridsOfSplats on_;
+  int shift_;
   std::unordered_map<std::uint64_t, Sampled> cells_;
 };
 
@@ -105,12 +116,15 @@ int octave_of(double sigma) {
   return sigma < 1 ? 0 : std::min(std::ilogb(sigma) + 1, width_octaves - 1);
 }
 
-int level_of(const SampledCloud& cloud, double sigma, const FramePlan& plan) {
+GridsOfSplats grids_of(const SampledCloud& cloud, double sigma, const FramePlan& plan) {
   const GridPyramid& pyramid = plan.pyramid;
+  const bool has_others = pyramid.grids.size() > 1;
+  if (!has_others || cloud.light > static_cast<double>(pyramid.coarse_peak)) return {};
+  const double ratio = std::ldexp(sigma / static_cast<double>(pyramid.coarse_sigma),
+                                  -pyramid.first_level);
+  if (ratio < 1) return {};
   const int coarsest = static_cast<int>(pyramid.level_grids.size()) - 1;
-  if (coarsest < 1 || cloud.light > static_cast<double>(pyramid.coarse_peak)) return 0;
-  const double ratio = sigma / static_cast<double>(pyramid.coarse_sigma);
-  return ratio < 2 ? 0 : std::min(std::ilogb(ratio), coarsest);
+  return {std::min(std::ilogb(ratio) + pyramid.first_level, coarsest), false};
 }
 
 // Octaves on the picture's own grid, and on coarse ones.
@@ -121,20 +135,22 @@ Samples collect(const std::vector<SampledCloud>& clouds, const FramePlan& plan) 
   for (const SampledCloud& cloud : clouds) {
     const double sigma =
         std::sqrt(cloud.sigma * cloud.sigma + static_cast<double>(plan.splats.widening));
-    const int octave = octave_of(sigma), level = level_of(cloud, sigma, plan);
+    const int octave = octave_of(sigma);
+    const GridsOfSplats on = grids_of(cloud, sigma, plan);
     std::vector<OctaveSample>& of_octave = samples[static_cast<std::size_t>(octave)];
     auto at = std::find_if(of_octave.begin(), of_octave.end(),
-                           [&](const OctaveSample& one) { return one.level() == level; });
-    if (at == of_octave.end()) at = of_octave.insert(at, OctaveSample(octave, level));
+                           [&](const OctaveSample& one) { return one.on() == on; });
+    if (at == of_octave.end()) at = of_octave.insert(at, OctaveSample(octave, on));
     const auto bright = static_cast<double>(plan.splats.bright_peak);
-    at->add(cloud, level == 0 ? bright : cloud.light);
+    at->add(cloud, on.are_picture ? bright : cloud.light);
   }
   return samples;
 }
 
 // What splats of one octave on one grid do where most lie upon one another.
 struct Crowd {
-  int octave, level;
+  int octave;
+  bool is_on_picture;
   double light, error;  // over what is promised
   double light_of_means;
 };
@@ -147,11 +163,12 @@ std::vector<Crowd> crowds_of(const std::vector<SampledCloud>& clouds, bool is_sa
     for (const OctaveSample& sample : samples[static_cast<std::size_t>(octave)]) {
       PeakCells nothing;
       nothing.octave = octave;
-      nothing.level = sample.level();
+      nothing.level = sample.on().level;
+      nothing.is_beside_picture = sample.on().level == 0 && !sample.on().are_picture;
       nothing.peaks = nothing.endings = {1, 1, 1, {0}};
       const OctaveErrors errors(nothing, frame, plan);
       const double light = sample.crowded_light(is_sample);
-      crowds.push_back({octave, sample.level(), light,
+      crowds.push_back({octave, sample.on().are_picture, light,
                         std::min(errors.peak_error() * light, errors.part_of_itself(light)) /
                             plan.shares.promise,
                         errors.light_of_means()});
@@ -185,7 +202,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   double error = 0, on_grids = 0;
   for (const Crowd& crowd : crowds) {
     error = std::max(error, crowd.error);
-    if (crowd.level > 0) on_grids = std::max(on_grids, crowd.light);
+    if (!crowd.is_on_picture) on_grids = std::max(on_grids, crowd.light);
   }
   if (error <= 1) return std::nullopt;
   SplatNeeds needs;
@@ -193,7 +210,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   for (const Crowd& crowd : crowds) {
     WidthNeed& need = needs.widths[static_cast<std::size_t>(crowd.octave)];
     if (crowd.light > 0) need.farther = std::log(times * error);
-    if (crowd.level > 0 || crowd.error <= 0) continue;
+    if (!crowd.is_on_picture || crowd.error <= 0) continue;
     const double in_proportion = std::min(times * error, crowd.light_of_means);
     need.light = std::max({need.light, times * crowd.light, in_proportion});
   }

@@ -62,8 +62,9 @@ double widest_mean(int octave, const FramePlan& plan) {
 }
 
 // An octave tells nothing of the axes of an ellipse, of which each has its own width.
-bool are_bright_means(int octave, int level, const Frame& frame, const FramePlan& plan) {
-  return level == 0 && light_of(octave, plan) > 0 && takes_pixel_means(frame) &&
+bool are_bright_means(int octave, const PeakCells& cells, const Frame& frame,
+                      const FramePlan& plan) {
+  return cells.is_on_picture() && light_of(octave, plan) > 0 && takes_pixel_means(frame) &&
          !plan.has_ellipses &&
          without_widening(widest_sigma(octave), plan) <= widest_mean(octave, plan);
 }
@@ -76,8 +77,9 @@ double error_of_means_in(int octave, double widest, const FramePlan& plan) {
 }
 
 // Errors of erf over both axes; and of the widened center value.
-double error_of_peak(int octave, int level, const Frame& frame, const FramePlan& plan) {
-  if (level > 0) {
+double error_of_peak(int octave, const PeakCells& cells, const Frame& frame,
+                     const FramePlan& plan) {
+  if (!cells.is_on_picture()) {
     const double of_filters =
         (plan.certify ? repeated_refinements : 1) * plan.grid_peak_error / plan.needs.grid_light;
     // A coarse grid softens the step at the edge of a cut disc.
@@ -144,34 +146,36 @@ EndingWindow window_of(int octave, int level, const CellSums& cells, const Frame
 }
 
 // Cells are about as wide as their splats' sigma.
-int peak_spread_of(int level, const Frame& frame) {
-  if (level == 0 || !frame.kernel.cut) return peak_spread;
+int peak_spread_of(const PeakCells& cells, const Frame& frame) {
+  if (cells.is_on_picture() || !frame.kernel.cut) return peak_spread;
   return std::max(peak_spread, static_cast<int>(std::ceil(*frame.kernel.cut)) + 1);
 }
 
 // Where a splat is drawn, and as far as a coarse grid's filters carry it: five pixels of each grid,
 // each half as wide as those of the one before.
-int peak_reach_of(int octave, int level, const CellSums& cells, const FramePlan& plan) {
+int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
   constexpr double filter_pixels = 10;
-  const double sigma = std::ldexp(widest_sigma(octave), -level);
-  const double reach = std::sqrt(extent2(octave, plan)) * sigma + (level > 0 ? filter_pixels : 1);
-  return static_cast<int>(std::min<double>(std::ceil(reach / cells.side), reach_of_all(cells)));
+  const double sigma = std::ldexp(widest_sigma(octave), -cells.level);
+  const double reach =
+      std::sqrt(extent2(octave, plan)) * sigma + (cells.is_on_picture() ? 1 : filter_pixels);
+  return static_cast<int>(
+      std::min<double>(std::ceil(reach / cells.peaks.side), reach_of_all(cells.peaks)));
 }
 
 // As an estimate, what is left of an error of a peak so many cells away. Those of erf in full
 // precision do not fade along the axes. Coarse grids err by values that their filters take from
 // five pixels nearer.
-std::vector<double> peak_weights_of(int octave, int level, const CellSums& cells,
-                                    const Frame& frame, const FramePlan& plan) {
+std::vector<double> peak_weights_of(int octave, const PeakCells& cells, const Frame& frame,
+                                    const FramePlan& plan) {
   constexpr double filter_pixels = 5;
-  const int spread = peak_spread_of(level, frame);
-  if (level == 0 && plan.precision != Precision::full)
+  const int spread = peak_spread_of(cells, frame);
+  if (cells.is_on_picture() && plan.precision != Precision::full)
     return std::vector<double>(static_cast<std::size_t>(spread) + 1, 1.0);
-  const double sigma = std::ldexp(widest_sigma(octave), -level);
-  const int reach = std::max(spread, peak_reach_of(octave, level, cells, plan));
+  const double sigma = std::ldexp(widest_sigma(octave), -cells.level);
+  const int reach = std::max(spread, peak_reach_of(octave, cells, plan));
   std::vector<double> weights(static_cast<std::size_t>(reach) + 1, 1.0);
-  for (int away = spread + 1; level > 0 && away <= reach; ++away) {
-    const double nearest = std::max(0.0, ((away - 1) * cells.side - filter_pixels) / sigma);
+  for (int away = spread + 1; !cells.is_on_picture() && away <= reach; ++away) {
+    const double nearest = std::max(0.0, ((away - 1) * cells.peaks.side - filter_pixels) / sigma);
     weights[static_cast<std::size_t>(away)] = std::exp(-nearest * nearest);
   }
   return weights;
@@ -195,6 +199,7 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
     : is_bound_(plan.certify),
       octave_(std::min(cells.octave, width_octaves - 1)),
       level_(cells.level),
+      is_on_picture_(cells.is_on_picture()),
       left_(cells.left),
       top_(cells.top),
       crop_x_(frame.crop.x),
@@ -205,16 +210,16 @@ OctaveErrors::OctaveErrors(const PeakCells& cells, const Frame& frame, const Fra
           static_cast<int>(std::ceil(light_reach * widest_sigma_on(level_, octave_) / peak_side_))),
       light_of_cell_(pi * std::pow(widest_sigma_on(level_, octave_) / peak_side_, 2)),
       ending_(ending_of(octave_, frame, plan)),
-      peak_error_(error_of_peak(octave_, level_, frame, plan)),
-      are_bright_means_(are_bright_means(octave_, level_, frame, plan)),
+      peak_error_(error_of_peak(octave_, cells, frame, plan)),
+      are_bright_means_(are_bright_means(octave_, cells, frame, plan)),
       narrowest_(without_widening(narrowest_sigma(octave_), plan)),
       widest_(without_widening(widest_sigma(octave_), plan)),
       light_of_means_(light_that_makes_means(octave_, plan)),
       place_error_(place_error_of(octave_, frame, plan)),
       place_share_(plan.places.share),
       window_(window_of(octave_, level_, cells.endings, plan)),
-      peak_weights_(peak_weights_of(octave_, level_, cells.peaks, frame, plan)),
-      peak_reach_(is_bound_ ? peak_reach_of(octave_, level_, cells.peaks, plan)
+      peak_weights_(peak_weights_of(octave_, cells, frame, plan)),
+      peak_reach_(is_bound_ ? peak_reach_of(octave_, cells, plan)
                             : static_cast<int>(peak_weights_.size()) - 1),
       endings_(cells.endings, window_.reach + cells_in_block),
       peaks_(cells.peaks, peak_reach_ + cells_in_block) {

@@ -30,7 +30,7 @@ class OctaveErrors {
   OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan);
 
   int octave() const { return octave_; }
-  int level() const { return level_; }
+  bool is_on_picture() const { return is_on_picture_; }
 
   // By ends of splats, beyond what even light leaves out; where a bound is asked for
   // (FramePlan::certify) in all. Where it is certain to be below `negligible`, a coarser bound.
@@ -64,6 +64,7 @@ class OctaveErrors {
 
   bool is_bound_;
   int octave_, level_;
+  bool is_on_picture_;
   int left_, top_;       // as in PeakCells
   int crop_x_, crop_y_;  // blocks count from the crop's corner
   int ending_side_, peak_side_;

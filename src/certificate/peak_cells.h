@@ -29,7 +29,9 @@ inline int peak_cell_shift(int octave) {
 // Splats of one octave of widths on one grid of a drawn frame, in cells about as wide as they
 // are. All splats that were drawn are in it, each once.
 struct PeakCells {
-  int level = 0;          // the grid's pixels are 2^level of the picture's wide
+  int level = 0;  // the grid's pixels are 2^level of the picture's wide
+  // Of level 0: on the grids that are blurred, not on the picture's own.
+  bool is_beside_picture = false;
   int left = 0, top = 0;  // of the cells, in pixels of the grid from the picture's corner
   int octave = 0;         // sigma in the picture's pixels: 2^(octave - 1) to twice that; 0: below 1
   // Of the splats' peaks: the largest channel of light or optical depth; below a pixel its flux.
@@ -38,6 +40,8 @@ struct PeakCells {
   CellSums peaks;
   // What they have fallen to where they end, times exp(least extent^2 + farther).
   CellSums endings;
+
+  bool is_on_picture() const { return level == 0 && !is_beside_picture; }
 };
 
 }  // namespace splotchcl

@@ -24,7 +24,7 @@ std::size_t grid_of(const SampledCloud& cloud, const FramePlan& plan) {
       static_cast<double>(plan.pyramid.coarse_sigma) * std::pow(std::max(cloud.light, 1.0), 0.125);
   const double octaves = std::log2(cloud.sigma / least);
   const auto of_level = static_cast<double>(plan.pyramid.grids_of_level());
-  const double index = std::floor(of_level * octaves) - (of_level - 1);
+  const double index = std::floor(of_level * (octaves - plan.pyramid.first_level)) + 1;
   return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(grids - 1)));
 }
 
@@ -44,9 +44,12 @@ SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan,
     const std::size_t g = grid_of(cloud, plan);
     const double pixel = std::exp2(plan.pyramid.grids[g].level);
     double sigma = cloud.sigma / pixel;
-    if (g > 0 && plan.pyramid.is_blurred())
+    const bool is_stencil = g > 0 && plan.pyramid.has_stencils() && cloud.light <= 1;
+    if (g > 0 && plan.pyramid.is_blurred() && !is_stencil)
       sigma = std::sqrt(std::max(sigma * sigma - plan.pyramid.blur_of(g), 0.25));
-    const double reach = extent_of(cloud, frame, plan) * sigma * pixel;
+    const double half_stencil = static_cast<double>(stencil_pixels) / 2;
+    const double reach =
+        (is_stencil ? half_stencil : extent_of(cloud, frame, plan) * sigma) * pixel;
     const Rectangle& crop = frame.crop;
     const double width = length_inside(cloud.x, reach, crop.x, crop.width) / pixel;
     const double height = length_inside(cloud.y, reach, crop.y, crop.height) / pixel;

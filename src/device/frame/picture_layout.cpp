@@ -53,6 +53,10 @@ shared::GridPart coarse_part(const shared::GridPart& part, int fine_guard, int c
                  taps);
 }
 
+bool is_whole(const Frame& frame) {
+  return frame.crop.width == frame.width && frame.crop.height == frame.height;
+}
+
 std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid& pyramid) {
   const Rectangle& crop = frame.crop;
   std::vector<shared::GridPart> wanted = {
@@ -65,10 +69,20 @@ std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid
   return wanted;
 }
 
-// Where splats are drawn on the grids of a level: blurring looks at more than is wanted. All of a
-// level have the same part, so that the check may add up their cells.
-shared::GridPart drawn_part(const shared::GridPart& wanted, int level, const GridPyramid& pyramid) {
-  return level == 0 ? wanted : widened(wanted, reach_of_blurs(pyramid));
+// Where splats are drawn on a grid: blurring looks at more than is wanted. All of a level but the
+// picture's own have the same part, so that the check may add up their cells. `wanted` is that of
+// the grid that collects the level.
+shared::GridPart drawn_part(const shared::GridPart& wanted, std::size_t g, bool is_whole,
+                            const GridPyramid& pyramid) {
+  if (g == 0) return wanted;
+  const PictureGrid& grid = pyramid.grids[g];
+  // Splats find their tiles sooner where none is missing.
+  if (is_whole) return {0, 0, grid.width, grid.height};
+  const int collecting = pyramid.level_grids[static_cast<std::size_t>(grid.level)];
+  const int shift = grid.guard - pyramid.grids[static_cast<std::size_t>(collecting)].guard;
+  return widened({wanted.left + shift, wanted.top + shift, wanted.right_end + shift,
+                  wanted.bottom + shift},
+                 reach_of_blurs(pyramid));
 }
 
 // The tiles that cover the part.
@@ -99,9 +113,27 @@ shared::GridBlurs grid_blurs(const GridPyramid& pyramid) {
   shared::GridBlurs blurs{};
   while ((std::size_t{1} << blurs.shift) < pyramid.grids_of_level())
     ++blurs.shift;
+  blurs.first_level = pyramid.first_level;
   for (std::size_t i = 0; i < MOST_BLURS; ++i)
     blurs.sigma2[i] = static_cast<float>(pyramid.blur_of(i + 1));
+  for (std::size_t i = 0; i < pyramid.stencils.size(); ++i) {
+    // Roundings of sigma beyond the widest take as little as within.
+    blurs.stencil_sigma[i] = static_cast<float>(pyramid.stencils[i].largest_sigma * (1 + 1e-5));
+  }
   return blurs;
+}
+
+std::vector<shared::Stencil> stencils_of_blurs(const GridPyramid& pyramid) {
+  std::vector<shared::Stencil> stencils(std::max<std::size_t>(pyramid.stencils.size(), 1));
+  for (std::size_t i = 0; i < pyramid.stencils.size(); ++i) {
+    const Stencil& from = pyramid.stencils[i];
+    stencils[i].middle = from.middle;
+    stencils[i].per_width = from.per_width;
+    static_assert(stencil_pixels == STENCIL_PIXELS && stencil_place_powers == STENCIL_PLACE_POWERS &&
+                  stencil_width_powers == STENCIL_WIDTH_POWERS);
+    std::copy(from.coefficients.begin(), from.coefficients.end(), stencils[i].coefficients);
+  }
+  return stencils;
 }
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
@@ -124,10 +156,10 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
     grid.unit = std::ldexp(1.0f, -place_bits);
     // Places are rounded to floats there, twice.
     grid.room = std::ldexp(static_cast<float>(std::max(grid.width, grid.height)), -22);
-    // Compositing on coarse grids knows center values only: coarse_sigma sees to it.
-    grid.mean_sigma = from.level == 0 ? plan.splats.mean_sigma : 0;
+    // Compositing on other grids knows center values only: coarse_sigma sees to it.
+    grid.mean_sigma = g == 0 ? plan.splats.mean_sigma : 0;
     const auto level = static_cast<std::size_t>(from.level);
-    set_tiles(drawn_part(layout.wanted[level], from.level, pyramid),
+    set_tiles(drawn_part(layout.wanted[level], g, is_whole(frame), pyramid),
               static_cast<int>(specialization.tile_width()),
               static_cast<int>(specialization.tile_height()), grid);
     grid.first_tile = layout.tile_count;

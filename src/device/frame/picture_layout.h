@@ -33,4 +33,7 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
 // What kernels know of the blurs.
 shared::GridBlurs grid_blurs(const GridPyramid& pyramid);
 
+// Of each blur; one of zeros where there are none.
+std::vector<shared::Stencil> stencils_of_blurs(const GridPyramid& pyramid);
+
 }  // namespace splotchcl

@@ -47,6 +47,7 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       keeps_transmittance_(plan.layers.keeps_transmittance),
       eye_offset_(frame.camera.eye_offset != 0),
       clouds_around_(has_clouds_around(frame)),
+      stencils_(plan.pyramid.has_stencils()),
       background_image_(frame.background_image != nullptr) {
   if (has_rows()) {
     tile_width_ = is_ordered() || extended_ ? 32 : 64;
@@ -251,7 +252,8 @@ ProgramSource Specialization::composite() const {
     return {defines, files};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(takes_rows_of_16(), "ROWS_OF_16") + block_defines();
+             define_if(takes_rows_of_16(), "ROWS_OF_16") +
+             define_if(stencils_ && !is_ordered(), "STENCILS") + block_defines();
   return {defines, composite_files()};
 }
 
@@ -264,7 +266,8 @@ ProgramSource Specialization::composite_with_clouds() const {
 std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h", "bin.h", "composite.h", "common.cl"};
   if (takes_rows_of_16()) files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl"});
-  files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl"});
+  files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl",
+                             "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
     files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patch_shapes.cl",
@@ -274,7 +277,7 @@ std::vector<std::string> Specialization::composite_files() const {
     } else {
       files.push_back("splat_rows.cl");
     }
-    files.insert(files.end(), {"prefetch.cl", "composite_rows.cl"});
+    files.insert(files.end(), {"stencil_rows.cl", "prefetch.cl", "composite_rows.cl"});
   } else {
     files.push_back("composite_groups.cl");
   }
@@ -307,7 +310,8 @@ ProgramSource Specialization::composite_slab() const {
                              : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
                                                      : std::string();
   return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
-              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") + blocks,
+              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") +
+              define_if(stencils_, "STENCILS") + blocks,
           composite_files()};
 }
 

@@ -39,6 +39,7 @@ class Specialization {
   bool has_vector_colors() const { return vector_colors_; }
   bool has_ellipses() const { return ellipses_; }
   bool is_face_of_cube() const { return face_of_cube_; }
+  bool has_stencils() const { return stencils_; }
   bool has_background_image() const { return background_image_; }
 
   // Pixels of a tile.
@@ -115,6 +116,7 @@ class Specialization {
   bool keeps_transmittance_;
   bool eye_offset_;
   bool clouds_around_;  // may be: they are no splats
+  bool stencils_;
   bool background_image_;
   std::uint32_t tile_width_ = 16, tile_height_ = 16;
 };

@@ -19,6 +19,7 @@ struct StageContext {
         specialization(of, with, on.traits),
         layout(make_picture_layout(of, with, specialization)),
         grids(on.pool.upload(layout.grids, "grids")),
+        stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
         colors(upload_component_colors(of, on.pool)) {}
 
   DeviceContext& device;
@@ -27,6 +28,7 @@ struct StageContext {
   const Specialization specialization;
   const PictureLayout layout;
   const Buffer<shared::Grid> grids;
+  const Buffer<shared::Stencil> stencils;
   const ComponentColorTable colors;
 };
 

@@ -149,11 +149,17 @@ CollectedSplats Certifier::collected() const {
   const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
   for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
     found.longest_list = std::max(found.longest_list, static_cast<double>(values.data()[i]));
-  const std::size_t levels = context_.plan.pyramid.level_grids.size();
-  std::vector<std::optional<PeakCells>> octaves(levels * WIDTH_OCTAVES);
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const std::size_t levels = (pyramid.grids.size() - 1) / pyramid.grids_of_level();
+  std::vector<std::optional<PeakCells>> octaves((1 + levels) * WIDTH_OCTAVES);
   for_blocks(octaves.size(), 1, [&](std::size_t first, std::size_t) {
-    octaves[first] = octave_of(values.data(), static_cast<int>(first / WIDTH_OCTAVES),
-                               static_cast<int>(first % WIDTH_OCTAVES));
+    const auto octave = static_cast<int>(first % WIDTH_OCTAVES);
+    const std::size_t level = first / WIDTH_OCTAVES;
+    octaves[first] = level == 0 ? octave_of(values.data(), {0, 1}, octave)
+                                : octave_of(values.data(),
+                                            {1 + (level - 1) * pyramid.grids_of_level(),
+                                             1 + level * pyramid.grids_of_level()},
+                                            octave);
   });
   for (std::optional<PeakCells>& cells : octaves) {
     if (cells) found.cells.push_back(std::move(*cells));
@@ -161,20 +167,20 @@ CollectedSplats Certifier::collected() const {
   return found;
 }
 
-// What was collected of an octave of a level's splats, if there are any.
-std::optional<PeakCells> Certifier::octave_of(const float* values, int level, int octave) const {
+// What was collected of an octave of splats on these grids of a level, if there are any.
+std::optional<PeakCells> Certifier::octave_of(const float* values, const GridsOfLevel& grids,
+                                              int octave) const {
   const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
                               static_cast<int>(context_.specialization.tile_width()),
                               static_cast<int>(context_.specialization.tile_height())};
-  const GridPyramid& pyramid = context_.plan.pyramid;
-  const auto first = static_cast<std::size_t>(pyramid.level_grids[static_cast<std::size_t>(level)]);
-  const std::size_t count = level == 0 ? 1 : pyramid.grids_of_level();
+  const int level = context_.plan.pyramid.grids[grids.first].level;
   const shared::OctaveCells& peaks = parameters_.peaks[octave];
   const shared::OctaveCells& endings = parameters_.endings[octave];
   PeakCells cells;
   cells.level = level;
+  cells.is_beside_picture = level == 0 && grids.first > 0;
   cells.octave = octave + level;
-  for (std::size_t g = first; g < first + count; ++g) {
+  for (std::size_t g = grids.first; g < grids.end; ++g) {
     const shared::Grid& grid = context_.layout.grids[g];
     // Bright splats end where those of wider octaves do.
     if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) continue;

@@ -81,7 +81,7 @@ Buffer<float> Resolver::room_for_columns() const {
   for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
     const shared::GridPart& part = wanted[level];
     floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
-    if (level > 0 && pyramid.is_blurred())
+    if (static_cast<int>(level) >= pyramid.first_level && pyramid.is_blurred())
       floats = std::max(floats, blurred_floats(part, reach_of_blurs(pyramid)));
   }
   return context_.device.pool.get<float>(context_.specialization.planes() * floats,
@@ -100,14 +100,16 @@ Planes Resolver::collect(Planes planes, std::size_t finest, const Buffer<float>&
     return (planes.used_grids >> grid & 1) != 0;
   };
   const std::size_t levels = pyramid.level_grids.size();
-  for (std::size_t level = 1; level < levels; ++level) {
-    // All of a level add up in its first grid, which is blurred in place.
+  for (auto level = static_cast<std::size_t>(pyramid.first_level); level < levels; ++level) {
+    // All of a level add up in the grid that collects it: of coarse ones in the first, which is
+    // blurred in place.
     const std::uint32_t target = grid_of(level);
+    const auto first = static_cast<std::uint32_t>(pyramid.first_grid_of(static_cast<int>(level)));
     for (std::uint32_t i = 0; i < pyramid.blurs.size(); ++i) {
-      const std::uint32_t source = target + i;
+      const std::uint32_t source = first + i;
       if (!is_used(source)) continue;
-      blur(planes, source, target, wanted[level], pyramid.blurs[i], i > 0 && is_used(target),
-           columns);
+      blur(planes, source, target, wanted[level], pyramid.blurs[i],
+           source != target && is_used(target), columns);
       planes.used_grids |= 1u << target;
     }
   }

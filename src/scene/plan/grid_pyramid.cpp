@@ -6,6 +6,7 @@
 
 #include "scene/plan/blur_filter.h"
 #include "scene/plan/refinement_filter.h"
+#include "scene/plan/stencil.h"
 
 namespace splotchcl {
 namespace {
@@ -18,6 +19,10 @@ constexpr int guard_pixels = 10;
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
 constexpr int most_levels = 12;
+constexpr std::size_t most_grids = 32;  // bits of used_grids (records.h)
+
+// Stencils do not come closer than that (docs/accuracy.md).
+constexpr double least_stencil_error = 8e-5;
 
 int ceil_divide(int value, int by) {
   return (value + by - 1) / by;
@@ -50,22 +55,72 @@ std::vector<double> choose_blurs(double smallest_sigma, double error, int count)
   return count > 1 ? choose_blurs(smallest_sigma, error, count / 2) : std::vector<double>();
 }
 
-// How a relative error of the splats on coarse grids is spent: a fifth on the blur, which
-// needs the least of it, the rest on the interpolation.
-void choose_filters(const KernelSettings& kernel, float mean_sigma, double error,
-                    int blurs_of_level, GridPyramid& pyramid) {
+// A narrower Gaussian for each blur, or one grid without.
+// A fifth of the error is spent on the blur, which needs the least of it, the rest on the
+// interpolation.
+void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& needs,
+                            GridPyramid& pyramid) {
   constexpr double blur_part = 0.2;
-  pyramid.refinement = choose_refinement((1 - blur_part) * error);
-  pyramid.coarse_peak = static_cast<float>(brightest_coarse_peak(kernel, error));
+  pyramid.refinement = choose_refinement((1 - blur_part) * needs.error);
   double smallest_sigma =
-      std::max(pyramid.refinement.smallest_sigma, static_cast<double>(mean_sigma));
+      std::max(pyramid.refinement.smallest_sigma, static_cast<double>(needs.mean_sigma));
   // A blur would carry light over the edge of a cloud that is cut.
   if (!kernel.cut) {
-    pyramid.blur_error = blur_part * error;
+    pyramid.blur_error = blur_part * needs.error;
     smallest_sigma = std::max(smallest_sigma, smallest_blurred_sigma(pyramid.blur_error));
-    pyramid.blurs = choose_blurs(smallest_sigma, pyramid.blur_error, blurs_of_level);
+    pyramid.blurs = choose_blurs(smallest_sigma, pyramid.blur_error, needs.blurs_of_level);
   }
   pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
+}
+
+// Stencils of splats from smallest_sigma on, and the blurs that they go with.
+void make_stencils(double smallest_sigma, int count, GridPyramid& pyramid) {
+  pyramid.blurs.clear();
+  pyramid.stencils.clear();
+  for (int i = 0; i < count; ++i) {
+    const double smallest = std::exp2(static_cast<double>(i) / count) * smallest_sigma;
+    const double largest = std::exp2(static_cast<double>(i + 1) / count) * smallest_sigma;
+    pyramid.blurs.push_back(blur_of_stencil(smallest));
+    pyramid.stencils.push_back(
+        make_stencil(smallest, largest, blur_weights(pyramid.blurs.back(), pyramid.blur_error)));
+  }
+}
+
+double error_of_stencils(const GridPyramid& pyramid) {
+  double error = 0;
+  for (const Stencil& stencil : pyramid.stencils)
+    error = std::max(error, stencil.error);
+  constexpr int axes = 2;
+  return axes * error;
+}
+
+// The less is left to the interpolation, the wider splats have to be: as much as stencils take, in
+// steps. False where they do not keep the error.
+bool choose_stencils(const PyramidNeeds& needs, GridPyramid& pyramid) {
+  constexpr double least_sigma = 2.2, end_of_blurs = 2e-5;
+  pyramid.blur_error = std::min(end_of_blurs, 0.1 * needs.error);
+  for (const double part : {0.2, 0.3, 0.4, 0.5, 0.6}) {
+    if (part * needs.error < least_stencil_error) continue;
+    pyramid.refinement = choose_refinement((1 - part) * needs.error);
+    const double smallest_sigma = std::max({pyramid.refinement.smallest_sigma, least_sigma,
+                                            static_cast<double>(needs.mean_sigma)});
+    make_stencils(smallest_sigma, needs.blurs_of_level, pyramid);
+    if (error_of_stencils(pyramid) > part * needs.error) continue;
+    pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
+    pyramid.first_level = 0;
+    return true;
+  }
+  pyramid.stencils.clear();
+  pyramid.blurs.clear();
+  return false;
+}
+
+// How a relative error of the splats on coarse grids is spent.
+void choose_filters(const KernelSettings& kernel, const PyramidNeeds& needs,
+                    GridPyramid& pyramid) {
+  pyramid.coarse_peak = static_cast<float>(brightest_coarse_peak(kernel, needs.error));
+  if (needs.stencils && !kernel.cut && choose_stencils(needs, pyramid)) return;
+  choose_narrower_splats(kernel, needs, pyramid);
 }
 
 bool has_level(const Frame& frame, int level) {
@@ -76,10 +131,11 @@ bool has_level(const Frame& frame, int level) {
 void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
   // A blur needs values beyond those that refining reads.
   const int reach = reach_of_blurs(pyramid), guard = guard_pixels + reach + reach % 2;
-  for (int level = 1; has_level(frame, level); ++level) {
+  for (int level = pyramid.first_level; has_level(frame, level); ++level) {
+    if (pyramid.grids.size() + pyramid.grids_of_level() > most_grids) break;
     const int width = ceil_divide(frame.width, 1 << level);
     const int height = ceil_divide(frame.height, 1 << level);
-    pyramid.level_grids.push_back(static_cast<int>(pyramid.grids.size()));
+    if (level > 0) pyramid.level_grids.push_back(static_cast<int>(pyramid.grids.size()));
     const PictureGrid grid = {level, width + 2 * guard, height + 2 * guard, guard};
     pyramid.grids.insert(pyramid.grids.end(), pyramid.grids_of_level(), grid);
   }
@@ -92,11 +148,11 @@ int reach_of_blurs(const GridPyramid& pyramid) {
 }
 
 int most_blurs(const Frame& frame) {
-  constexpr int most_grids = 32, most = 4;  // bits of used_grids (records.h); MOST_BLURS (splat.h)
-  int coarse_levels = 0;
-  while (has_level(frame, coarse_levels + 1))
+  constexpr std::size_t most = 4;  // MOST_BLURS (splat.h)
+  std::size_t coarse_levels = 0;
+  while (has_level(frame, static_cast<int>(coarse_levels) + 1))
     ++coarse_levels;
-  return 1 + most * coarse_levels <= most_grids ? most : most / 2;
+  return static_cast<int>(1 + most * coarse_levels <= most_grids ? most : most / 2);
 }
 
 GridPyramid make_single_grid(const Frame& frame) {
@@ -107,9 +163,9 @@ GridPyramid make_single_grid(const Frame& frame) {
   return pyramid;
 }
 
-GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error, int blurs_of_level) {
+GridPyramid make_pyramid(const Frame& frame, const PyramidNeeds& needs) {
   GridPyramid pyramid = make_single_grid(frame);
-  choose_filters(frame.kernel, mean_sigma, error, blurs_of_level, pyramid);
+  choose_filters(frame.kernel, needs, pyramid);
   append_coarse_grids(frame, pyramid);
   return pyramid;
 }

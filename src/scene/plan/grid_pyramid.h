@@ -8,11 +8,18 @@ namespace splotchcl {
 // The picture's own grid alone.
 GridPyramid make_single_grid(const Frame& frame);
 
-// The grids of a sum, from the picture's own pixels to ever coarser ones, for a relative error
-// of the splats drawn there. `mean_sigma`: narrower splats need means, which coarse grids do
-// not know. `blurs_of_level`: how many grids a coarse level has, where they are blurred; a power
-// of two up to most_blurs().
-GridPyramid make_pyramid(const Frame& frame, float mean_sigma, double error, int blurs_of_level);
+// What a pyramid is made for.
+struct PyramidNeeds {
+  float mean_sigma = 0;  // narrower splats need means, which only the picture's own grid knows
+  double error = 0;      // of splats on other grids, as a part of their peak
+  // How many grids a level has, where they are blurred; a power of two up to most_blurs().
+  int blurs_of_level = 2;
+  // Whether splats on blurred grids may be stencils, on grids of the picture's own pixels, too.
+  bool stencils = false;
+};
+
+// The grids of a sum, from the picture's own pixels to ever coarser ones.
+GridPyramid make_pyramid(const Frame& frame, const PyramidNeeds& needs);
 
 // Pixels of a coarse grid beside what is wanted that its blur looks at, the widest of its level.
 int reach_of_blurs(const GridPyramid& pyramid);

@@ -62,12 +62,10 @@ void add_needs_of_light(double brightness, FramePlan& plan) {
 
 // The more grids share out a level's widths, the narrower their splats are drawn, and the more
 // there is to blur for each pixel: in slabs once for each of them (docs/performance.md).
-int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
-  constexpr int few = 2;
+bool pays_for_many_grids(const Frame& frame, const FramePlan& plan) {
   const auto pixels =
       static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
-  const bool pays = plan.slabs == 0 && particle_count(frame) >= pixels;
-  return pays ? most_blurs(frame) : few;
+  return plan.slabs == 0 && particle_count(frame) >= pixels;
 }
 
 GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
@@ -80,8 +78,13 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   const bool has_coarse_grids =
       plan.shares.coarse_grids > 0 && !plan.has_ellipses && !has_hard_edges;
   if (!has_coarse_grids) return make_single_grid(frame);
-  return make_pyramid(frame, plan.splats.mean_sigma, plan.grid_peak_error / plan.needs.grid_light,
-                      choose_blurs_of_level(frame, plan));
+  constexpr int few = 2;
+  PyramidNeeds needs;
+  needs.mean_sigma = plan.splats.mean_sigma;
+  needs.error = plan.grid_peak_error / plan.needs.grid_light;
+  needs.stencils = pays_for_many_grids(frame, plan);
+  needs.blurs_of_level = needs.stencils ? most_blurs(frame) : few;
+  return make_pyramid(frame, needs);
 }
 
 // What ends of splats do where light is uneven, beyond what even light allows for (set_limits):

@@ -1,0 +1,78 @@
+// Stencils in rows of eight pixels: every one is eight of them.
+#ifdef STENCILS
+
+// What eight of a list's stencils are drawn by, worked out for all of them at once: a processor
+// draws one while it fetches the next.
+typedef struct StencilBatch {
+  int column[LANES], row[LANES];  // the first ones
+  float across[LANES], along[LANES], width[LANES];
+  // The weights of rows between zeros, from where the tile's part of them is taken: only the middle
+  // is written anew for each stencil.
+  float of_rows[3 * STENCIL_PIXELS];
+} __attribute__((aligned(32))) StencilBatch;
+
+static inline void clear_stencils(StencilBatch* batch) {
+  for (int k = 0; k < 3 * STENCIL_PIXELS; k += 8)
+    store_eight((float8)(0.0f), batch->of_rows + k);
+}
+
+// Lists have splats that do not touch the tile, too: they lie beside it.
+INLINED INTEGER beside_tile(INTEGER first, int size) {
+  return min(max(first, (INTEGER)(-STENCIL_PIXELS)), (INTEGER)(size));
+}
+
+INLINED void find_stencils(__global const TileSplat* entries, __global const Stencil* stencil,
+                           StencilBatch* batch) {
+#ifdef FINE_PLACES
+  const VALUE x = OF_ENTRIES(entries, x) + OF_ENTRIES(entries, x_low);
+  const VALUE y = OF_ENTRIES(entries, y) + OF_ENTRIES(entries, y_low);
+#else
+  const VALUE x = OF_ENTRIES(entries, x), y = OF_ENTRIES(entries, y);
+#endif
+  const StencilPlaces across = stencil_places(x, FIRST_X), along = stencil_places(y, FIRST_Y);
+  STORE(beside_tile(across.first, TILE_WIDTH), batch->column);
+  STORE(beside_tile(along.first, TILE_HEIGHT), batch->row);
+  STORE(across.distance, batch->across);
+  STORE(along.distance, batch->along);
+  STORE(stencil_widths(OF_ENTRIES(entries, sigma), stencil), batch->width);
+}
+
+// Whether all of LANES entries are stencils.
+INLINED int are_all_stencils(__global const TileSplat* entries) {
+  return !ANY(OF_ENTRIES(entries, sigma) >= 0.0f);
+}
+
+// From the first pixel on, and their reflection from the last one back. In one vector, since a
+// processor does not forward two halves that were stored to a load of the whole.
+INLINED float8 stencil_weights(const StencilOfWidth of_width, float distance) {
+  const float8 parts = stencil_polynomials(of_width, distance * distance);
+  const float8 signs = (float8)(1.0f, 1.0f, 1.0f, 1.0f, -1.0f, -1.0f, -1.0f, -1.0f);
+  return parts.s01233210 + (distance * signs) * parts.s45677654;
+}
+
+// The product of weights along both axes times what is summed.
+INLINED void add_rows(float* pixel, float8 across, const float* along,
+                      __global const TileSplat* splat) {
+  SUMMED_CHANNELS
+#pragma unroll
+  for (int k = 0; k < STENCIL_PIXELS; ++k, pixel += ROW) {
+    const float8 shape = (float8)(along[k]);
+    ADD_CHANNELS
+  }
+}
+
+// Eight rows of eight pixels. Those beside the tile are others of its memory, which is about as
+// large: nothing is added to them.
+INLINED void add_stencil(float* tile, StencilBatch* batch, int i, __global const TileSplat* splat,
+                         __global const Stencil* stencil) {
+  const StencilOfWidth of_width = stencil_of_width(stencil, batch->width[i], 0);
+  const int first_column = batch->column[i], first_row = batch->row[i];
+  const int8 columns = first_column + (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float8 across = select((float8)(0.0f), stencil_weights(of_width, batch->across[i]),
+                               columns >= 0 & columns < TILE_WIDTH);
+  store_eight(stencil_weights(of_width, batch->along[i]), batch->of_rows + STENCIL_PIXELS);
+  const int row = min(max(first_row, 0), TILE_HEIGHT - STENCIL_PIXELS);
+  add_rows(tile + row * ROW + first_column, across,
+           batch->of_rows + (STENCIL_PIXELS + row - first_row), splat);
+}
+#endif
