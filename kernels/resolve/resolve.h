@@ -18,6 +18,24 @@ struct BlurParameters {
   float weights[MOST_BLUR_WEIGHTS];
 };
 
+// The same of all grids of a level, in strips of columns (blur_strips.cl): weights[k] for the pixels
+// k beside on either side.
+#define MOST_BLURRED_GRIDS 4
+#define STRIP 64  // columns
+#define ROWS_OF_BAND 256
+struct BlurWeights {
+  unsigned int source;
+  int half_width;
+  float weights[MOST_BLUR_WEIGHTS / 2];
+};
+struct BlurStripsParameters {
+  unsigned int target;
+  struct GridPart part;  // of the target, that is wanted
+  int add;               // to what the target holds, else instead of it
+  int source_count;
+  struct BlurWeights blurs[MOST_BLURRED_GRIDS];
+};
+
 // Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter).
 struct RefineParameters {
   unsigned int coarse, fine;  // grids
@@ -40,6 +58,8 @@ struct ResolveParameters {
 #ifdef __OPENCL_VERSION__
 typedef struct GridPart GridPart;
 typedef struct BlurParameters BlurParameters;
+typedef struct BlurWeights BlurWeights;
+typedef struct BlurStripsParameters BlurStripsParameters;
 typedef struct RefineParameters RefineParameters;
 typedef struct ResolveParameters ResolveParameters;
 #endif

@@ -24,7 +24,8 @@ std::vector<ProgramSource> programs_of(const Specialization& variant) {
   if (variant.is_extended()) return programs;
   if (variant.is_ordered()) programs.push_back(variant.composite_with_clouds());
   for (const ProgramSource& program :
-       {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify()})
+       {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify(),
+        variant.coarse_grids(), variant.blur_strips()})
     programs.push_back(program);
   return programs;
 }
@@ -40,7 +41,6 @@ std::vector<ProgramSource> programs_of_all_frames() {
           Specialization::sort_groups(),
           Specialization::carry(),
           Specialization::scan(),
-          Specialization::coarse_grids(),
           Specialization::clear(),
           Specialization::add_light(),
           Specialization::lay_slab()};

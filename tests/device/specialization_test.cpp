@@ -142,7 +142,9 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
             sizeof(shared::CompositeParameters));
   EXPECT_EQ(size_on_device(variant.resolve(), "ResolveParameters"),
             sizeof(shared::ResolveParameters));
-  const ProgramSource grids = Specialization::coarse_grids();
+  const ProgramSource grids = variant.coarse_grids();
+  EXPECT_EQ(size_on_device(variant.blur_strips(), "BlurStripsParameters"),
+            sizeof(shared::BlurStripsParameters));
   EXPECT_EQ(size_on_device(grids, "BlurParameters"), sizeof(shared::BlurParameters));
   EXPECT_EQ(size_on_device(grids, "RefineParameters"), sizeof(shared::RefineParameters));
   EXPECT_EQ(size_on_device(Specialization::sort(), "SortParameters"),

@@ -173,7 +173,18 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
     layout.tile_count += static_cast<std::uint32_t>(grid.tiles_x * grid.tiles_y);
     layout.plane_floats += std::uint64_t{specialization.planes()} * grid.plane_size;
   }
+  for (std::size_t level = 1; pyramid.is_blurred() && level < pyramid.level_grids.size(); ++level) {
+    shared::Grid grid = layout.grids[static_cast<std::size_t>(pyramid.level_grids[level])];
+    grid.first_float_low = grid.first_float_high = 0;
+    layout.collecting.push_back(grid);
+  }
   return layout;
+}
+
+std::vector<shared::Grid> all_grids(const PictureLayout& layout) {
+  std::vector<shared::Grid> grids = layout.grids;
+  grids.insert(grids.end(), layout.collecting.begin(), layout.collecting.end());
+  return grids;
 }
 
 }  // namespace splotchcl

@@ -18,6 +18,9 @@ struct PictureLayout {
   std::vector<shared::Grid> grids;
   // Of each level, in its pixels: what finer levels are interpolated from; of level 0 the crop.
   std::vector<shared::GridPart> wanted;
+  // What all grids of a level are blurred to, of each level from 1 on: as its grids lie, in memory
+  // of its own. None where nothing is blurred.
+  std::vector<shared::Grid> collecting;
   std::uint32_t tile_count = 0;    // of all grids
   std::uint64_t plane_floats = 0;  // all planes of all grids
 };
@@ -29,6 +32,9 @@ inline std::size_t floats_before(const shared::Grid& grid) {
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
                                   const Specialization& specialization);
+
+// As kernels number them: first those that splats are drawn on, then those that collect levels.
+std::vector<shared::Grid> all_grids(const PictureLayout& layout);
 
 // What kernels know of the blurs.
 shared::GridBlurs grid_blurs(const GridPyramid& pyramid);

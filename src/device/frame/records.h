@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -101,12 +102,19 @@ struct CloudTables {
   Buffer<shared::DirectionCone> cones;
 };
 
+// Where grids are brought to the picture's own: what one level after the other is blurred and
+// interpolated to, by turns, and what each step makes along one axis.
+struct CollectingRoom {
+  std::array<Buffer<float>, 2> levels;
+  Buffer<float> columns;
+};
+
 // What slabs of an ordered frame add to its planes.
 struct SlabLight {
   Buffer<float> before;  // the picture's own planes as they were before this slab
   // Of eight pixels of a row each: what any order of the slabs' splats could change at most.
   Buffer<float> errors;
-  Buffer<float> columns;  // grids of a slab while they are brought to the picture's own
+  CollectingRoom room;
 };
 
 }  // namespace splotchcl

@@ -29,6 +29,8 @@ constexpr bool has_words = sizeof(Shared) == 4 * words && alignof(Shared) == 4 &
 static_assert(has_words<FloatPair, 2>);
 static_assert(has_words<Grid, 20>);
 static_assert(has_words<GridBlurs, 10>);
+static_assert(has_words<BlurWeights, 34>);
+static_assert(has_words<BlurStripsParameters, 143>);
 static_assert(has_words<Stencil, 98>);
 static_assert(has_words<ClearParameters, 3>);
 static_assert(has_words<WidthAlongX, 2>);

@@ -363,8 +363,17 @@ ProgramSource Specialization::certify() const {
            "entry_lanes.cl", "collected.cl", "collect_groups.cl"}};
 }
 
-ProgramSource Specialization::coarse_grids() {
-  return {"", {"splat.h", "resolve.h", "common.cl", "prefetch.cl", "blur.cl", "refine.cl"}};
+ProgramSource Specialization::coarse_grids() const {
+  std::vector<std::string> files = {"splat.h", "resolve.h", "common.cl", "prefetch.cl"};
+  if (!rows_) files.push_back("blur.cl");
+  files.push_back("refine.cl");
+  return {"", files};
+}
+
+ProgramSource Specialization::blur_strips() const {
+  return {define_if(rows_of_16_, "LANES_16") + define("LANES_8"),
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "prefetch.cl",
+           "blur_strips.cl"}};
 }
 
 ProgramSource Specialization::clear() {

@@ -82,7 +82,8 @@ class Specialization {
   static ProgramSource sort_groups();
   static ProgramSource carry();
   static ProgramSource scan();
-  static ProgramSource coarse_grids();
+  ProgramSource coarse_grids() const;
+  ProgramSource blur_strips() const;
   static ProgramSource add_light();
   static ProgramSource clear();
 

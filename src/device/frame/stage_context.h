@@ -18,7 +18,7 @@ struct StageContext {
         plan(with),
         specialization(of, with, on.traits),
         layout(make_picture_layout(of, with, specialization)),
-        grids(on.pool.upload(layout.grids, "grids")),
+        grids(on.pool.upload(all_grids(layout), "grids")),
         stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
         colors(upload_component_colors(of, on.pool)) {}
 

@@ -10,8 +10,8 @@
 namespace splotchcl {
 namespace {
 
-// Refining and blurring read up to eight pixels past a row's last.
-constexpr std::uint64_t padding = 16;
+// Refining and blurring read up to a strip and a blur past a row's last.
+constexpr std::uint64_t padding = STRIP + MOST_BLUR_WEIGHTS;
 
 // To a power of two: the parts of lists are others in each chunk, and what the pool has serves
 // again.

@@ -27,6 +27,9 @@ Image image_on_large_pages(int width, int height) {
   return image;
 }
 
+// Rows of eight, or of a strip, may reach beyond the last plane.
+constexpr std::size_t padding_of_rows = 2 * STRIP;
+
 std::size_t strips(std::size_t pixels, std::size_t per_item) {
   return (pixels + per_item - 1) / per_item;
 }
@@ -68,68 +71,131 @@ Resolver::Resolver(const StageContext& context)
   parameters_.circle_y = 2 * frame.crop.y - frame.height;
   parameters_.circle_diameter = std::min(frame.width, frame.height);
   if (context.layout.grids.size() > 1) {
-    grids_program_ = context.device.programs.get(Specialization::coarse_grids());
+    grids_program_ = context.device.programs.get(context.specialization.coarse_grids());
+    if (context.device.traits.rows && context.plan.pyramid.is_blurred())
+      blur_program_ = context.device.programs.get(context.specialization.blur_strips());
   }
   if (context.plan.slabs > 0)
     slab_program_ = context.device.programs.get(Specialization::lay_slab());
 }
 
-Buffer<float> Resolver::room_for_columns() const {
+CollectingRoom Resolver::room_for_collecting() const {
   const GridPyramid& pyramid = context_.plan.pyramid;
   const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
   std::size_t floats = 0;
   for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
     const shared::GridPart& part = wanted[level];
     floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
-    if (static_cast<int>(level) >= pyramid.first_level && pyramid.is_blurred())
+    const bool by_axes = !context_.device.traits.rows && pyramid.is_blurred();
+    if (by_axes && static_cast<int>(level) >= pyramid.first_level)
       floats = std::max(floats, blurred_floats(part, reach_of_blurs(pyramid)));
   }
-  return context_.device.pool.get<float>(context_.specialization.planes() * floats,
-                                         "blurred or refined columns");
+  BufferPool& pool = context_.device.pool;
+  CollectingRoom room;
+  room.columns =
+      pool.get<float>(context_.specialization.planes() * floats, "blurred or refined columns");
+  for (std::size_t i = 0; i < std::min(room.levels.size(), context_.layout.collecting.size()); ++i)
+    room.levels[i] = pool.get<float>(std::uint64_t{context_.specialization.planes()} *
+                                             context_.layout.collecting[i].plane_size +
+                                         padding_of_rows,
+                                     "a level of grids");
+  return room;
 }
 
-// What every grid holds, brought to the picture's own: blurred level by level, then refined
-// from the coarsest on. Grids without light are left out.
-Planes Resolver::collect(Planes planes, std::size_t finest, const Buffer<float>& columns) const {
+// The picture's own grid, or what a level is blurred to; of grids that are not blurred the only one
+// of the level.
+Resolver::LevelLight Resolver::light_of_level(const Planes& planes, int level,
+                                              const CollectingRoom& room) const {
+  const PictureLayout& layout = context_.layout;
+  if (level == 0 || layout.collecting.empty())
+    return {&planes.light, static_cast<std::uint32_t>(
+                               context_.plan.pyramid.level_grids[static_cast<std::size_t>(level)])};
+  const auto number = static_cast<std::size_t>(level - 1);
+  return {&room.levels[number % room.levels.size()],
+          static_cast<std::uint32_t>(layout.grids.size() + number)};
+}
+
+// What every grid holds, brought to the picture's own: blurred level by level, and refined from the
+// coarsest on. Grids without light are left out.
+Resolver::LevelLight Resolver::collect(const Planes& planes, int finest,
+                                       const CollectingRoom& room) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
-  const std::vector<shared::GridPart>& wanted = context_.layout.wanted;
-  const auto grid_of = [&pyramid](std::size_t level) {
-    return static_cast<std::uint32_t>(pyramid.level_grids[level]);
-  };
-  const auto is_used = [&planes](std::uint32_t grid) {
-    return (planes.used_grids >> grid & 1) != 0;
-  };
-  const std::size_t levels = pyramid.level_grids.size();
-  for (auto level = static_cast<std::size_t>(pyramid.first_level); level < levels; ++level) {
-    // All of a level add up in the grid that collects it: of coarse ones in the first, which is
-    // blurred in place.
-    const std::uint32_t target = grid_of(level);
-    const auto first = static_cast<std::uint32_t>(pyramid.first_grid_of(static_cast<int>(level)));
-    for (std::uint32_t i = 0; i < pyramid.blurs.size(); ++i) {
-      const std::uint32_t source = first + i;
-      if (!is_used(source)) continue;
-      blur(planes, source, target, wanted[level], pyramid.blurs[i],
-           source != target && is_used(target), columns);
-      planes.used_grids |= 1u << target;
+  LevelLight coarser;
+  for (int level = static_cast<int>(pyramid.level_grids.size()) - 1; level >= finest; --level) {
+    const LevelLight here = light_of_level(planes, level, room);
+    const bool is_own = level == 0 || !pyramid.is_blurred();
+    bool has_light = is_own && (planes.used_grids >> here.grid & 1) != 0;
+    if (pyramid.is_blurred() && level >= pyramid.first_level) {
+      const auto first = pyramid.first_grid_of(level);
+      const std::uint32_t all = (1u << pyramid.grids_of_level()) - 1;
+      if ((planes.used_grids >> first & all) != 0) {
+        blur(planes, level, here, has_light, room);
+        has_light = true;
+      }
     }
+    if (coarser.memory) {
+      refine(coarser, here, context_.layout.wanted[static_cast<std::size_t>(level)], has_light,
+             room.columns);
+      has_light = true;
+    }
+    coarser = has_light ? here : LevelLight();
   }
-  for (std::size_t level = levels - 1; level > finest; --level) {
-    const std::uint32_t coarse = grid_of(level), fine = grid_of(level - 1);
-    if (!is_used(coarse)) continue;
-    refine(planes, coarse, fine, wanted[level - 1], is_used(fine), columns);
-    planes.used_grids |= 1u << fine;
-  }
-  return planes;
+  return coarser;
 }
 
-// What the target's `part` takes from the source.
-void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
-                    const shared::GridPart& part, double sigma2, bool add,
-                    const Buffer<float>& columns) const {
-  const std::vector<float> weights = blur_weights(sigma2, context_.plan.pyramid.blur_error);
+// What the target takes from all grids of a level that hold light.
+void Resolver::blur(const Planes& planes, int level, const LevelLight& target, bool add,
+                    const CollectingRoom& room) const {
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < pyramid.blurs.size(); ++i) {
+    if ((planes.used_grids >> (pyramid.first_grid_of(level) + i) & 1) != 0) used.push_back(i);
+  }
+  if (context_.device.traits.rows) {
+    blur_in_strips(planes, used, level, target, add);
+    return;
+  }
+  for (const std::size_t i : used)
+    blur_by_axes(planes, i, level, target, add || i != used.front(), room.columns);
+}
+
+void Resolver::blur_in_strips(const Planes& planes, const std::vector<std::size_t>& blurs,
+                              int level, const LevelLight& target, bool add) const {
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const shared::GridPart& part = context_.layout.wanted[static_cast<std::size_t>(level)];
+  shared::BlurStripsParameters parameters{};
+  parameters.target = target.grid;
+  parameters.part = part;
+  parameters.add = add;
+  for (const std::size_t i : blurs) {
+    const std::vector<float> weights = blur_weights(pyramid.blurs[i], pyramid.blur_error);
+    shared::BlurWeights& blur = parameters.blurs[parameters.source_count++];
+    blur.source = static_cast<std::uint32_t>(pyramid.first_grid_of(level) + i);
+    blur.half_width = static_cast<int>(weights.size() / 2);
+    static_assert(most_blur_weights == MOST_BLUR_WEIGHTS);
+    std::copy(weights.begin() + blur.half_width, weights.end(), blur.weights);
+  }
+  const auto width = static_cast<std::size_t>(part.right_end - part.left);
+  const auto height = static_cast<std::size_t>(part.bottom - part.top);
+  Launch(context_.device, "resolve", blur_program_.create_kernel("blur_strips"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(*target.memory)
+      .run_grid(strips(width, STRIP), strips(height, ROWS_OF_BAND),
+                context_.specialization.planes());
+}
+
+// From the source along x, then along y to the target.
+void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
+                            const LevelLight& target, bool add,
+                            const Buffer<float>& columns) const {
+  const GridPyramid& pyramid = context_.plan.pyramid;
+  const shared::GridPart& part = context_.layout.wanted[static_cast<std::size_t>(level)];
+  const std::vector<float> weights = blur_weights(pyramid.blurs[blur], pyramid.blur_error);
   shared::BlurParameters parameters{};
-  parameters.source = source;
-  parameters.target = target;
+  parameters.source = static_cast<std::uint32_t>(pyramid.first_grid_of(level) + blur);
+  parameters.target = target.grid;
   parameters.part = part;
   parameters.half_width = static_cast<int>(weights.size() / 2);
   parameters.add = add;
@@ -149,7 +215,7 @@ void Resolver::blur(const Planes& planes, std::uint32_t source, std::uint32_t ta
   Launch(context_.device, "resolve", grids_program_.create_kernel("blur_rows"))
       .value(parameters)
       .arg(context_.grids)
-      .arg(planes.light)
+      .arg(*target.memory)
       .arg(columns)
       .run_grid(width_strips, height, plane_count);
 }
@@ -167,28 +233,28 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
 }
 
 // The first axis.
-void Resolver::refine_columns(const Planes& planes, const shared::RefineParameters& parameters,
+void Resolver::refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                               const Buffer<float>& columns) const {
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
       .value(parameters)
       .arg(context_.grids)
-      .arg(planes.light)
+      .arg(*coarse.memory)
       .arg(columns)
       .run_grid(refined_strips(parameters.part), refined_rows(parameters.part),
                 context_.specialization.planes());
 }
 
 // The same from one level to the next.
-void Resolver::refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
+void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
                       const shared::GridPart& part, bool add, const Buffer<float>& columns) const {
-  shared::RefineParameters parameters = refine_parameters(coarse, fine, part);
+  shared::RefineParameters parameters = refine_parameters(coarse.grid, fine.grid, part);
   parameters.add = add;
-  refine_columns(planes, parameters, columns);
+  refine_columns(coarse, parameters, columns);
   const auto width = static_cast<std::size_t>(part.right_end - part.left);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
       .arg(context_.grids)
-      .arg(planes.light)
+      .arg(*fine.memory)
       .arg(columns)
       .run_grid(strips(width, 8), row_pairs(part), context_.specialization.planes());
 }
@@ -205,23 +271,23 @@ SlabLight Resolver::start_slabs() const {
   slab.errors = context_.device.pool.get<float>(eights, "errors of slabs");
   for (const Buffer<float>* buffer : {&slab.before, &slab.errors})
     clear_memory(context_.device, "resolve", buffer->memory(), 0, buffer->size() * sizeof(float));
-  slab.columns = room_for_columns();
+  slab.room = room_for_collecting();
   return slab;
 }
 
 Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
   constexpr std::uint32_t picture = 1;
   if (light.used_grids == picture) return light;
-  Planes planes = collect(std::move(light), 1, slab.columns);
-  const auto coarse = static_cast<std::uint32_t>(context_.plan.pyramid.level_grids[1]);
+  const LevelLight coarse = collect(light, 1, slab.room);
+  Planes planes = std::move(light);
   const shared::GridPart& part = context_.layout.wanted.front();
-  const shared::RefineParameters parameters = refine_parameters(coarse, 0, part);
-  refine_columns(planes, parameters, slab.columns);
+  const shared::RefineParameters parameters = refine_parameters(coarse.grid, 0, part);
+  refine_columns(coarse, parameters, slab.room.columns);
   Launch(context_.device, "resolve", slab_program_.create_kernel("lay_slab"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
-      .arg(slab.columns)
+      .arg(slab.room.columns)
       .arg(slab.before)
       .arg(slab.errors)
       .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8), row_pairs(part),
@@ -275,9 +341,9 @@ Buffer<float> Resolver::upload_background(std::size_t stride) const {
 }
 
 Image Resolver::resolve(Planes light) const {
-  const bool has_coarse_grids = light.used_grids > 1;
-  const Planes planes =
-      has_coarse_grids ? collect(std::move(light), 0, room_for_columns()) : std::move(light);
+  constexpr std::uint32_t picture = 1;
+  if ((light.used_grids & ~picture) != 0) collect(light, 0, room_for_collecting());
+  const Planes planes = std::move(light);
   Image image = image_on_large_pages(parameters_.width, parameters_.height);
   if (context_.device.traits.shares_host_memory) {
     resolve_in_place(planes, image);

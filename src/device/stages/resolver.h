@@ -27,26 +27,35 @@ class Resolver {
   std::vector<float> errors_of_slabs(const SlabLight& slab) const;
 
  private:
-  // For what each step of collect() and lay_slab() makes along one axis of a grid.
-  Buffer<float> room_for_columns() const;
+  // Where a level's light is; null where it has none.
+  struct LevelLight {
+    const Buffer<float>* memory = nullptr;
+    std::uint32_t grid = 0;  // as kernels number it (all_grids)
+  };
+  CollectingRoom room_for_collecting() const;
   // Down to grids of this level.
-  Planes collect(Planes planes, std::size_t finest, const Buffer<float>& columns) const;
-  void refine_columns(const Planes& planes, const shared::RefineParameters& parameters,
+  LevelLight collect(const Planes& planes, int finest, const CollectingRoom& room) const;
+  // What the level's own grids hold.
+  LevelLight light_of_level(const Planes& planes, int level, const CollectingRoom& room) const;
+  void blur(const Planes& planes, int level, const LevelLight& target, bool add,
+            const CollectingRoom& room) const;
+  void blur_in_strips(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
+                      const LevelLight& target, bool add) const;
+  void blur_by_axes(const Planes& planes, std::size_t blur, int level, const LevelLight& target,
+                    bool add, const Buffer<float>& columns) const;
+  void refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                       const Buffer<float>& columns) const;
   shared::RefineParameters refine_parameters(std::uint32_t coarse, std::uint32_t fine,
                                              const shared::GridPart& part) const;
-  void blur(const Planes& planes, std::uint32_t source, std::uint32_t target,
-            const shared::GridPart& part, double sigma2, bool add,
-            const Buffer<float>& columns) const;
-  void refine(const Planes& planes, std::uint32_t coarse, std::uint32_t fine,
-              const shared::GridPart& part, bool add, const Buffer<float>& columns) const;
+  void refine(const LevelLight& coarse, const LevelLight& fine, const shared::GridPart& part,
+              bool add, const Buffer<float>& columns) const;
   Buffer<float> upload_background(std::size_t stride) const;
   void resolve_in_place(const Planes& planes, Image& image) const;
   void write_pixels(const Planes& planes, const compute::buffer& pixels) const;
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
-  Program program_, grids_program_, slab_program_;
+  Program program_, grids_program_, blur_program_, slab_program_;
 };
 
 }  // namespace splotchcl
