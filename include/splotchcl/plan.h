@@ -125,9 +125,20 @@ struct GridPyramid {
   double blur_of(std::size_t grid) const {
     return is_blurred() && grid > 0 ? blurs[(grid - 1) % blurs.size()] : 0;
   }
+  // How many times coarse_sigma a splat of this peak, above 1, needs to be as wide as, for the grids
+  // of a level: its errors are as many times larger, and it is no stencil.
+  double wider_for(double peak) const;
+
   RefinementFilter refinement;
   float coarse_peak = 0;   // brighter splats stay on grid 0
   float coarse_sigma = 0;  // smallest sigma in pixels of a coarse grid
+};
+
+// How many splats a frame is likely to have of widths that grids beside the picture's own are for,
+// over the pixels of the whole picture: those that need pixels as small as the picture's, and wider
+// ones, for coarser grids.
+struct WideSplats {
+  double of_one_octave = 0, wider = 0;
 };
 
 // Which splats are so sharp that single precision of their places would show. A splat whose place
@@ -181,6 +192,7 @@ struct FramePlan {
   double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   PlaceLimits places;
+  WideSplats wide_splats;  // guessed of sums
   GridPyramid pyramid;
   // Ordered: splats are drawn in so many slabs of depth, each of as many of them. The wide ones of
   // a slab are added up on coarse grids and laid among its narrow ones, which are in order

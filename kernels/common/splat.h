@@ -39,9 +39,9 @@ struct Grid {
 struct GridBlurs {
   int shift, first_level;
   float sigma2[MOST_BLURS];
-  // Splats up to this sigma are stencils, their weights what becomes of them when they are blurred;
-  // 0: none is.
+  // Splats up to this sigma are stencils, if they are no brighter than 1; 0: none is.
   float stencil_sigma[MOST_BLURS];
+  float finer_grid;  // brighter ones need to be so many times wider for a grid; 1 without stencils
 };
 
 // What splats of a blurred grid are drawn by (plan.h, Stencil). Their sigma is that which the blur

@@ -20,8 +20,8 @@ double extent_of(const SampledCloud& cloud, const Frame& frame, const FramePlan&
 std::size_t grid_of(const SampledCloud& cloud, const FramePlan& plan) {
   const std::size_t grids = plan.pyramid.grids.size();
   if (grids < 2 || cloud.light > static_cast<double>(plan.pyramid.coarse_peak)) return 0;
-  const double least =
-      static_cast<double>(plan.pyramid.coarse_sigma) * std::pow(std::max(cloud.light, 1.0), 0.125);
+  const double wider = cloud.light > 1 ? plan.pyramid.wider_for(cloud.light) : 1;
+  const double least = static_cast<double>(plan.pyramid.coarse_sigma) * wider;
   const double octaves = std::log2(cloud.sigma / least);
   const auto of_level = static_cast<double>(plan.pyramid.grids_of_level());
   const double index = std::floor(of_level * (octaves - plan.pyramid.first_level)) + 1;

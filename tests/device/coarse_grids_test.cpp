@@ -65,6 +65,25 @@ TEST_P(CoarseGrids, GiveACropTheBitsOfTheWholePicture) {
   EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, frame.crop), 0);
 }
 
+TEST_P(CoarseGrids, DrawFewSplats) {
+  for (const double tolerance : {1e-2, 1e-3}) {
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+      CloudSetup setup;
+      setup.seed = seed;
+      setup.count = 3;
+      setup.width = 160;
+      setup.height = 120;
+      setup.sigma_low = 2;
+      setup.sigma_high = 40;
+      setup.column_low = 0.1;
+      setup.column_high = 3;
+      Frame frame = frame_of(setup.width, setup.height, {random_clouds(setup)});
+      frame.tolerance = tolerance;
+      EXPECT_LE(error(frame), tolerance) << seed;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, CoarseGrids,
                          testing::Values(CompositeShape::rows, CompositeShape::groups),
                          [](const auto& info) {

@@ -116,6 +116,7 @@ shared::GridBlurs grid_blurs(const GridPyramid& pyramid) {
   blurs.first_level = pyramid.first_level;
   for (std::size_t i = 0; i < MOST_BLURS; ++i)
     blurs.sigma2[i] = static_cast<float>(pyramid.blur_of(i + 1));
+  blurs.finer_grid = static_cast<float>(pyramid.wider_for(1));
   for (std::size_t i = 0; i < pyramid.stencils.size(); ++i) {
     // Roundings of sigma beyond the widest take as little as within.
     blurs.stencil_sigma[i] = static_cast<float>(pyramid.stencils[i].largest_sigma * (1 + 1e-5));

@@ -94,20 +94,21 @@ double error_of_stencils(const GridPyramid& pyramid) {
   return axes * error;
 }
 
-// The less is left to the interpolation, the wider splats have to be: as much as stencils take, in
-// steps. False where they do not keep the error.
-bool choose_stencils(const PyramidNeeds& needs, GridPyramid& pyramid) {
-  constexpr double least_sigma = 2.2, end_of_blurs = 2e-5;
+// From the narrowest splats on for which interpolation and stencils together keep the error, and
+// which need no means. False where none do.
+bool choose_stencils(const PyramidNeeds& needs, int grids_of_level, GridPyramid& pyramid) {
+  constexpr double end_of_blurs = 2e-5;
   pyramid.blur_error = std::min(end_of_blurs, 0.1 * needs.error);
-  for (const double part : {0.2, 0.3, 0.4, 0.5, 0.6}) {
-    if (part * needs.error < least_stencil_error) continue;
-    pyramid.refinement = choose_refinement((1 - part) * needs.error);
-    const double smallest_sigma = std::max({pyramid.refinement.smallest_sigma, least_sigma,
-                                            static_cast<double>(needs.mean_sigma)});
-    make_stencils(smallest_sigma, needs.blurs_of_level, pyramid);
-    if (error_of_stencils(pyramid) > part * needs.error) continue;
-    pyramid.coarse_sigma = static_cast<float>(smallest_sigma);
-    pyramid.first_level = 0;
+  for (const double smallest : {2.11, 2.2, 2.3, 2.5, 2.8, 3.1}) {
+    const double sigma = std::max(smallest, static_cast<double>(needs.mean_sigma));
+    const RefinementOfSigma refinement = best_refinement(sigma);
+    const double left = needs.error - refinement.error;
+    if (left < least_stencil_error) continue;
+    make_stencils(sigma, grids_of_level, pyramid);
+    if (error_of_stencils(pyramid) > left) continue;
+    pyramid.refinement = refinement.filter;
+    pyramid.coarse_sigma = static_cast<float>(sigma);
+    pyramid.first_level = needs.first_level;
     return true;
   }
   pyramid.stencils.clear();
@@ -116,10 +117,11 @@ bool choose_stencils(const PyramidNeeds& needs, GridPyramid& pyramid) {
 }
 
 // How a relative error of the splats on coarse grids is spent.
-void choose_filters(const KernelSettings& kernel, const PyramidNeeds& needs,
-                    GridPyramid& pyramid) {
+void choose_filters(const Frame& frame, const PyramidNeeds& needs, GridPyramid& pyramid) {
+  const KernelSettings& kernel = frame.kernel;
   pyramid.coarse_peak = static_cast<float>(brightest_coarse_peak(kernel, needs.error));
-  if (needs.stencils && !kernel.cut && choose_stencils(needs, pyramid)) return;
+  const bool may_be_stencils = needs.stencils && !kernel.cut;
+  if (may_be_stencils && choose_stencils(needs, most_blurs(frame), pyramid)) return;
   choose_narrower_splats(kernel, needs, pyramid);
 }
 
@@ -155,6 +157,13 @@ int most_blurs(const Frame& frame) {
   return static_cast<int>(1 + most * coarse_levels <= most_grids ? most : most / 2);
 }
 
+// Errors of the interpolation fall as sigma^-8 at least. A narrower Gaussian that is blurred has to
+// be wider than the blur is, which may be as wide as the narrowest stencil.
+double GridPyramid::wider_for(double peak) const {
+  const double next_grid = std::exp2(1 / static_cast<double>(grids_of_level()));
+  return std::max(std::pow(peak, 0.125), has_stencils() ? next_grid : 1.0);
+}
+
 GridPyramid make_single_grid(const Frame& frame) {
   GridPyramid pyramid;
   pyramid.grids = {{0, frame.width, frame.height, 0}};
@@ -165,7 +174,7 @@ GridPyramid make_single_grid(const Frame& frame) {
 
 GridPyramid make_pyramid(const Frame& frame, const PyramidNeeds& needs) {
   GridPyramid pyramid = make_single_grid(frame);
-  choose_filters(frame.kernel, needs, pyramid);
+  choose_filters(frame, needs, pyramid);
   append_coarse_grids(frame, pyramid);
   return pyramid;
 }

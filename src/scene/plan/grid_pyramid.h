@@ -12,11 +12,18 @@ GridPyramid make_single_grid(const Frame& frame);
 struct PyramidNeeds {
   float mean_sigma = 0;  // narrower splats need means, which only the picture's own grid knows
   double error = 0;      // of splats on other grids, as a part of their peak
-  // How many grids a level has, where they are blurred; a power of two up to most_blurs().
+  // How many grids a level has, where they are blurred; a power of two up to most_blurs(), of which
+  // there are as many where splats are stencils.
   int blurs_of_level = 2;
-  // Whether splats on blurred grids may be stencils, on grids of the picture's own pixels, too.
+  // Whether splats on blurred grids may be stencils, and if so from which level on there are such
+  // grids: 0 or 1.
   bool stencils = false;
+  int first_level = 1;
 };
+
+// The narrowest splats that are stencils, or nearly: they are a little wider where the error is
+// small.
+constexpr double about_narrowest_stencil = 2.2;  // pixels
 
 // The grids of a sum, from the picture's own pixels to ever coarser ones.
 GridPyramid make_pyramid(const Frame& frame, const PyramidNeeds& needs);

@@ -9,6 +9,7 @@
 #include "scene/plan/ordered_guess.h"
 #include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"
+#include "scene/plan/width_guess.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
@@ -62,10 +63,29 @@ void add_needs_of_light(double brightness, FramePlan& plan) {
 
 // The more grids share out a level's widths, the narrower their splats are drawn, and the more
 // there is to blur for each pixel: in slabs once for each of them (docs/performance.md).
-bool pays_for_many_grids(const Frame& frame, const FramePlan& plan) {
+int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
+  constexpr int few = 2;
   const auto pixels =
       static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
-  return plan.slabs == 0 && particle_count(frame) >= pixels;
+  const bool pays = plan.slabs == 0 && particle_count(frame) >= pixels;
+  return pays ? most_blurs(frame) : few;
+}
+
+// A stencil takes a third of the time of a narrower Gaussian, and a quarter of a splat that is
+// drawn as wide as it is. Stencils begin a little wider, and four grids of the picture's own pixels
+// take as long to blur as half as many splats take. (docs/performance.md)
+void choose_stencils(const FramePlan& plan, PyramidNeeds& needs) {
+  constexpr double fewest_of_own_pixels = 1.0, fewest = 0.1;
+  const WideSplats& splats = plan.wide_splats;
+  const bool own_pixels = splats.of_one_octave >= fewest_of_own_pixels;
+  needs.first_level = own_pixels ? 0 : 1;
+  needs.stencils =
+      own_pixels || (splats.wider >= fewest && splats.wider >= splats.of_one_octave);
+}
+
+bool may_have_stencils(const Frame& frame, const FramePlan& plan) {
+  return !plan.needs_sort() && plan.precision == Precision::fast &&
+         plan.shares.coarse_grids > 0 && !plan.has_ellipses && !frame.kernel.cut;
 }
 
 GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
@@ -78,12 +98,11 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   const bool has_coarse_grids =
       plan.shares.coarse_grids > 0 && !plan.has_ellipses && !has_hard_edges;
   if (!has_coarse_grids) return make_single_grid(frame);
-  constexpr int few = 2;
   PyramidNeeds needs;
   needs.mean_sigma = plan.splats.mean_sigma;
   needs.error = plan.grid_peak_error / plan.needs.grid_light;
-  needs.stencils = pays_for_many_grids(frame, plan);
-  needs.blurs_of_level = needs.stencils ? most_blurs(frame) : few;
+  needs.blurs_of_level = choose_blurs_of_level(frame, plan);
+  choose_stencils(plan, needs);
   return make_pyramid(frame, needs);
 }
 
@@ -183,6 +202,8 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
     set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, true), plan);
   }
   plan.needs = first_needs(plan, light_of_uneven_ends(frame, plan));
+  if (may_have_stencils(frame, plan))
+    plan.wide_splats = guess_wide_splats(frame, about_narrowest_stencil);
   if (plan.light == LightPlan::emission) add_needs_of_light(guess_brightness(frame), plan);
   set_limits(frame, plan);
   // Small pictures have one grid, and transmittances that are carried are not laid.
