@@ -11,8 +11,8 @@
 #endif
 
 static inline void clear_planes(float* tile) {
-  for (int i = 0; i < PLANES * TILE_PIXELS; i += 8)
-    store_eight((float8)(0.0f), tile + i);
+  for (int i = 0; i < PLANES * TILE_PIXELS; i += PATCH_WIDTH)
+    store_patch((PATCH)(0.0f), tile + i);
 }
 
 // Where a row of a tile with this corner begins.
@@ -68,12 +68,12 @@ static inline void store_tile(const float* tile, __global float* planes, const G
 // blocks of so many, n of them err by as many roundings and one for each block, not by n.
 #ifdef LIGHT_ORDERED
 static inline void add_block(const float* block, float* front) {
-  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8) {
-    const float8 opacity = load_eight(front + SUMS * TILE_PIXELS + i);
-    const float8 behind = load_eight(block + SUMS * TILE_PIXELS + i);
-    const float8 t = transmittance_of(opacity);
-    store_eight(load_eight(front + i) + t * load_eight(block + i), front + i);
-    store_eight(carry_behind(opacity, t, behind), front + SUMS * TILE_PIXELS + i);
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH) {
+    const PATCH opacity = load_patch(front + SUMS * TILE_PIXELS + i);
+    const PATCH behind = load_patch(block + SUMS * TILE_PIXELS + i);
+    const PATCH t = transmittance_of(opacity);
+    store_patch(load_patch(front + i) + t * load_patch(block + i), front + i);
+    store_patch(carry_behind(opacity, t, behind), front + SUMS * TILE_PIXELS + i);
   }
 }
 
@@ -98,8 +98,8 @@ static inline void add_block_to_planes(const float* block, __global float* plane
 }
 #else
 static inline void add_block(const float* block, float* front) {
-  for (int i = 0; i < SUMS * TILE_PIXELS; i += 8)
-    store_eight(load_eight(front + i) + load_eight(block + i), front + i);
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH)
+    store_patch(load_patch(front + i) + load_patch(block + i), front + i);
 }
 #endif
 #endif

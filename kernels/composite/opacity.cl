@@ -1,39 +1,39 @@
 // How much of what lies behind a pixel's layers they take away, as planes carry it, on VALUEs
-// (lanes.cl): the opacity 1 - exp(-depth), which keeps depths of 1e-8. With
+// (lanes.cl, lanes_of_16.cl): the opacity 1 - exp(-depth), which keeps depths of 1e-8. With
 // KEEP_TRANSMITTANCE, where sources may be so bright that they show through an opacity close
 // to 1, minus the transmittance from an opacity of one half on: it keeps its own digits.
 #ifdef KEEP_TRANSMITTANCE
-static inline VALUE opacity_of(VALUE carried) {
-  return carried + choose((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);
+OVERLOADED static inline VALUE opacity_of(VALUE carried) {
+  return carried + select((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);
 }
 
-static inline VALUE transmittance_of(VALUE carried) {
-  return choose(1.0f - carried, -carried, carried < 0.0f);
+OVERLOADED static inline VALUE transmittance_of(VALUE carried) {
+  return select(1.0f - carried, -carried, carried < 0.0f);
 }
 
 // What is carried behind one more layer, which takes `taken` of all light away and leaves
 // `left` of it: either may be rounded where the other counts. The smallest float stands for
 // nothing at all, which has no sign.
-static inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
+OVERLOADED static inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
   // Differences of the error function may be negative by their error: the sign is taken.
   const VALUE opacity = max(carried + taken, (VALUE)(0.0f));
-  return choose(-max(left, (VALUE)(1.17549435e-38f)), opacity, carried >= 0.0f & opacity < 0.5f);
+  return select(-max(left, (VALUE)(1.17549435e-38f)), opacity, carried >= 0.0f & opacity < 0.5f);
 }
 #else
-static inline VALUE opacity_of(VALUE carried) {
+OVERLOADED static inline VALUE opacity_of(VALUE carried) {
   return carried;
 }
-static inline VALUE transmittance_of(VALUE carried) {
+OVERLOADED static inline VALUE transmittance_of(VALUE carried) {
   return 1.0f - carried;
 }
-static inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
+OVERLOADED static inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
   return carried + taken;
 }
 #endif
 
 // What is carried when layers that were put together by themselves come behind others, of which
 // `transmittance` is let through.
-static inline VALUE carry_behind(VALUE carried, VALUE transmittance, VALUE behind) {
+OVERLOADED static inline VALUE carry_behind(VALUE carried, VALUE transmittance, VALUE behind) {
   return carry(carried, transmittance * opacity_of(behind),
                transmittance * transmittance_of(behind));
 }

@@ -171,5 +171,8 @@ __attribute__((noinline)) static void put_shape(PatchShapes* shapes, uint number
 }
 #else
 #define PATCH float8
+#define PATCH_WIDTH 8
 #define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
+#define load_patch load_eight
+#define store_patch store_eight
 #endif

@@ -265,7 +265,8 @@ ProgramSource Specialization::composite_with_clouds() const {
 
 std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h", "bin.h", "composite.h", "common.cl"};
-  if (takes_rows_of_16()) files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl"});
+  if (takes_rows_of_16())
+    files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl", "opacity.cl"});
   files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl",
                              "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
