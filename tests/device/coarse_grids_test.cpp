@@ -1,7 +1,9 @@
-// The grids of a coarse level share out its widths: their splats are drawn narrower and blurred.
+// The grids of a level share out its widths: their splats are drawn narrower, or as stencils, and
+// blurred.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "device/pictures.h"
@@ -32,6 +34,7 @@ class CoarseGrids : public PictureTest, public testing::WithParamInterface<Compo
 
 TEST_P(CoarseGrids, AreFourOfALevelWhereThereAreMoreParticlesThanPixels) {
   Frame frame = clouds(0.5, 30);
+  frame.tolerance = 1e-4;  // too small for stencils, which take four of any number
   EXPECT_EQ(make_plan(frame).pyramid.blurs.size(), 4U);
   frame.components[0].particles.count = 80 * 64 - 1;
   EXPECT_EQ(make_plan(frame).pyramid.blurs.size(), 2U);
@@ -65,31 +68,70 @@ TEST_P(CoarseGrids, GiveACropTheBitsOfTheWholePicture) {
   EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, frame.crop), 0);
 }
 
-TEST_P(CoarseGrids, DrawFewSplats) {
-  for (const double tolerance : {1e-2, 1e-3}) {
-    for (unsigned seed = 1; seed <= 100; ++seed) {
-      CloudSetup setup;
-      setup.seed = seed;
-      setup.count = 3;
-      setup.width = 160;
-      setup.height = 120;
-      setup.sigma_low = 2;
-      setup.sigma_high = 40;
-      setup.column_low = 0.1;
-      setup.column_high = 3;
-      Frame frame = frame_of(setup.width, setup.height, {random_clouds(setup)});
-      frame.tolerance = tolerance;
-      EXPECT_LE(error(frame), tolerance) << seed;
-    }
+// They are narrower Gaussians, which have to be wider than the blur (GridPyramid::wider_for).
+TEST_P(CoarseGrids, HoldTheToleranceWithSplatsTooBrightForStencils) {
+  for (std::uint64_t seed = 10; seed <= 13; ++seed) {
+    CloudSetup bright;
+    bright.seed = seed;
+    bright.count = 20;
+    bright.width = 160;
+    bright.height = 128;
+    bright.sigma_low = 4.4;
+    bright.sigma_high = 17;
+    bright.column_low = 0.5;
+    bright.column_high = 3;
+    CloudSetup faint = bright;
+    faint.count = 4000;
+    faint.column_low = faint.column_high = 1e-5;
+    Frame frame =
+        frame_of(bright.width, bright.height, {random_clouds(bright), random_clouds(faint)});
+    frame.tolerance = 1e-2;
+    ASSERT_TRUE(make_plan(frame).pyramid.has_stencils());
+    EXPECT_LE(error(frame), frame.tolerance) << seed;
   }
 }
 
+// So many splats that need the picture's own pixels that some of its grids have them.
+class GridsOfOwnPixels : public CoarseGrids {
+ protected:
+  static Frame many_clouds() {
+    CloudSetup setup;
+    setup.count = 16000;
+    setup.width = 80;
+    setup.height = 40;
+    setup.sigma_low = 2.2;
+    setup.sigma_high = 4.4;
+    setup.column_low = 1e-5;
+    setup.column_high = 1e-3;
+    const Frame frame = frame_of(setup.width, setup.height, {random_clouds(setup)});
+    EXPECT_EQ(make_plan(frame).pyramid.first_level, 0);
+    return frame;
+  }
+};
+
+TEST_P(GridsOfOwnPixels, HoldTheTolerance) {
+  const Frame frame = many_clouds();
+  EXPECT_LE(error(frame), frame.tolerance);
+}
+
+TEST_P(GridsOfOwnPixels, GiveACropTheBitsOfTheWholePicture) {
+  DeviceContext device(choose_device(""));
+  Frame frame = many_clouds();
+  const Image whole = draw_once(device, frame, GetParam());
+  frame.crop = {21, 9, 37, 23};
+  EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, frame.crop), 0);
+}
+
+const auto name_of_shape = [](const auto& info) {
+  return std::string(info.param == CompositeShape::rows ? "rows" : "groups");
+};
+
 INSTANTIATE_TEST_SUITE_P(Shapes, CoarseGrids,
                          testing::Values(CompositeShape::rows, CompositeShape::groups),
-                         [](const auto& info) {
-                           return std::string(info.param == CompositeShape::rows ? "rows"
-                                                                                 : "groups");
-                         });
+                         name_of_shape);
+INSTANTIATE_TEST_SUITE_P(Shapes, GridsOfOwnPixels,
+                         testing::Values(CompositeShape::rows, CompositeShape::groups),
+                         name_of_shape);
 
 }  // namespace
 }  // namespace splotchcl::test

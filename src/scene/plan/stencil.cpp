@@ -206,8 +206,9 @@ void fit(const BlurredPixels& pixels_of_grid, Stencil& stencil) {
 }  // namespace
 
 double blur_of_stencil(double smallest) {
-  // The best ones of a search lie within 0.1 of this line.
-  const double sigma = smallest + std::min(0.17 * (smallest - 2.65), 0.2);
+  // The best ones of a search lie close to these lines.
+  const double beyond = smallest - 2.65;
+  const double sigma = smallest + (beyond < 0 ? 0.28 * beyond : std::min(0.17 * beyond, 0.2));
   return sigma * sigma;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace splotchcl {
 namespace {
@@ -84,6 +85,45 @@ TEST(RefinementFilter, LagrangeWeightsErrByTheTenthPowerOfTheWidth) {
     EXPECT_LT(largest_error(weights, sigma), 3.5 / std::pow(sigma, 10)) << "sigma " << sigma;
   for (const double sigma : {5.0, 6.0, 8.0, 12.0})
     EXPECT_LT(largest_error(weights, sigma), 5.21 / std::pow(sigma, 10)) << "sigma " << sigma;
+}
+
+// A row of pixels at half their size.
+std::vector<double> refined(const std::vector<double>& pixels, const Weights& weights) {
+  std::vector<double> finer(2 * pixels.size());
+  for (std::size_t x = 5; x + 5 < pixels.size(); ++x) {
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      finer[2 * x + 1] += weights[k] * pixels[x + k - 4];
+      finer[2 * x] += weights[k] * pixels[x + 4 - k];
+    }
+  }
+  return finer;
+}
+
+// After six refinements one after the other, of one axis.
+double largest_error_of_all(const Weights& weights, double sigma, double center) {
+  constexpr std::size_t count = 64;
+  std::vector<double> pixels(count);
+  for (std::size_t x = 0; x < count; ++x)
+    pixels[x] = gaussian(static_cast<double>(x) - count / 2 - center, sigma);
+  double largest = 0;
+  for (int level = 1; level <= 6; ++level) {
+    pixels = refined(pixels, weights);
+    const double size = std::ldexp(1.0, -level);
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      const double place = (static_cast<double>(x) + 0.5) * size - 0.5 - count / 2;
+      if (std::abs(place) < 15)
+        largest = std::max(largest, std::abs(pixels[x] - gaussian(place - center, sigma)));
+    }
+  }
+  return largest;
+}
+
+TEST(RefinementFilter, BestOneErrsByNoMoreThanStatedInAllRefinementsTogether) {
+  for (const double sigma : {2.0, 2.11, 2.2, 2.3, 2.5, 2.8, 3.1}) {
+    const RefinementOfSigma best = best_refinement(sigma);
+    for (double center = -0.5; center <= 0.5; center += 0.05)
+      EXPECT_LT(2 * largest_error_of_all(best.filter.weights, sigma, center), best.error) << sigma;
+  }
 }
 
 TEST(RefinementFilter, LagrangeWeightsKeepTheErrorOverBothAxesAtTheSmallestWidth) {
