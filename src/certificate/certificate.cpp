@@ -166,7 +166,8 @@ class FrameErrors {
     if (is_cut_ && on_grids > 0) needs.grid_light = std::max(needs.grid_light, margin);
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       WidthNeed& need = needs.widths[static_cast<std::size_t>(octaves_[i].octave())];
-      if (octaves_[i].is_on_picture() && parts[i].peaks > least_part)
+      // Those beside the picture's own grid are drawn on it where no blurred grid is good enough.
+      if (octaves_[i].level() == 0 && parts[i].peaks > least_part)
         need.light = std::max(need.light, more_light(octaves_[i], parts[i].peak_light, less));
     }
   }

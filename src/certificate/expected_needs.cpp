@@ -150,7 +150,7 @@ Samples collect(const std::vector<SampledCloud>& clouds, const FramePlan& plan) 
 // What splats of one octave on one grid do where most lie upon one another.
 struct Crowd {
   int octave;
-  bool is_on_picture;
+  GridsOfSplats on;
   double light, error;  // over what is promised
   double light_of_means;
 };
@@ -168,7 +168,7 @@ std::vector<Crowd> crowds_of(const std::vector<SampledCloud>& clouds, bool is_sa
       nothing.peaks = nothing.endings = {1, 1, 1, {0}};
       const OctaveErrors errors(nothing, frame, plan);
       const double light = sample.crowded_light(is_sample);
-      crowds.push_back({octave, sample.on().are_picture, light,
+      crowds.push_back({octave, sample.on(), light,
                         std::min(errors.peak_error() * light, errors.part_of_itself(light)) /
                             plan.shares.promise,
                         errors.light_of_means()});
@@ -202,7 +202,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   double error = 0, on_grids = 0;
   for (const Crowd& crowd : crowds) {
     error = std::max(error, crowd.error);
-    if (!crowd.is_on_picture) on_grids = std::max(on_grids, crowd.light);
+    if (!crowd.on.are_picture) on_grids = std::max(on_grids, crowd.light);
   }
   if (error <= 1) return std::nullopt;
   SplatNeeds needs;
@@ -210,7 +210,8 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   for (const Crowd& crowd : crowds) {
     WidthNeed& need = needs.widths[static_cast<std::size_t>(crowd.octave)];
     if (crowd.light > 0) need.farther = std::log(times * error);
-    if (!crowd.is_on_picture || crowd.error <= 0) continue;
+    // Beside the picture's own grid no blurred grid may be good enough: they are drawn on it then.
+    if (crowd.on.level > 0 || crowd.error <= 0) continue;
     const double in_proportion = std::min(times * error, crowd.light_of_means);
     need.light = std::max({need.light, times * crowd.light, in_proportion});
   }

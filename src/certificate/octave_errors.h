@@ -30,6 +30,7 @@ class OctaveErrors {
   OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan);
 
   int octave() const { return octave_; }
+  int level() const { return level_; }
   bool is_on_picture() const { return is_on_picture_; }
 
   // By ends of splats, beyond what even light leaves out; where a bound is asked for

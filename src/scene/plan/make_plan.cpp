@@ -72,10 +72,11 @@ int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
 }
 
 // A stencil takes a third of the time of a narrower Gaussian, and a quarter of a splat that is
-// drawn as wide as it is. Stencils begin a little wider, and four grids of the picture's own pixels
-// take as long to blur as half as many splats take. (docs/performance.md)
+// drawn as wide as it is. Four grids of the picture's own pixels take as long to blur as half as
+// many splats take, and as much memory as six pictures, which takes a first frame longer than that
+// (docs/performance.md).
 void choose_stencils(const FramePlan& plan, PyramidNeeds& needs) {
-  constexpr double fewest_of_own_pixels = 1.0, fewest = 0.1;
+  constexpr double fewest_of_own_pixels = 3, fewest = 0.1;
   const WideSplats& splats = plan.wide_splats;
   const bool own_pixels = splats.of_one_octave >= fewest_of_own_pixels;
   needs.first_level = own_pixels ? 0 : 1;
