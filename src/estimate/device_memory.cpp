@@ -94,6 +94,14 @@ class FrameBuffers {
            capacity * (specialization_.tile_splat_bytes() + pairs);
   }
 
+  // What levels are blurred and refined to, by turns.
+  std::uint64_t collecting_levels() const {
+    std::uint64_t floats = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(layout_.collecting.size(), 2); ++i)
+      floats += layout_.collecting[i].plane_size;
+    return floats * specialization_.planes() * sizeof(float);
+  }
+
   // What a grid's rows are blurred or refined into.
   std::uint64_t blurred_columns() const {
     std::uint64_t largest = 0;
@@ -110,7 +118,7 @@ class FrameBuffers {
   std::uint64_t slabs() const {
     if (plan_.slabs == 0) return 0;
     const std::uint64_t plane = layout_.grids.front().plane_size * sizeof(float);
-    return specialization_.planes() * plane + plane / 8 + blurred_columns();
+    return specialization_.planes() * plane + plane / 8 + blurred_columns() + collecting_levels();
   }
 
   std::uint64_t blocks_of_chunk() const {
@@ -132,7 +140,8 @@ class FrameBuffers {
 std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
   const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) + buffers.tiles_of_chunk() +
                                 buffers.lists(buffers.blocks_of_chunk());
-  return buffers.held_leaves() * buffers.light() + std::max(drawing, buffers.blurred_columns());
+  return buffers.held_leaves() * buffers.light() + buffers.collecting_levels() +
+         std::max(drawing, buffers.blurred_columns());
 }
 
 std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
