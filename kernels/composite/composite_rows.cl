@@ -236,7 +236,12 @@ __attribute__((noinline)) static void composite_segment(
       }
     }
 #endif
-    if (in_batch == 0) find_windows(entries + k, &windows);
+    if (in_batch == 0) {
+      find_windows(entries + k, &windows);
+#ifdef NARROW_SPLATS
+      find_narrow_splats(entries + k, grid.mean_sigma, &windows);
+#endif
+    }
     const int2 rows = rows_of_entry(&windows, in_batch);
     const int2 columns = columns_of_entry(&windows, in_batch);
     if (asked < ROWS_OF_TILE) {
@@ -253,6 +258,13 @@ __attribute__((noinline)) static void composite_segment(
     {
       // Lists have splats that do not touch the tile, too (splat.h), and those of a crop other
       // ones.
+#ifdef NARROW_SPLATS
+      if (windows.pixels[in_batch] != 0) {
+        add_narrow_splat(tile, &windows, in_batch, entries + k);
+        ++drawn;
+        continue;
+      }
+#endif
       if (rows.x > rows.y || columns.x > columns.y) continue;
 #ifdef STENCILS
       if (stencil && entries[k].sigma < 0.0f) {
