@@ -30,13 +30,13 @@ Arguments::Arguments(int count, const char* const* words, const std::vector<std:
       if (word == "--" + before(option, "=:")) known = &option;
     }
     if (known == nullptr) {
-      throw UsageError("found '" + std::string(words[i]) + "', expected one of these options:\n" + help());
+      throw UsageError("found '" + std::string(words[i]) + "', expected one of these options:\n" +
+                       help());
     }
     std::string value;
     const std::size_t assigned = std::string(words[i]).find('=');
     if (assigned != std::string::npos) {
-      if (!takes_value(*known))
-        throw UsageError(word + ": found a value behind it, expected none");
+      if (!takes_value(*known)) throw UsageError(word + ": found a value behind it, expected none");
       value = std::string(words[i]).substr(assigned + 1);
     } else if (takes_value(*known)) {
       if (++i == count) throw UsageError(word + ": found nothing after it, expected a value");

@@ -125,8 +125,8 @@ struct GridPyramid {
   double blur_of(std::size_t grid) const {
     return is_blurred() && grid > 0 ? blurs[(grid - 1) % blurs.size()] : 0;
   }
-  // How many times coarse_sigma a splat of this peak, above 1, needs to be as wide as, for the grids
-  // of a level: its errors are as many times larger, and it is no stencil.
+  // How many times coarse_sigma a splat of this peak, above 1, needs to be as wide as, for the
+  // grids of a level: its errors are as many times larger, and it is no stencil.
   double wider_for(double peak) const;
 
   RefinementFilter refinement;

@@ -143,8 +143,7 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
   m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
   const VALUE lacking = choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
-  m.width2 =
-      larger_of(sigma * sigma, area) + choose(lacking, (VALUE)(0.0f), is_stencil);
+  m.width2 = larger_of(sigma * sigma, area) + choose(lacking, (VALUE)(0.0f), is_stencil);
   // On a grid that is blurred a splat is drawn narrower and brighter than it is in the picture, and
   // what it leaves out is spread as well (docs/accuracy.md, "Checked after drawing").
   if (grid.blur > 0.0f) m.peak *= area / m.width2;

@@ -32,9 +32,9 @@ struct Grid {
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
 };
 
-// Levels from first_level on (plan.h, GridPyramid) have 2^shift grids beside the picture's own, each
-// blurred afterwards by one of these sigma^2, in pixels of its own; all 0 where nothing is blurred.
-// As many as there may be, over and over again.
+// Levels from first_level on (plan.h, GridPyramid) have 2^shift grids beside the picture's own,
+// each blurred afterwards by one of these sigma^2, in pixels of its own; all 0 where nothing is
+// blurred. As many as there may be, over and over again.
 #define MOST_BLURS 4
 struct GridBlurs {
   int shift, first_level;

@@ -4,10 +4,12 @@ typedef struct EntryWindows {
   int first_row[LANES], last_row[LANES];
   int first_column[LANES], last_column[LANES];
 #ifdef NARROW_SPLATS
-  int pixels[LANES];                                    // of a narrow splat's window, or 0
-  int x[LANES], y[LANES];                               // its first pixel
-  float across[LANES], along[LANES], per_sigma[LANES];  // its first edges from the center, in sigma
-  float scale[LANES];                                   // of the product of both axes
+  int pixels[LANES];       // of a narrow splat's window, or 0
+  int x[LANES], y[LANES];  // its first pixel
+  // Its first edges from the center, in pixels: widths divide them when an edge may be at the
+  // center, which is to stay there.
+  float across[LANES], along[LANES], per_sigma[LANES];
+  float scale[LANES];  // of the product of both axes
 #endif
 } EntryWindows;
 
@@ -38,17 +40,15 @@ INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_si
   const INTEGER rows = vload8(0, windows->last_row) - first_row;
   const INTEGER is_narrow = (max(columns, rows) < SEVEN) & (min(columns, rows) >= 0) &
                             (sigma > 0.0f) & (sigma < mean_sigma);
-  const INTEGER pixels =
-      select((INTEGER)(SEVEN), (INTEGER)(GRAIN), max(columns, rows) < GRAIN);
+  const INTEGER pixels = select((INTEGER)(SEVEN), (INTEGER)(GRAIN), max(columns, rows) < GRAIN);
   const INTEGER x = min(first_column, TILE_WIDTH - pixels);
   const INTEGER y = min(first_row, TILE_HEIGHT - pixels);
-  const VALUE per_sigma = 1.0f / sigma;
   STORE(pixels & is_narrow, windows->pixels);
   STORE(x, windows->x);
   STORE(y, windows->y);
-  STORE((TO_VALUE(x) + (FIRST_X - 0.5f) - OF_ENTRIES(entries, x)) * per_sigma, windows->across);
-  STORE((TO_VALUE(y) + (FIRST_Y - 0.5f) - OF_ENTRIES(entries, y)) * per_sigma, windows->along);
-  STORE(per_sigma, windows->per_sigma);
+  STORE(TO_VALUE(x) + (FIRST_X - 0.5f) - OF_ENTRIES(entries, x), windows->across);
+  STORE(TO_VALUE(y) + (FIRST_Y - 0.5f) - OF_ENTRIES(entries, y), windows->along);
+  STORE(1.0f / sigma, windows->per_sigma);
   STORE(sigma * sigma * (PIXEL_MEAN_SCALE * PIXEL_MEAN_SCALE), windows->scale);
 }
 #endif

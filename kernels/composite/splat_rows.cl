@@ -133,10 +133,10 @@ static inline int form_of_splat(__global const TileSplat* splat, const SplatTile
 #endif
 
 #ifdef NARROW_SPLATS
-#define ADD_ROW               \
-  {                           \
+#define ADD_ROW                            \
+  {                                        \
     const float8 shape = (float8)(*along); \
-    ADD_CHANNELS              \
+    ADD_CHANNELS                           \
   }
 
 // The edges of a grain's pixels along both axes fit one call.
@@ -144,7 +144,7 @@ INLINED void add_grain(float* pixel, const EntryWindows* windows, int i,
                        __global const TileSplat* splat) {
   const float8 first = (float8)((float4)(windows->across[i]), (float4)(windows->along[i]));
   const float8 within =
-      error_function(first + (float8)(0, 1, 2, 3, 0, 1, 2, 3) * windows->per_sigma[i]);
+      error_function((first + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) * windows->per_sigma[i]);
   const float8 means = within.s12345677 - within;
   float of_both[8];
   store_eight(means, of_both);
@@ -163,9 +163,10 @@ INLINED void add_narrow_splat(float* tile, const EntryWindows* windows, int i,
     add_grain(pixel, windows, i, splat);
     return;
   }
-  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7) * windows->per_sigma[i];
-  const float8 of_columns = error_function(windows->across[i] + ramp);
-  const float8 of_rows = error_function(windows->along[i] + ramp);
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float per_sigma = windows->per_sigma[i];
+  const float8 of_columns = error_function((windows->across[i] + ramp) * per_sigma);
+  const float8 of_rows = error_function((windows->along[i] + ramp) * per_sigma);
   float rows[8];
   store_eight(of_rows.s12345677 - of_rows, rows);
   const float8 across = (of_columns.s12345677 - of_columns) * windows->scale[i];

@@ -89,8 +89,7 @@ INLINED VALUE blur_of(INTEGER grid, const ProjectParameters p) {
 
 // Whether a splat of this sigma, in pixels of its grid, is a stencil: of peaks above 1 they would
 // err by more than the interpolation of as wide ones does.
-INLINED INTEGER are_stencils(INTEGER grid, VALUE sigma, VALUE peak,
-                                   const ProjectParameters p) {
+INLINED INTEGER are_stencils(INTEGER grid, VALUE sigma, VALUE peak, const ProjectParameters p) {
   return (grid > 0) & (peak <= 1.0f) & (sigma <= value_of_blur(grid, p.blurs.stencil_sigma));
 }
 

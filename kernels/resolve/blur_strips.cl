@@ -2,7 +2,8 @@
 // columns that the rows which a pixel takes stay in the nearest cache, in VALUEs (lanes.cl).
 
 #define VALUES_OF_STRIP (STRIP / LANES)
-// Rows that were blurred along x, at their number modulo a power of two that holds all of a pixel's.
+// Rows that were blurred along x, at their number modulo a power of two that holds all of a
+// pixel's.
 #define RING_ROWS MOST_BLUR_WEIGHTS
 #if (RING_ROWS & (RING_ROWS - 1)) != 0
 #error "the ring's rows are found by their last bits"
@@ -89,8 +90,8 @@ INLINED void put_row(const StripRow row, int count, int add, __global float* pix
 // Rows from `top` on to before `bottom` of the strip that begins at column `left`, in pixels of the
 // target. A call whose last argument tells the compiler that it may use registers of sixteen floats
 // (lanes.cl).
-__attribute__((noinline)) static void blur_strip(const BlurWeights* blur,
-                                                 const Grid source_grid, const Grid target_grid,
+__attribute__((noinline)) static void blur_strip(const BlurWeights* blur, const Grid source_grid,
+                                                 const Grid target_grid,
                                                  __global const float* sources,
                                                  __global float* targets, uint plane, int left,
                                                  int top, int bottom, int count, int add,
@@ -98,8 +99,7 @@ __attribute__((noinline)) static void blur_strip(const BlurWeights* blur,
   float ring[RING_ROWS * STRIP] __attribute__((aligned(64)));
   const int half_width = blur->half_width, shift = source_grid.guard - target_grid.guard;
   for (int y = top - half_width; y < bottom + half_width; ++y) {
-    __global const float* first =
-        sources + pixel_at(source_grid, plane, left + shift, y + shift);
+    __global const float* first = sources + pixel_at(source_grid, plane, left + shift, y + shift);
     ask_for_row(first + ROWS_AHEAD * source_grid.stride, half_width);
     const StripRow row = blurred_along_x(first, blur);
     float* const to = ring + (y & (RING_ROWS - 1)) * STRIP;
@@ -121,8 +121,8 @@ __kernel void blur_strips(const BlurStripsParameters p, __global const Grid* gri
   if (left >= p.part.right_end || top >= p.part.bottom) return;
   for (int i = 0; i < p.source_count; ++i) {
     const BlurWeights blur = p.blurs[i];
-    blur_strip(&blur, grids[blur.source], grids[p.target], sources, targets,
-               (uint)get_global_id(2), left, top, min(top + ROWS_OF_BAND, p.part.bottom),
-               p.part.right_end - left, p.add || i > 0, NUMBERS_OF_LANES);
+    blur_strip(&blur, grids[blur.source], grids[p.target], sources, targets, (uint)get_global_id(2),
+               left, top, min(top + ROWS_OF_BAND, p.part.bottom), p.part.right_end - left,
+               p.add || i > 0, NUMBERS_OF_LANES);
   }
 }

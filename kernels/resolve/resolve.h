@@ -18,8 +18,8 @@ struct BlurParameters {
   float weights[MOST_BLUR_WEIGHTS];
 };
 
-// The same of all grids of a level, in strips of columns (blur_strips.cl): weights[k] for the pixels
-// k beside on either side.
+// The same of all grids of a level, in strips of columns (blur_strips.cl): weights[k] for the
+// pixels k beside on either side.
 #define MOST_BLURRED_GRIDS 4
 #define STRIP 64  // columns
 #define ROWS_OF_BAND 256

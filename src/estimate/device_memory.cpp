@@ -96,10 +96,11 @@ class FrameBuffers {
 
   // What levels are blurred and refined to, by turns.
   std::uint64_t collecting_levels() const {
-    std::uint64_t floats = 0;
-    for (std::size_t i = 0; i < std::min<std::size_t>(layout_.collecting.size(), 2); ++i)
-      floats += layout_.collecting[i].plane_size;
-    return floats * specialization_.planes() * sizeof(float);
+    std::uint64_t largest = 0;
+    for (const shared::Grid& grid : layout_.collecting)
+      largest = std::max<std::uint64_t>(largest, grid.plane_size);
+    const std::uint64_t rooms = std::min<std::uint64_t>(layout_.collecting.size(), 2);
+    return rooms * largest * specialization_.planes() * sizeof(float);
   }
 
   // What a grid's rows are blurred or refined into.

@@ -80,9 +80,9 @@ shared::GridPart drawn_part(const shared::GridPart& wanted, std::size_t g, bool 
   if (is_whole) return {0, 0, grid.width, grid.height};
   const int collecting = pyramid.level_grids[static_cast<std::size_t>(grid.level)];
   const int shift = grid.guard - pyramid.grids[static_cast<std::size_t>(collecting)].guard;
-  return widened({wanted.left + shift, wanted.top + shift, wanted.right_end + shift,
-                  wanted.bottom + shift},
-                 reach_of_blurs(pyramid));
+  return widened(
+      {wanted.left + shift, wanted.top + shift, wanted.right_end + shift, wanted.bottom + shift},
+      reach_of_blurs(pyramid));
 }
 
 // The tiles that cover the part.
@@ -130,7 +130,8 @@ std::vector<shared::Stencil> stencils_of_blurs(const GridPyramid& pyramid) {
     const Stencil& from = pyramid.stencils[i];
     stencils[i].middle = from.middle;
     stencils[i].per_width = from.per_width;
-    static_assert(stencil_pixels == STENCIL_PIXELS && stencil_place_powers == STENCIL_PLACE_POWERS &&
+    static_assert(stencil_pixels == STENCIL_PIXELS &&
+                  stencil_place_powers == STENCIL_PLACE_POWERS &&
                   stencil_width_powers == STENCIL_WIDTH_POWERS);
     std::copy(from.coefficients.begin(), from.coefficients.end(), stencils[i].coefficients);
   }

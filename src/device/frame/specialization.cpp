@@ -267,8 +267,8 @@ std::vector<std::string> Specialization::composite_files() const {
   std::vector<std::string> files = {"splat.h", "bin.h", "composite.h", "common.cl"};
   if (takes_rows_of_16())
     files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl", "opacity.cl"});
-  files.insert(files.end(), {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl",
-                             "stencil.cl"});
+  files.insert(files.end(),
+               {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
     files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patch_shapes.cl",
@@ -357,7 +357,7 @@ ProgramSource Specialization::certify() const {
   if (rows_) {
     return {defines,
             {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "entry_lanes.cl",
-             "collected.cl", "collect.cl"}};
+             "prefetch.cl", "collected.cl", "collect.cl"}};
   }
   return {defines,
           {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "lanes.cl",
@@ -373,8 +373,7 @@ ProgramSource Specialization::coarse_grids() const {
 
 ProgramSource Specialization::blur_strips() const {
   return {define_if(rows_of_16_, "LANES_16") + define("LANES_8"),
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "prefetch.cl",
-           "blur_strips.cl"}};
+          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "prefetch.cl", "blur_strips.cl"}};
 }
 
 ProgramSource Specialization::clear() {

@@ -94,11 +94,13 @@ CollectingRoom Resolver::room_for_collecting() const {
   CollectingRoom room;
   room.columns =
       pool.get<float>(context_.specialization.planes() * floats, "blurred or refined columns");
+  // Of a crop a coarser level may touch more tiles than a finer one.
+  std::uint64_t largest_plane = 0;
+  for (const shared::Grid& grid : context_.layout.collecting)
+    largest_plane = std::max<std::uint64_t>(largest_plane, grid.plane_size);
   for (std::size_t i = 0; i < std::min(room.levels.size(), context_.layout.collecting.size()); ++i)
-    room.levels[i] = pool.get<float>(std::uint64_t{context_.specialization.planes()} *
-                                             context_.layout.collecting[i].plane_size +
-                                         padding_of_rows,
-                                     "a level of grids");
+    room.levels[i] = pool.get<float>(
+        context_.specialization.planes() * largest_plane + padding_of_rows, "a level of grids");
   return room;
 }
 
@@ -278,8 +280,8 @@ SlabLight Resolver::start_slabs() const {
 Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
   constexpr std::uint32_t picture = 1;
   if (light.used_grids == picture) return light;
-  const LevelLight coarse = collect(light, 1, slab.room);
   Planes planes = std::move(light);
+  const LevelLight coarse = collect(planes, 1, slab.room);
   const shared::GridPart& part = context_.layout.wanted.front();
   const shared::RefineParameters parameters = refine_parameters(coarse.grid, 0, part);
   refine_columns(coarse, parameters, slab.room.columns);

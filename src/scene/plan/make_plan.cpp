@@ -80,13 +80,12 @@ void choose_stencils(const FramePlan& plan, PyramidNeeds& needs) {
   const WideSplats& splats = plan.wide_splats;
   const bool own_pixels = splats.of_one_octave >= fewest_of_own_pixels;
   needs.first_level = own_pixels ? 0 : 1;
-  needs.stencils =
-      own_pixels || (splats.wider >= fewest && splats.wider >= splats.of_one_octave);
+  needs.stencils = own_pixels || (splats.wider >= fewest && splats.wider >= splats.of_one_octave);
 }
 
 bool may_have_stencils(const Frame& frame, const FramePlan& plan) {
-  return !plan.needs_sort() && plan.precision == Precision::fast &&
-         plan.shares.coarse_grids > 0 && !plan.has_ellipses && !frame.kernel.cut;
+  return !plan.needs_sort() && plan.precision == Precision::fast && plan.shares.coarse_grids > 0 &&
+         !plan.has_ellipses && !frame.kernel.cut;
 }
 
 GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {

@@ -226,9 +226,9 @@ Stencil make_stencil(double smallest, double largest, const std::vector<float>& 
       const double sigma2 =
           smallest * smallest + j * (largest * largest - smallest * smallest) / widths;
       const double sigma = std::sqrt(sigma2);
-      stencil.error = std::max(stencil.error,
-                               pixels_of_grid.error_of(stencil_weights(stencil, place, sigma),
-                                                       place, sigma));
+      stencil.error =
+          std::max(stencil.error,
+                   pixels_of_grid.error_of(stencil_weights(stencil, place, sigma), place, sigma));
     }
   }
   return stencil;

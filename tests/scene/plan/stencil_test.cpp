@@ -38,8 +38,8 @@ double error_at(const BlurredStencil& made, int x, double place, double sigma) {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const int from_pixel = x - (static_cast<int>(k) - 3);
     if (std::abs(from_pixel) <= half_width)
-      value += weights[k] * static_cast<double>(
-                                made.blur[static_cast<std::size_t>(from_pixel + half_width)]);
+      value += weights[k] *
+               static_cast<double>(made.blur[static_cast<std::size_t>(from_pixel + half_width)]);
   }
   return std::abs(value - std::exp(-(x - place) * (x - place) / (sigma * sigma)));
 }
