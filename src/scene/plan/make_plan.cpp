@@ -34,7 +34,7 @@ SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
   const std::array<double, 6> farther = first_farther(plan);
   // The smaller the tolerance, the more of it goes to errors of peaks that lie upon one another.
   const bool is_full = plan.precision == Precision::full, is_finest = plan.adds_small_blocks;
-  const double in_full = is_finest ? 1.2 : is_full ? 0.8 : 0;
+  const double in_full = is_full ? 0.8 : 0;
   for (std::size_t octave = 0; octave < farther.size(); ++octave) {
     needs.widths[octave].farther =
         std::max(0.0, farther[octave] + in_full + std::log(light_of_errors));
