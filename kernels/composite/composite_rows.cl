@@ -258,16 +258,14 @@ __attribute__((noinline)) static void composite_segment(
     {
       // Lists have splats that do not touch the tile, too (splat.h), and those of a crop other
       // ones.
+      if (rows.x > rows.y || columns.x > columns.y) continue;
 #ifdef NARROW_SPLATS
       if (windows.pixels[in_batch] != 0) {
         add_narrow_splat(tile, &windows, in_batch, entries + k);
-        ++drawn;
-        continue;
-      }
+      } else
 #endif
-      if (rows.x > rows.y || columns.x > columns.y) continue;
 #ifdef STENCILS
-      if (stencil && entries[k].sigma < 0.0f) {
+          if (stencil && entries[k].sigma < 0.0f) {
         add_stencil(tile, &stencil_batch, in_batch, entries + k, stencil);
       } else
 #endif
