@@ -24,20 +24,18 @@ Arguments::Arguments(int count, const char* const* words, const std::vector<std:
     : options_(options) {
   options_.push_back(help_option);
   for (int i = 1; i < count; ++i) {
-    const std::string word = before(words[i], "=");
+    const std::string given = words[i], word = before(given, "=");
     const std::string* known = nullptr;
     for (const std::string& option : options_) {
       if (word == "--" + before(option, "=:")) known = &option;
     }
     if (known == nullptr) {
-      throw UsageError("found '" + std::string(words[i]) + "', expected one of these options:\n" +
-                       help());
+      throw UsageError("found '" + given + "', expected one of these options:\n" + help());
     }
     std::string value;
-    const std::size_t assigned = std::string(words[i]).find('=');
-    if (assigned != std::string::npos) {
+    if (word != given) {
       if (!takes_value(*known)) throw UsageError(word + ": found a value behind it, expected none");
-      value = std::string(words[i]).substr(assigned + 1);
+      value = given.substr(word.size() + 1);
     } else if (takes_value(*known)) {
       if (++i == count) throw UsageError(word + ": found nothing after it, expected a value");
       value = words[i];

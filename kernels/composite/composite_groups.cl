@@ -55,8 +55,8 @@ static inline float axis_shape(float d, float sigma, float factor, float mean_si
 #define NOT_DRAWN 1e30f
 
 #ifdef STENCILS
-#define STENCIL_PARAMETER , __global const Stencil* stencil
-#define STENCIL_ARGUMENT , stencil
+#define TILE_STENCIL_PARAMETER , __global const Stencil* stencil
+#define TILE_STENCIL_ARGUMENT , stencil
 
 // stencil_weights() of stencil_rows.cl, of one pixel.
 static inline float weight_of_stencil(__global const Stencil* stencil, float sigma,
@@ -72,19 +72,19 @@ static inline float weight_of_stencil(__global const Stencil* stencil, float sig
   return is_last ? even - place.distance * odd : even + place.distance * odd;
 }
 #else
-#define STENCIL_PARAMETER
-#define STENCIL_ARGUMENT
+#define TILE_STENCIL_PARAMETER
+#define TILE_STENCIL_ARGUMENT
 #endif
 
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
 // `center` is that of the item's column or row, whose number is `pixel`.
 static inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, int pixel,
-                                  float center, float mean_sigma STENCIL_PARAMETER) {
+                                  float center, float mean_sigma TILE_STENCIL_PARAMETER) {
   const __local TileSplat* splat = batch->splats + k;
 #ifdef STENCILS
   if (stencil && splat->sigma < 0.0f) {
-    const StencilPlaces place = is_column ? stencil_places(splat->x + LOW_X(*splat), FIRST_X)
-                                          : stencil_places(splat->y + LOW_Y(*splat), FIRST_Y);
+    const StencilPlaces place =
+        is_column ? stencil_places(splat->x, FIRST_X) : stencil_places(splat->y, FIRST_Y);
     return weight_of_stencil(stencil, splat->sigma, place, pixel);
   }
 #endif
@@ -229,14 +229,14 @@ INLINED int touches_part(const __local Batch* batch, uint k, float x, float y,
 // What all pixels of the tile need of the batch. An item has one column or row of all splats that
 // it takes, and one part: there are as many parts of all splats as items.
 INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
-                     const CompositeParameters p TILE_CLOUDS_PARAMETER STENCIL_PARAMETER) {
+                     const CompositeParameters p TILE_CLOUDS_PARAMETER TILE_STENCIL_PARAMETER) {
   const uint item = get_local_id(0), axis = item % AXES;
   const int is_column = axis < TILE_WIDTH;
   const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
   const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
   for (uint k = item / AXES; k < count; k += GROUP / AXES)
     batch->axes[k * AXES + axis] =
-        axis_of_splat(batch, k, is_column, pixel, center, mean_sigma STENCIL_ARGUMENT);
+        axis_of_splat(batch, k, is_column, pixel, center, mean_sigma TILE_STENCIL_ARGUMENT);
   if (item < count) {
     prepare_amplitudes(batch, item, mean_sigma, p TILE_CLOUDS_PASSED);
     if (touches(batch, item TILE_CLOUDS_PASSED)) atomic_or(&batch->touching, BIT_OF(item));
@@ -451,7 +451,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const uint count = min((uint)BATCH, segment.end - first);
     fetch(&batch, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT STENCIL_ARGUMENT);
+    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT TILE_STENCIL_ARGUMENT);
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = batch.touching, drawn = batch.drawn[part];
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;

@@ -1,5 +1,4 @@
 // Shapes of some splats along the axes of a tile, for patches of it (patches.cl).
-#ifndef FACE_OF_CUBE
 
 // As wide as registers are, and with as many rows as leave some of them for a splat.
 #ifdef ROWS_OF_16
@@ -27,6 +26,8 @@ DEFINE_CUT_SHAPE(cut_shape_of_patch, float16, int16)
 #define store_patch store_eight
 #define cut_shape_of_patch cut_shape
 #endif
+
+#ifndef FACE_OF_CUBE
 #if PLANES == 6
 #define PATCH_HEIGHT (PATCH_WIDTH / 4)
 #else
@@ -169,10 +170,4 @@ __attribute__((noinline)) static void put_shape(PatchShapes* shapes, uint number
   set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, 1u << number);
   set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, 1u << number);
 }
-#else
-#define PATCH float8
-#define PATCH_WIDTH 8
-#define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
-#define load_patch load_eight
-#define store_patch store_eight
 #endif

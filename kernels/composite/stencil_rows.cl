@@ -23,13 +23,8 @@ INLINED INTEGER beside_tile(INTEGER first, int size) {
 
 INLINED void find_stencils(__global const TileSplat* entries, __global const Stencil* stencil,
                            StencilBatch* batch) {
-#ifdef FINE_PLACES
-  const VALUE x = OF_ENTRIES(entries, x) + OF_ENTRIES(entries, x_low);
-  const VALUE y = OF_ENTRIES(entries, y) + OF_ENTRIES(entries, y_low);
-#else
-  const VALUE x = OF_ENTRIES(entries, x), y = OF_ENTRIES(entries, y);
-#endif
-  const StencilPlaces across = stencil_places(x, FIRST_X), along = stencil_places(y, FIRST_Y);
+  const StencilPlaces across = stencil_places(OF_ENTRIES(entries, x), FIRST_X);
+  const StencilPlaces along = stencil_places(OF_ENTRIES(entries, y), FIRST_Y);
   STORE(beside_tile(across.first, TILE_WIDTH), batch->column);
   STORE(beside_tile(along.first, TILE_HEIGHT), batch->row);
   STORE(across.distance, batch->across);

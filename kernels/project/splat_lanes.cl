@@ -299,6 +299,11 @@ INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
   return beyond;
 }
 
+// By the sign that place_on_grid() gives them.
+INLINED INTEGER are_placed_as_stencils(const SplatLanes s) {
+  return (s.grid > 0) & (s.sigma < 0.0f);
+}
+
 // Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Those
 // that end short of it by no more than their own radius leave something out, though: they are
 // listed, with a minus before a radius that reaches, so that the check after drawing knows them,
@@ -313,7 +318,7 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
 #else
   // Stencils leave nothing out.
   const INTEGER ends_short = (reaches == 0) & (beyond <= 2.0f * s->radius) &
-                             ((s->grid == 0) | (s->sigma > 0.0f)) &
+                             (are_placed_as_stencils(*s) == 0) &
                              (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
   s->visible &= reaches | ends_short;
 #ifdef FACE_OF_CUBE
@@ -439,8 +444,8 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   keep_those_that_reach(&s, p);
-  const INTEGER stencil = (s.grid > 0) & (s.sigma < 0.0f);
-  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean, stencil, p);
+  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean,
+                             are_placed_as_stencils(s), p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);
 #ifdef ELLIPSES

@@ -14,9 +14,9 @@ namespace {
 class CoarseGrids : public PictureTest, public testing::WithParamInterface<CompositeShape> {
  protected:
   // More clouds than pixels, of widths from one to another.
-  static Frame clouds(double sigma_low, double sigma_high) {
+  static Frame clouds(double sigma_low, double sigma_high, int count = 6000) {
     CloudSetup setup;
-    setup.count = 6000;
+    setup.count = count;
     setup.width = 80;
     setup.height = 64;
     setup.sigma_low = sigma_low;
@@ -95,15 +95,7 @@ TEST_P(CoarseGrids, HoldTheToleranceWithSplatsTooBrightForStencils) {
 class GridsOfOwnPixels : public CoarseGrids {
  protected:
   static Frame many_clouds() {
-    CloudSetup setup;
-    setup.count = 16000;
-    setup.width = 80;
-    setup.height = 40;
-    setup.sigma_low = 2.2;
-    setup.sigma_high = 4.4;
-    setup.column_low = 1e-5;
-    setup.column_high = 1e-3;
-    const Frame frame = frame_of(setup.width, setup.height, {random_clouds(setup)});
+    const Frame frame = clouds(2.2, 4.4, 26000);
     EXPECT_EQ(make_plan(frame).pyramid.first_level, 0);
     return frame;
   }

@@ -252,8 +252,8 @@ ProgramSource Specialization::composite() const {
     return {defines, files};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
-             define_if(takes_rows_of_16(), "ROWS_OF_16") +
-             define_if(stencils_ && !is_ordered(), "STENCILS") + block_defines();
+             define_if(takes_rows_of_16(), "ROWS_OF_16") + define_if(stencils_, "STENCILS") +
+             block_defines();
   return {defines, composite_files()};
 }
 
@@ -311,8 +311,7 @@ ProgramSource Specialization::composite_slab() const {
                              : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
                                                      : std::string();
   return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
-              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") +
-              define_if(stencils_, "STENCILS") + blocks,
+              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") + blocks,
           composite_files()};
 }
 

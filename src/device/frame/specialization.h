@@ -117,7 +117,7 @@ class Specialization {
   bool keeps_transmittance_;
   bool eye_offset_;
   bool clouds_around_;  // may be: they are no splats
-  bool stencils_;
+  bool stencils_;       // of sums
   bool background_image_;
   std::uint32_t tile_width_ = 16, tile_height_ = 16;
 };

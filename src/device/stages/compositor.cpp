@@ -115,9 +115,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
         .arg(kernels.clouds->directions)
         .arg(kernels.clouds->cones);
   }
-  // Layers are none.
-  const bool are_sums = !specialization.is_ordered() || &kernels == &slabs_;
-  if (specialization.has_stencils() && are_sums) launch.arg(context_.stencils);
+  if (specialization.has_stencils()) launch.arg(context_.stencils);
   if (specialization.has_rows()) {
     launch.run_items(count);
   } else {

@@ -127,13 +127,10 @@ Resolver::LevelLight Resolver::collect(const Planes& planes, int finest,
     const LevelLight here = light_of_level(planes, level, room);
     const bool is_own = level == 0 || !pyramid.is_blurred();
     bool has_light = is_own && (planes.used_grids >> here.grid & 1) != 0;
-    if (pyramid.is_blurred() && level >= pyramid.first_level) {
-      const auto first = pyramid.first_grid_of(level);
-      const std::uint32_t all = (1u << pyramid.grids_of_level()) - 1;
-      if ((planes.used_grids >> first & all) != 0) {
-        blur(planes, level, here, has_light, room);
-        has_light = true;
-      }
+    const std::vector<std::size_t> blurs = blurs_with_light(planes, level);
+    if (!blurs.empty()) {
+      blur(planes, blurs, level, here, has_light, room);
+      has_light = true;
     }
     if (coarser.memory) {
       refine(coarser, here, context_.layout.wanted[static_cast<std::size_t>(level)], has_light,
@@ -145,20 +142,26 @@ Resolver::LevelLight Resolver::collect(const Planes& planes, int finest,
   return coarser;
 }
 
-// What the target takes from all grids of a level that hold light.
-void Resolver::blur(const Planes& planes, int level, const LevelLight& target, bool add,
-                    const CollectingRoom& room) const {
+// Of the level's grids that hold light.
+std::vector<std::size_t> Resolver::blurs_with_light(const Planes& planes, int level) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
   std::vector<std::size_t> used;
+  if (level < pyramid.first_level) return used;
   for (std::size_t i = 0; i < pyramid.blurs.size(); ++i) {
     if ((planes.used_grids >> (pyramid.first_grid_of(level) + i) & 1) != 0) used.push_back(i);
   }
+  return used;
+}
+
+// What the target takes from the level's grids of these blurs.
+void Resolver::blur(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
+                    const LevelLight& target, bool add, const CollectingRoom& room) const {
   if (context_.device.traits.rows) {
-    blur_in_strips(planes, used, level, target, add);
+    blur_in_strips(planes, blurs, level, target, add);
     return;
   }
-  for (const std::size_t i : used)
-    blur_by_axes(planes, i, level, target, add || i != used.front(), room.columns);
+  for (const std::size_t i : blurs)
+    blur_by_axes(planes, i, level, target, add || i != blurs.front(), room.columns);
 }
 
 void Resolver::blur_in_strips(const Planes& planes, const std::vector<std::size_t>& blurs,

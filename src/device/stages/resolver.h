@@ -37,8 +37,9 @@ class Resolver {
   LevelLight collect(const Planes& planes, int finest, const CollectingRoom& room) const;
   // What the level's own grids hold.
   LevelLight light_of_level(const Planes& planes, int level, const CollectingRoom& room) const;
-  void blur(const Planes& planes, int level, const LevelLight& target, bool add,
-            const CollectingRoom& room) const;
+  std::vector<std::size_t> blurs_with_light(const Planes& planes, int level) const;
+  void blur(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
+            const LevelLight& target, bool add, const CollectingRoom& room) const;
   void blur_in_strips(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
                       const LevelLight& target, bool add) const;
   void blur_by_axes(const Planes& planes, std::size_t blur, int level, const LevelLight& target,

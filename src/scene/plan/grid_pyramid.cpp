@@ -55,9 +55,8 @@ std::vector<double> choose_blurs(double smallest_sigma, double error, int count)
   return count > 1 ? choose_blurs(smallest_sigma, error, count / 2) : std::vector<double>();
 }
 
-// A narrower Gaussian for each blur, or one grid without.
-// A fifth of the error is spent on the blur, which needs the least of it, the rest on the
-// interpolation.
+// A narrower Gaussian for each blur, or one grid without: a fifth of the error is spent on the
+// blur, which needs the least of it, the rest on the interpolation.
 void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& needs,
                             GridPyramid& pyramid) {
   constexpr double blur_part = 0.2;
@@ -120,8 +119,7 @@ bool choose_stencils(const PyramidNeeds& needs, int grids_of_level, GridPyramid&
 void choose_filters(const Frame& frame, const PyramidNeeds& needs, GridPyramid& pyramid) {
   const KernelSettings& kernel = frame.kernel;
   pyramid.coarse_peak = static_cast<float>(brightest_coarse_peak(kernel, needs.error));
-  const bool may_be_stencils = needs.stencils && !kernel.cut;
-  if (may_be_stencils && choose_stencils(needs, most_blurs(frame), pyramid)) return;
+  if (needs.stencils && choose_stencils(needs, most_blurs(frame), pyramid)) return;
   choose_narrower_splats(kernel, needs, pyramid);
 }
 

@@ -15,8 +15,8 @@ struct PyramidNeeds {
   // How many grids a level has, where they are blurred; a power of two up to most_blurs(), of which
   // there are as many where splats are stencils.
   int blurs_of_level = 2;
-  // Whether splats on blurred grids may be stencils, and if so from which level on there are such
-  // grids: 0 or 1.
+  // Whether splats on blurred grids may be stencils, which are not cut, and if so from which level
+  // on there are such grids: 0 or 1.
   bool stencils = false;
   int first_level = 1;
 };

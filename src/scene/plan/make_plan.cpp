@@ -75,9 +75,8 @@ int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
 // drawn as wide as it is. Four grids of the picture's own pixels take as long to blur as half as
 // many splats take, and as much memory as six pictures, which takes a first frame longer than that
 // (docs/performance.md).
-void choose_stencils(const FramePlan& plan, PyramidNeeds& needs) {
+void set_use_of_stencils(const WideSplats& splats, PyramidNeeds& needs) {
   constexpr double fewest_of_own_pixels = 3, fewest = 0.1;
-  const WideSplats& splats = plan.wide_splats;
   const bool own_pixels = splats.of_one_octave >= fewest_of_own_pixels;
   needs.first_level = own_pixels ? 0 : 1;
   needs.stencils = own_pixels || (splats.wider >= fewest && splats.wider >= splats.of_one_octave);
@@ -102,7 +101,7 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   needs.mean_sigma = plan.splats.mean_sigma;
   needs.error = plan.grid_peak_error / plan.needs.grid_light;
   needs.blurs_of_level = choose_blurs_of_level(frame, plan);
-  choose_stencils(plan, needs);
+  if (may_have_stencils(frame, plan)) set_use_of_stencils(plan.wide_splats, needs);
   return make_pyramid(frame, needs);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr std::size_t place_powers = stencil_place_powers, width_powers = stenci
 
 using Weights = std::array<double, pixels>;
 using Matrix = std::array<Weights, pixels>;
-
-double pi() {
-  return std::acos(-1.0);
-}
 
 // Of a symmetric, positive definite matrix, by Gauss and Jordan.
 Matrix inverse_of(Matrix m) {
@@ -149,7 +147,7 @@ template <std::size_t count>
 std::array<double, count> nodes_of() {
   std::array<double, count> nodes{};
   for (std::size_t i = 0; i < count; ++i)
-    nodes[i] = std::cos(pi() * (static_cast<double>(i) + 0.5) / static_cast<double>(count));
+    nodes[i] = std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(count));
   return nodes;
 }
 
