@@ -16,6 +16,7 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 // Splats in sorted order, and in each list the entries that follow.
 #define SPLATS_AHEAD 16
 #define ENTRIES_AHEAD 2
+#define SLOTS_AHEAD 32
 
 #ifndef BLOCKS_OF_PROJECTION
 // counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
@@ -181,6 +182,7 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #else
     __global const Splat* from = in_order + (slot - p.first);
 #endif
+    ask_for(from + SLOTS_AHEAD);
 #if defined(BLOCKS_OF_PROJECTION) && defined(TILES_IN_SPLAT)
     const uint touched = tiles_in_lists(from->tiles, from, grids + grid_of(*from));
 #else
