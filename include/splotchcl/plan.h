@@ -75,10 +75,11 @@ struct PictureGrid {
   int guard = 0;              // pixels on each side
 };
 
-// Ten taps of one axis that interpolate a grid to half its pixel size: weights of the old
-// pixels -4 .. 5 for a new one a quarter of a pixel right of old pixel 0; they add up to 1.
+// Taps of one axis that interpolate a grid to half its pixel size: weights of the old pixels
+// -7 .. 8 for a new one a quarter of a pixel right of old pixel 0; they add up to 1.
+constexpr std::size_t refinement_taps = 16;
 struct RefinementFilter {
-  std::array<double, 10> weights = {0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
+  std::array<double, refinement_taps> weights = {0, 0, 0, 0, 0, 0, 0, 1};
   double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
 };
 

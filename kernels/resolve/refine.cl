@@ -1,4 +1,4 @@
-// A grid interpolated to half its pixel size, axis by axis, by ten taps.
+// A grid interpolated to half its pixel size, axis by axis.
 
 // Grids have even guards, so a finer pixel is left of its coarse pixel's center where its index is
 // even. Every pixel that is looked at is in memory (picture_layout.h).
@@ -17,10 +17,11 @@ static inline size_t temporary_columns(const GridPart part) {
   return ((size_t)(part.right_end - first_column(part)) + 15) & ~(size_t)15;
 }
 static inline int first_coarse_row(const GridPart part, Grid fine, Grid coarse) {
-  return coarse_place(part.top, fine, coarse) - 5;
+  return coarse_place(part.top, fine, coarse) - REFINEMENT_REACH;
 }
 static inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
-  return coarse_place(part.bottom - 1, fine, coarse) + 6 - first_coarse_row(part, fine, coarse);
+  const int last = coarse_place(part.bottom - 1, fine, coarse) + REFINEMENT_REACH;
+  return last + 1 - first_coarse_row(part, fine, coarse);
 }
 
 // Two neighboring pixels of one axis, of which the first is even, lie on one coarse pixel and share
@@ -33,10 +34,10 @@ typedef struct Pair {
 INLINED Pair between(__global const float* center, size_t stride, const float* weights) {
   Pair pair = {(float8)(0.0f), (float8)(0.0f)};
 #pragma unroll
-  for (int k = -5; k <= 5; ++k) {
+  for (int k = -REFINEMENT_REACH; k <= REFINEMENT_REACH; ++k) {
     const float8 beside = vload8(0, center + k * (int)stride);
-    if (k < 5) pair.even += weights[4 - k] * beside;
-    if (k > -5) pair.odd += weights[4 + k] * beside;
+    if (k < REFINEMENT_REACH) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
+    if (k > -REFINEMENT_REACH) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
   }
   return pair;
 }
@@ -84,7 +85,7 @@ __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
   const uint c = (uint)get_global_id(2);
   if (x >= p.part.right_end || first >= p.part.bottom) return;
   __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
-  ask_for(column + 6 * temporary_columns(p.part));
+  ask_for(column + (REFINEMENT_REACH + 1) * temporary_columns(p.part));
   __global float* below = planes + pixel_at(fine, c, x, first + 2);
   ask_to_write(below);
   ask_to_write(below + fine.stride);

@@ -36,12 +36,15 @@ struct BlurStripsParameters {
   struct BlurWeights blurs[MOST_BLURRED_GRIDS];
 };
 
-// Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter).
+// Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter): a pixel is
+// made from those up to REFINEMENT_REACH beside the one that it lies on.
+#define REFINEMENT_TAPS 16
+#define REFINEMENT_REACH (REFINEMENT_TAPS / 2)
 struct RefineParameters {
   unsigned int coarse, fine;  // grids
   struct GridPart part;       // of the finer grid, that is wanted
   int add;                    // to what the finer grid holds, else instead of it
-  float weights[10];
+  float weights[REFINEMENT_TAPS];
 };
 
 struct ResolveParameters {

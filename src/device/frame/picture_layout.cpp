@@ -8,9 +8,6 @@
 namespace splotchcl {
 namespace {
 
-// Pixels on either side that an interpolated pixel is made from (kernels/resolve/refine.cl).
-constexpr int taps = 5;
-
 // Pixels beside the picture that are as well known: tiles end there, and splats that are not wide
 // lie there.
 constexpr int beside_picture = 128;
@@ -50,7 +47,7 @@ shared::GridPart coarse_part(const shared::GridPart& part, int fine_guard, int c
   const auto below = [&](int pixel) { return ((pixel - fine_guard) >> 1) + coarse_guard; };
   return widened({below(part.left), below(part.top), below(part.right_end - 1) + 1,
                   below(part.bottom - 1) + 1},
-                 taps);
+                 REFINEMENT_REACH);
 }
 
 bool is_whole(const Frame& frame) {

@@ -69,6 +69,6 @@ static_assert(has_words<AddLightParameters, 3>);
 static_assert(has_words<OctaveCells, 2>);
 static_assert(has_words<CertifyParameters, 99>);
 static_assert(has_words<BlurParameters, 72>);
-static_assert(has_words<RefineParameters, 17>);
+static_assert(has_words<RefineParameters, 7 + REFINEMENT_TAPS>);
 static_assert(has_words<ResolveParameters, 14>);
 }  // namespace splotchcl::shared

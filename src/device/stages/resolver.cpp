@@ -40,14 +40,14 @@ std::size_t row_pairs(const shared::GridPart& part) {
 }
 
 // Floats of one plane of a part blurred along its columns, and of one refined along them. A part
-// that is refined begins with an even column, and has the rows that ten taps look at.
+// that is refined begins with an even column, and has the rows that its taps look at.
 std::size_t blurred_floats(const shared::GridPart& part, int reach) {
   const auto height = static_cast<std::size_t>(part.bottom - part.top + 2 * reach);
   return height * 8 * strips(static_cast<std::size_t>(part.right_end - part.left), 8);
 }
 
 std::size_t refined_rows(const shared::GridPart& part) {
-  return static_cast<std::size_t>(part.bottom - part.top) / 2 + 12;
+  return static_cast<std::size_t>(part.bottom - part.top) / 2 + 2 * (REFINEMENT_REACH + 1);
 }
 
 std::size_t refined_strips(const shared::GridPart& part) {
@@ -231,7 +231,8 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
   parameters.coarse = coarse;
   parameters.fine = fine;
   parameters.part = part;
-  const std::array<double, 10>& weights = context_.plan.pyramid.refinement.weights;
+  static_assert(refinement_taps == REFINEMENT_TAPS);
+  const std::array<double, refinement_taps>& weights = context_.plan.pyramid.refinement.weights;
   std::transform(weights.begin(), weights.end(), parameters.weights,
                  [](double weight) { return static_cast<float>(weight); });
   return parameters;

@@ -11,10 +11,11 @@
 namespace splotchcl {
 namespace {
 
-// A pixel reads coarse pixels from five left of its own to five right: with ten pixels of
-// guard, 10 / 2 + 5, every pixel that refining reads exists. Even, so that a pixel's index
-// tells on which side of its coarse pixel's center it lies.
-constexpr int guard_pixels = 10;
+// A pixel reads coarse pixels from half as many left of its own as there are taps to as many right:
+// with twice that of guard, of which a half is a finer grid's, every pixel that refining reads
+// exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it lies.
+constexpr int guard_pixels = static_cast<int>(refinement_taps);
+static_assert(guard_pixels % 2 == 0);
 
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
@@ -55,6 +56,11 @@ std::vector<double> choose_blurs(double smallest_sigma, double error, int count)
   return count > 1 ? choose_blurs(smallest_sigma, error, count / 2) : std::vector<double>();
 }
 
+// Splats that are taken as means stay on the picture's own grid: wider ones are in pixels of a level.
+double end_of_means(const PyramidNeeds& needs, int level) {
+  return std::ldexp(static_cast<double>(needs.mean_sigma), -level);
+}
+
 // A narrower Gaussian for each blur, or one grid without: a fifth of the error is spent on the
 // blur, which needs the least of it, the rest on the interpolation.
 void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& needs,
@@ -62,7 +68,7 @@ void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& ne
   constexpr double blur_part = 0.2;
   pyramid.refinement = choose_refinement((1 - blur_part) * needs.error);
   double smallest_sigma =
-      std::max(pyramid.refinement.smallest_sigma, static_cast<double>(needs.mean_sigma));
+      std::max(pyramid.refinement.smallest_sigma, end_of_means(needs, 1));
   // A blur would carry light over the edge of a cloud that is cut.
   if (!kernel.cut) {
     pyramid.blur_error = blur_part * needs.error;
@@ -98,8 +104,8 @@ double error_of_stencils(const GridPyramid& pyramid) {
 bool choose_stencils(const PyramidNeeds& needs, int grids_of_level, GridPyramid& pyramid) {
   constexpr double end_of_blurs = 2e-5;
   pyramid.blur_error = std::min(end_of_blurs, 0.1 * needs.error);
-  for (const double smallest : {2.11, 2.2, 2.3, 2.5, 2.8, 3.1}) {
-    const double sigma = std::max(smallest, static_cast<double>(needs.mean_sigma));
+  for (const double smallest : {1.9, 1.95, 2.0, 2.05, 2.11, 2.2, 2.3, 2.5, 2.8}) {
+    const double sigma = std::max(smallest, end_of_means(needs, needs.first_level));
     const RefinementOfSigma refinement = best_refinement(sigma);
     const double left = needs.error - refinement.error;
     if (left < least_stencil_error) continue;

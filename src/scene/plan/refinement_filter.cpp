@@ -3,38 +3,93 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "scene/plan/small_matrix.h"
 
 namespace splotchcl {
 namespace {
 
-// Minimax over all phases of a Gaussian of sigma 2, with an error of at most 4e-5 at sigma 4
-// (scripts/design_refinement.py, which finds weights within 2.1e-5 of these and the same largest
-// error). Per axis a refinement errs by 1.7e-4 of the peak at sigma 2, and where sigma has doubled
-// with each further one by 4.0e-5, 3.1e-5, 1.3e-5 and ever less: together at most 1.0e-4.
-constexpr std::array<double, 10> minimax_weights = {
-    0.00283293931, -0.0155961976, 0.0504577231, -0.143700312,  0.884471756,
-    0.292573146,   -0.100249456,  0.0396250615, -0.0127252842, 0.00231062281};
-constexpr double minimax_sigma = 2;
-constexpr double minimax_error = 2 * (1.7e-4 + 1.0e-4);
+constexpr std::size_t taps = refinement_taps;
+using Weights = SmallVector<taps>;
 
-// Interpolation by the polynomial through the ten pixels: its error falls as sigma^-10.
-std::array<double, 10> lagrange_weights() {
-  std::array<double, 10> weights;
-  for (int i = -4; i <= 5; ++i) {
+// Old pixels from the first tap on; where the new one lies.
+constexpr int first_pixel = 1 - static_cast<int>(taps) / 2;
+constexpr double new_pixel = 0.25;
+
+// Interpolation by the polynomial through so many pixels around the new one.
+Weights lagrange_weights(int pixels) {
+  Weights weights{};
+  const int first = 1 - pixels / 2, last = pixels / 2;
+  for (int i = first; i <= last; ++i) {
     double weight = 1;
-    for (int j = -4; j <= 5; ++j) {
-      if (j != i) weight *= (0.25 - j) / (i - j);
+    for (int j = first; j <= last; ++j) {
+      if (j != i) weight *= (new_pixel - j) / (i - j);
     }
-    weights[static_cast<std::size_t>(i + 4)] = weight;
+    weights[static_cast<std::size_t>(i - first_pixel)] = weight;
   }
   return weights;
 }
-// Per axis the error is constant / sigma^10: 3.5 is the constant of sigma 4.1, 5.2 that of
-// ever wider splats.
-constexpr double lagrange_constant = 3.5;
 
-double lagrange_error(double sigma) {
-  return 2 * lagrange_constant / std::pow(sigma, 10);
+// Weights that interpolate polynomials of degree 9, as those through ten pixels do, differ from
+// them by sums of tenth differences, of which sixteen pixels have six.
+constexpr int exact_pixels = 10;
+constexpr std::size_t changes = taps - exact_pixels;
+std::array<Weights, changes> tenth_differences() {
+  constexpr std::array<double, exact_pixels + 1> binomials = {1,   10,  45, 120, 210, 252,
+                                                              210, 120, 45, 10,  1};
+  std::array<Weights, changes> differences{};
+  for (std::size_t first = 0; first < changes; ++first) {
+    for (std::size_t k = 0; k < binomials.size(); ++k)
+      differences[first][first + k] = (k % 2 == 0 ? 1 : -1) * binomials[k] / binomials[5];
+  }
+  return differences;
+}
+
+// Of Gaussians `distance` apart the integral of their product, but for a factor: a sum over an
+// octave of widths from sigma on, of which wider ones count more, so that errors fall at least as
+// sigma^-8 (the amplitudes of brighter splats, GridPyramid::wider_for).
+double overlap(double distance, double sigma) {
+  constexpr int steps = 4;
+  constexpr double power = 16;
+  double sum = 0;
+  for (int step = 0; step <= steps; ++step) {
+    const double wider = std::exp2(static_cast<double>(step) / steps), width = wider * sigma;
+    sum += std::pow(wider, power) * std::exp(-distance * distance / (2 * width * width));
+  }
+  return sum;
+}
+
+// The least integral of the squared error over all places of a Gaussian: of the weights w with
+// differences D and their amounts z, D' A D z = D' (b - A w).
+Weights least_squares_weights(double sigma) {
+  const Weights exact = lagrange_weights(exact_pixels);
+  const std::array<Weights, changes> differences = tenth_differences();
+  SmallMatrix<taps> products{};
+  Weights wanted{};
+  for (std::size_t i = 0; i < taps; ++i) {
+    for (std::size_t k = 0; k < taps; ++k)
+      products[i][k] = overlap(static_cast<double>(i) - static_cast<double>(k), sigma);
+    wanted[i] = overlap(static_cast<double>(i) + first_pixel - new_pixel, sigma);
+  }
+  const Weights found = times(products, exact);
+  SmallMatrix<changes> matrix{};
+  SmallVector<changes> missing{};
+  for (std::size_t a = 0; a < changes; ++a) {
+    const Weights of_change = times(products, differences[a]);
+    for (std::size_t i = 0; i < taps; ++i) {
+      missing[a] += differences[a][i] * (wanted[i] - found[i]);
+      for (std::size_t b = 0; b < changes; ++b)
+        matrix[b][a] += differences[b][i] * of_change[i];
+    }
+  }
+  const SmallVector<changes> amounts = times(inverse_of(matrix), missing);
+  Weights weights = exact;
+  for (std::size_t a = 0; a < changes; ++a) {
+    for (std::size_t i = 0; i < taps; ++i)
+      weights[i] += amounts[a] * differences[a][i];
+  }
+  return weights;
 }
 
 // Six refinements, one after the other, of both axes together: measured at all phases, and rounded
@@ -42,29 +97,51 @@ double lagrange_error(double sigma) {
 struct ErrorFrom {
   double sigma, error;
 };
-constexpr std::array<ErrorFrom, 6> minimax_errors = {
-    {{2, 6.3e-4}, {2.11, 3.7e-4}, {2.2, 2.6e-4}, {2.3, 2.0e-4}, {2.5, 1.7e-4}, {2.8, 1.4e-4}}};
+constexpr std::array<ErrorFrom, 16> least_squares_errors = {{{1.8, 9.8e-4},
+                                                             {1.85, 7.2e-4},
+                                                             {1.9, 5.2e-4},
+                                                             {1.95, 3.8e-4},
+                                                             {2, 2.8e-4},
+                                                             {2.05, 2.1e-4},
+                                                             {2.11, 1.45e-4},
+                                                             {2.2, 8.5e-5},
+                                                             {2.3, 4.8e-5},
+                                                             {2.4, 2.7e-5},
+                                                             {2.5, 1.55e-5},
+                                                             {2.6, 9.2e-6},
+                                                             {2.7, 5.4e-6},
+                                                             {2.8, 3.3e-6},
+                                                             {2.9, 2.0e-6},
+                                                             {3, 1.25e-6}}};
 
-double error_of_minimax(double sigma) {
-  double error = 1;
-  for (const ErrorFrom& from : minimax_errors) {
-    if (sigma >= from.sigma) error = from.error;
-  }
-  return error;
+// Beyond, sums of squares are too small for double precision, and weights are Lagrange's: their
+// error falls as sigma^-16, from constants of 650 at 3.5 pixels on to 2000 of ever wider splats.
+constexpr double lagrange_constant = 2000, lagrange_power = 16;
+
+double lagrange_error(double sigma) {
+  return lagrange_constant / std::pow(sigma, lagrange_power);
 }
 
 }  // namespace
 
 RefinementOfSigma best_refinement(double sigma) {
-  const double minimax = error_of_minimax(sigma), lagrange = lagrange_error(sigma);
-  return minimax <= lagrange ? RefinementOfSigma{{minimax_weights, sigma}, minimax}
-                             : RefinementOfSigma{{lagrange_weights(), sigma}, lagrange};
+  const double lagrange = lagrange_error(sigma);
+  double error = 1, designed = sigma;
+  for (const ErrorFrom& from : least_squares_errors) {
+    if (sigma < from.sigma) break;
+    error = from.error;
+    designed = from.sigma;
+  }
+  return lagrange < error ? RefinementOfSigma{{lagrange_weights(taps), sigma}, lagrange}
+                          : RefinementOfSigma{{least_squares_weights(designed), sigma}, error};
 }
 
 RefinementFilter choose_refinement(double error) {
-  if (minimax_error <= error) return {minimax_weights, minimax_sigma};
-  const double sigma = std::pow(2 * lagrange_constant / std::max(error, 1e-12), 0.1);
-  return {lagrange_weights(), std::max(sigma, minimax_sigma)};
+  for (const ErrorFrom& from : least_squares_errors) {
+    if (from.error <= error) return {least_squares_weights(from.sigma), from.sigma};
+  }
+  const double sigma = std::pow(lagrange_constant / std::max(error, 1e-12), 1 / lagrange_power);
+  return {lagrange_weights(taps), sigma};
 }
 
 }  // namespace splotchcl

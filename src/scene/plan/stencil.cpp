@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "scene/constants.h"
+#include "scene/plan/small_matrix.h"
 
 namespace splotchcl {
 namespace {
@@ -12,40 +13,8 @@ namespace {
 constexpr std::size_t pixels = stencil_pixels, pairs = pixels / 2;
 constexpr std::size_t place_powers = stencil_place_powers, width_powers = stencil_width_powers;
 
-using Weights = std::array<double, pixels>;
-using Matrix = std::array<Weights, pixels>;
-
-// Of a symmetric, positive definite matrix, by Gauss and Jordan.
-Matrix inverse_of(Matrix m) {
-  Matrix inverse{};
-  for (std::size_t i = 0; i < pixels; ++i)
-    inverse[i][i] = 1;
-  for (std::size_t pivot = 0; pivot < pixels; ++pivot) {
-    const double scale = 1 / m[pivot][pivot];
-    for (std::size_t k = 0; k < pixels; ++k) {
-      m[pivot][k] *= scale;
-      inverse[pivot][k] *= scale;
-    }
-    for (std::size_t row = 0; row < pixels; ++row) {
-      const double part = m[row][pivot];
-      if (row == pivot) continue;
-      for (std::size_t k = 0; k < pixels; ++k) {
-        m[row][k] -= part * m[pivot][k];
-        inverse[row][k] -= part * inverse[pivot][k];
-      }
-    }
-  }
-  return inverse;
-}
-
-Weights times(const Matrix& matrix, const Weights& vector) {
-  Weights product{};
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t k = 0; k < pixels; ++k)
-      product[i] += matrix[i][k] * vector[k];
-  }
-  return product;
-}
+using Weights = SmallVector<pixels>;
+using Matrix = SmallMatrix<pixels>;
 
 double sum_of(const Weights& weights) {
   double sum = 0;
