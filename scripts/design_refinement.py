@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Designs the weights by which coarse grids are refined, and checks the ones that are used.
+"""Designs the ten weights by which coarse grids of slabs are refined, and checks those in use.
 
 A refinement interpolates a grid to half its pixel size. A new pixel lies a quarter of an old
 pixel beside an old one, and takes ten old pixels, -4 to 5, with ten weights that add up to 1
@@ -142,7 +142,7 @@ def read_weights(path):
     found = re.search(r"minimax_weights\s*=\s*\{([^}]*)\}", text)
     if not found:
         sys.exit(f"{path}: found no minimax_weights = {{...}}, expected the ten weights")
-    weights = np.array([float(word) for word in found.group(1).split(",")])
+    weights = np.array([float(word) for word in found.group(1).split(",") if float(word) != 0])
     if len(weights) != 10:
         sys.exit(f"{path}: found {len(weights)} minimax_weights, expected 10")
     return weights

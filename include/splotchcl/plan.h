@@ -81,6 +81,7 @@ constexpr std::size_t refinement_taps = 16;
 struct RefinementFilter {
   std::array<double, refinement_taps> weights = {0, 0, 0, 0, 0, 0, 0, 1};
   double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
+  bool has_ten_taps = false;  // all weights but the ten in the middle are 0
 };
 
 // Weights that become a round Gaussian of peak 1 when the grid is blurred, the same along either

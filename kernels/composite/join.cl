@@ -18,8 +18,7 @@ __kernel void join(const CompositeParameters p, __global const Grid* grids,
   for (uint s = id; s < p.end_segment && segments[s].tile == first.tile; ++s) {
     __global const float* partial =
         partials + (size_t)segments[s].partial * PLANES * TILE_WIDTH * TILE_HEIGHT;
-    for (uint x = 0; x < TILE_WIDTH; ++x) {
-      join_pixel(corner + x, grid.plane_size, partial, (size_t)row * TILE_WIDTH + x);
-    }
+    for (uint x = 0; x < TILE_WIDTH; x += LANES)
+      join_pixels(corner + x, grid.plane_size, partial, (size_t)row * TILE_WIDTH + x);
   }
 }

@@ -14,7 +14,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
   const uint column = in_grid % (uint)grid.tiles_x * TILE_WIDTH + pixel % TILE_WIDTH;
   __global float* own = planes + first_float(grid) + (size_t)row * grid.stride + column;
   for (uint s = id; s < p.end_segment && segments[s].tile == first.tile; ++s) {
-    join_pixel(own, grid.plane_size, partials + (size_t)segments[s].partial * PLANES * GROUP,
-               pixel);
+    join_pixels(own, grid.plane_size, partials + (size_t)segments[s].partial * PLANES * GROUP,
+                pixel);
   }
 }

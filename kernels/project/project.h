@@ -128,7 +128,8 @@ struct ProjectParameters {
   int width, height, middle_x, middle_y, guard;
   unsigned int tile_count;
   float beside;  // pixels of a coarse grid beside the picture, or the crop, that are in memory
-  float reach;   // sigmas beyond which nothing is drawn on any grid
+  float sigmas_shown;  // no splat on a coarse grid with a peak up to 1 shows farther than that
+  float reach;         // sigmas beyond which nothing is drawn on any grid
   struct GridBlurs blurs;
 
   struct FieldScaling color;

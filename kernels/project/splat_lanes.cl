@@ -12,6 +12,7 @@ typedef struct SplatLanes {
   VALUE x, y;  // pixels of the grid from its middle
   PlaceLanes place;
   INTEGER component_and_grid;  // as in Splat
+  VALUE farthest_shown;        // pixels of the grid beyond which nothing of the splat shows
   VALUE sigma, radius, weight, color;
 #ifdef ELLIPSES
   VALUE sigma_x, radius_x;
@@ -240,6 +241,8 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   const INTEGER level = level_of(s->grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;
+  s->farthest_shown =
+      choose(p.sigmas_shown * s->sigma, (VALUE)(FLT_MAX), brightness.own_peak > 1.0f);
   s->weight = sampled.weight;
   const INTEGER stencil = are_stencils(s->grid, s->sigma, brightness.own_peak, p);
   const INTEGER narrowed = (s->grid > 0) & (stencil == 0);
@@ -299,12 +302,23 @@ INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
   return beyond;
 }
 
+// The same beyond the whole picture.
+INLINED VALUE distance_beyond_picture(const SplatLanes s, const ProjectParameters p) {
+  const VALUE shrink = AS_VALUE((127 - level_of(s.grid, p)) << 23);
+  const float left = (float)-p.middle_x, top = (float)-p.middle_y;
+  const float right_end = left + (float)p.width, bottom = top + (float)p.height;
+  return max(max(top * shrink - s.y, s.y - bottom * shrink),
+             max(left * shrink - s.x, s.x - right_end * shrink));
+}
+
 // By the sign that place_on_grid() gives them.
 INLINED INTEGER are_placed_as_stencils(const SplatLanes s) {
   return (s.grid > 0) & (s.sigma < 0.0f);
 }
 
-// Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Those
+// Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Grids
+// beside the picture's own have a guard band, for pixels that are interpolated or blurred from it:
+// of what shows nowhere in the picture they need nothing. Those
 // that end short of it by no more than their own radius leave something out, though: they are
 // listed, with a minus before a radius that reaches, so that the check after drawing knows them,
 // and not drawn.
@@ -312,7 +326,8 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const VALUE beyond = distance_beyond(*s, p);
   const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
   // The first pixel's center lies half a pixel within.
-  const INTEGER reaches = beyond + 0.5f <= s->radius + room;
+  const INTEGER shows = (s->grid == 0) | (distance_beyond_picture(*s, p) <= s->farthest_shown);
+  const INTEGER reaches = (beyond + 0.5f <= s->radius + room) & shows;
 #ifdef COPIES
   s->visible &= reaches;
 #else

@@ -30,14 +30,21 @@ typedef struct Pair {
   float8 even, odd;
 } Pair;
 
+// Weights beyond the middle ones may all be 0.
+#ifdef TEN_TAPS
+#define TAPS_BESIDE 5
+#else
+#define TAPS_BESIDE REFINEMENT_REACH
+#endif
+
 // From where `center` has the coarse ones, those beside them along the axis `stride` floats apart.
 INLINED Pair between(__global const float* center, size_t stride, const float* weights) {
   Pair pair = {(float8)(0.0f), (float8)(0.0f)};
 #pragma unroll
-  for (int k = -REFINEMENT_REACH; k <= REFINEMENT_REACH; ++k) {
+  for (int k = -TAPS_BESIDE; k <= TAPS_BESIDE; ++k) {
     const float8 beside = vload8(0, center + k * (int)stride);
-    if (k < REFINEMENT_REACH) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
-    if (k > -REFINEMENT_REACH) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
+    if (k < TAPS_BESIDE) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
+    if (k > -TAPS_BESIDE) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
   }
   return pair;
 }

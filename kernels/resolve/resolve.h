@@ -36,8 +36,8 @@ struct BlurStripsParameters {
   struct BlurWeights blurs[MOST_BLURRED_GRIDS];
 };
 
-// Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter): a pixel is
-// made from those up to REFINEMENT_REACH beside the one that it lies on.
+// Interpolation of a grid to the pixels of the next finer one (plan.h, RefinementFilter): a pixel
+// is made from those up to REFINEMENT_REACH beside the one that it lies on.
 #define REFINEMENT_TAPS 16
 #define REFINEMENT_REACH (REFINEMENT_TAPS / 2)
 struct RefineParameters {

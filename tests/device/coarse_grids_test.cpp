@@ -91,6 +91,22 @@ TEST_P(CoarseGrids, HoldTheToleranceWithSplatsTooBrightForStencils) {
   }
 }
 
+// Their guard bands, which refining and blurring read, reach farther beside the picture.
+TEST_P(CoarseGrids, LeaveOutSplatsThatShowNowhereInThePicture) {
+  constexpr int width = 640, height = 480;
+  constexpr double sigma = 12;
+  const auto drawn_with_distance_beside_picture = [](double distance, double column) {
+    const Cloud cloud = {-0.5 * width - distance, 0, 10, sigma, column};
+    DeviceContext device(choose_device(""));
+    choose_shape(device.traits, GetParam() == CompositeShape::rows);
+    const Frame frame = frame_of(width, height, {component_of({cloud}, two_colors())});
+    return draw_with_plan(device, frame, make_plan(frame)).counts.visible;
+  };
+  EXPECT_EQ(drawn_with_distance_beside_picture(2 * sigma, 0.5), 1U);
+  EXPECT_EQ(drawn_with_distance_beside_picture(4.7 * sigma, 0.5), 0U);
+  EXPECT_EQ(drawn_with_distance_beside_picture(4.7 * sigma, 100), 1U) << "a bright one";
+}
+
 // So many splats that need the picture's own pixels that some of its grids have them.
 class GridsOfOwnPixels : public CoarseGrids {
  protected:

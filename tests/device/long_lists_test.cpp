@@ -37,6 +37,20 @@ TEST_P(LongLists, GiveTheOraclesPicture) {
   EXPECT_EQ(renderer(shape).stats().tile_entries, 50000u);
 }
 
+// Each rounds the sum alike: only sums of blocks keep them from adding up.
+TEST_P(LongLists, GiveTheOraclesPictureOfEqualNarrowSplatsAtASmallTolerance) {
+  const auto [plan, shape] = GetParam();
+  constexpr int count = 16000;
+  const std::vector<Cloud> clouds(count, Cloud{0.3, 0.2, 10, 0.4, 2.0 / count});
+  DrawnComponent component = component_of(clouds, two_colors());
+  if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
+  if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.01};
+  Frame frame = frame_of(16, 16, {component});
+  frame.tolerance = 1.5e-6;
+  ASSERT_FALSE(make_plan(frame).is_extended());
+  EXPECT_LE(largest_error(draw(frame, shape), reference::render(frame)), frame.tolerance);
+}
+
 std::string case_name(const testing::TestParamInfo<Case>& info) {
   return std::string(name(std::get<0>(info.param))) +
          (std::get<1>(info.param) == CompositeShape::rows ? "_rows" : "_groups");

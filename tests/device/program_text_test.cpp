@@ -25,7 +25,7 @@ std::vector<ProgramSource> programs_of(const Specialization& variant) {
   if (variant.is_ordered()) programs.push_back(variant.composite_with_clouds());
   for (const ProgramSource& program :
        {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify(),
-        variant.coarse_grids(), variant.blur_strips()})
+        variant.coarse_grids(), variant.blur_strips(), variant.lay_slab()})
     programs.push_back(program);
   return programs;
 }
@@ -42,8 +42,7 @@ std::vector<ProgramSource> programs_of_all_frames() {
           Specialization::carry(),
           Specialization::scan(),
           Specialization::clear(),
-          Specialization::add_light(),
-          Specialization::lay_slab()};
+          Specialization::add_light()};
 }
 
 class ShortTexts : public StageTest {

@@ -44,7 +44,7 @@ static_assert(has_words<ExtendedSplat, 21>);
 static_assert(has_words<ComponentColors, 7>);
 static_assert(has_words<FieldScaling, 4>);
 static_assert(has_words<DepthKeyParameters, 22>);
-static_assert(has_words<ProjectParameters, 154>);
+static_assert(has_words<ProjectParameters, 155>);
 static_assert(has_words<BlockBox, 8>);
 static_assert(has_words<BlockCounts, 4>);
 static_assert(has_words<KeyBins, 2>);

@@ -48,6 +48,7 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       eye_offset_(frame.camera.eye_offset != 0),
       clouds_around_(has_clouds_around(frame)),
       stencils_(plan.pyramid.has_stencils()),
+      ten_taps_(plan.pyramid.refinement.has_ten_taps),
       background_image_(frame.background_image != nullptr) {
   if (has_rows()) {
     tile_width_ = is_ordered() || extended_ ? 32 : 64;
@@ -286,8 +287,8 @@ std::vector<std::string> Specialization::composite_files() const {
 }
 
 std::vector<std::string> Specialization::join_files() const {
-  return {"splat.h",  "bin.h",      "composite.h",   "common.cl",
-          "lanes.cl", "opacity.cl", "join_pixel.cl", rows_ ? "join.cl" : "join_groups.cl"};
+  return {"splat.h",  "bin.h",      "composite.h",    "common.cl",
+          "lanes.cl", "opacity.cl", "join_pixels.cl", rows_ ? "join.cl" : "join_groups.cl"};
 }
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
@@ -302,7 +303,9 @@ std::string Specialization::block_defines() const {
 }
 
 ProgramSource Specialization::join() const {
-  return {tile_defines() + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"), join_files()};
+  return {tile_defines() + define_if(rows_, "LANES_8") +
+              define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
+          join_files()};
 }
 
 // Coarse grids are for round splats that are not cut, and take center values.
@@ -316,11 +319,11 @@ ProgramSource Specialization::composite_slab() const {
 }
 
 ProgramSource Specialization::join_slab() const {
-  return {slab_defines(), join_files()};
+  return {slab_defines() + define_if(rows_, "LANES_8"), join_files()};
 }
 
-ProgramSource Specialization::lay_slab() {
-  return {define("LANES_8"),
+ProgramSource Specialization::lay_slab() const {
+  return {define("LANES_8") + define_if(ten_taps_, "TEN_TAPS"),
           {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl",
            "prefetch.cl", "refine.cl", "slab.cl"}};
 }
@@ -367,7 +370,7 @@ ProgramSource Specialization::coarse_grids() const {
   std::vector<std::string> files = {"splat.h", "resolve.h", "common.cl", "prefetch.cl"};
   if (!rows_) files.push_back("blur.cl");
   files.push_back("refine.cl");
-  return {"", files};
+  return {define_if(ten_taps_, "TEN_TAPS"), files};
 }
 
 ProgramSource Specialization::blur_strips() const {

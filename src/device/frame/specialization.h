@@ -66,7 +66,7 @@ class Specialization {
   ProgramSource composite_slab() const;
   ProgramSource join_slab() const;
   // A slab's wide splats laid among its narrow ones.
-  static ProgramSource lay_slab();
+  ProgramSource lay_slab() const;
   ProgramSource certify() const;
   // Of clouds around the camera: which they are, and their layers.
   ProgramSource list_around() const;
@@ -118,6 +118,7 @@ class Specialization {
   bool eye_offset_;
   bool clouds_around_;  // may be: they are no splats
   bool stencils_;       // of sums
+  bool ten_taps_;       // of a refinement
   bool background_image_;
   std::uint32_t tile_width_ = 16, tile_height_ = 16;
 };

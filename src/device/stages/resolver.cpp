@@ -76,7 +76,7 @@ Resolver::Resolver(const StageContext& context)
       blur_program_ = context.device.programs.get(context.specialization.blur_strips());
   }
   if (context.plan.slabs > 0)
-    slab_program_ = context.device.programs.get(Specialization::lay_slab());
+    slab_program_ = context.device.programs.get(context.specialization.lay_slab());
 }
 
 CollectingRoom Resolver::room_for_collecting() const {

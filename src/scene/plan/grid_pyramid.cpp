@@ -56,7 +56,8 @@ std::vector<double> choose_blurs(double smallest_sigma, double error, int count)
   return count > 1 ? choose_blurs(smallest_sigma, error, count / 2) : std::vector<double>();
 }
 
-// Splats that are taken as means stay on the picture's own grid: wider ones are in pixels of a level.
+// Splats that are taken as means stay on the picture's own grid: how wide wider ones are on one of
+// this level, in its pixels.
 double end_of_means(const PyramidNeeds& needs, int level) {
   return std::ldexp(static_cast<double>(needs.mean_sigma), -level);
 }
@@ -66,9 +67,10 @@ double end_of_means(const PyramidNeeds& needs, int level) {
 void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& needs,
                             GridPyramid& pyramid) {
   constexpr double blur_part = 0.2;
-  pyramid.refinement = choose_refinement((1 - blur_part) * needs.error);
+  pyramid.refinement = needs.few_taps ? choose_short_refinement((1 - blur_part) * needs.error)
+                                      : choose_refinement((1 - blur_part) * needs.error);
   double smallest_sigma =
-      std::max(pyramid.refinement.smallest_sigma, end_of_means(needs, 1));
+      std::max(pyramid.refinement.smallest_sigma, end_of_means(needs, needs.few_taps ? 0 : 1));
   // A blur would carry light over the edge of a cloud that is cut.
   if (!kernel.cut) {
     pyramid.blur_error = blur_part * needs.error;

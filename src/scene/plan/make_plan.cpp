@@ -101,6 +101,7 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   needs.mean_sigma = plan.splats.mean_sigma;
   needs.error = plan.grid_peak_error / plan.needs.grid_light;
   needs.blurs_of_level = choose_blurs_of_level(frame, plan);
+  needs.few_taps = plan.slabs > 0;
   if (may_have_stencils(frame, plan)) set_use_of_stencils(plan.wide_splats, needs);
   return make_pyramid(frame, needs);
 }

@@ -1,5 +1,5 @@
-// The weights by which coarse grids are refined err by no more than docs/accuracy.md and the
-// budget of coarse grids say.
+// The weights by which grids are refined err by no more than docs/accuracy.md and the budget of
+// coarse grids say.
 #include "scene/plan/refinement_filter.h"
 
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 namespace splotchcl {
 namespace {
 
-using Weights = std::array<double, 10>;
+using Weights = std::array<double, refinement_taps>;
 
-// An error that the minimax weights keep, and the Lagrange weights' own.
-constexpr double coarse = 6e-4, fine = 1e-5;
+// Pixels before the first of those that a new one is made from.
+constexpr int taps_before = static_cast<int>(refinement_taps) / 2 - 1;
 
 double gaussian(double distance, double sigma) {
   return std::exp(-distance * distance / (sigma * sigma));
@@ -26,74 +26,26 @@ double gaussian(double distance, double sigma) {
 double error_at(const Weights& weights, double sigma, double center) {
   double interpolated = 0;
   for (std::size_t k = 0; k < weights.size(); ++k)
-    interpolated += weights[k] * gaussian(static_cast<double>(k) - 4 - center, sigma);
+    interpolated += weights[k] * gaussian(static_cast<double>(k) - taps_before - center, sigma);
   return std::abs(interpolated - gaussian(0.25 - center, sigma));
 }
 
 double largest_error(const Weights& weights, double sigma) {
   double largest = 0;
-  const double reach = 6 + 4 * sigma, step = 0.002 * sigma;
+  const double reach = 9 + 4 * sigma, step = 0.002 * sigma;
   for (double center = -reach; center <= reach; center += step)
     largest = std::max(largest, error_at(weights, sigma, center));
   return largest;
 }
 
-TEST(RefinementFilter, KeepsEvenLightEven) {
-  for (const double error : {coarse, fine}) {
-    double sum = 0;
-    for (const double weight : choose_refinement(error).weights)
-      sum += weight;
-    EXPECT_NEAR(sum, 1, 2e-9);
-  }
-}
-
-TEST(RefinementFilter, TakesMinimaxWeightsFromTwoPixelsOnWhereTheErrorAllowsThem) {
-  EXPECT_EQ(choose_refinement(5.5e-4).smallest_sigma, 2);
-  EXPECT_GT(choose_refinement(5.3e-4).smallest_sigma, 2);
-}
-
-TEST(RefinementFilter, MinimaxWeightsErrAsStatedAtTwoPixelsAndAfterEachFurtherRefinement) {
-  const Weights weights = choose_refinement(coarse).weights;
-  EXPECT_LT(largest_error(weights, 2), 1.74e-4);
-  EXPECT_LT(largest_error(weights, 4), 4.01e-5);
-  EXPECT_LT(largest_error(weights, 8), 3.06e-5);
-  EXPECT_LT(largest_error(weights, 16), 1.30e-5);
-}
-
-TEST(RefinementFilter, MinimaxWeightsErrLessTheWiderTheSplats) {
-  const Weights weights = choose_refinement(coarse).weights;
-  double narrower = largest_error(weights, 2);
-  for (double sigma = 2.1; sigma < 40; sigma *= 1.05) {
-    const double error = largest_error(weights, sigma);
-    EXPECT_LT(error, narrower) << "sigma " << sigma;
-    narrower = error;
-  }
-}
-
-TEST(RefinementFilter, AllFurtherRefinementsErrByNoMoreThanStatedTogether) {
-  const Weights weights = choose_refinement(coarse).weights;
-  double sum = 0;
-  for (double sigma = 4; sigma <= 4096; sigma *= 2)
-    sum += largest_error(weights, sigma);
-  EXPECT_LT(sum, 1.0e-4);
-}
-
-// The constant grows from 1.2 at 2 pixels to the 5.2 of ever wider splats.
-TEST(RefinementFilter, LagrangeWeightsErrByTheTenthPowerOfTheWidth) {
-  const Weights weights = choose_refinement(fine).weights;
-  for (const double sigma : {2.0, 2.5, 3.0, 3.5, 4.0})
-    EXPECT_LT(largest_error(weights, sigma), 3.5 / std::pow(sigma, 10)) << "sigma " << sigma;
-  for (const double sigma : {5.0, 6.0, 8.0, 12.0})
-    EXPECT_LT(largest_error(weights, sigma), 5.21 / std::pow(sigma, 10)) << "sigma " << sigma;
-}
-
 // A row of pixels at half their size.
 std::vector<double> refined(const std::vector<double>& pixels, const Weights& weights) {
+  constexpr std::size_t before = taps_before, beside = refinement_taps / 2;
   std::vector<double> finer(2 * pixels.size());
-  for (std::size_t x = 5; x + 5 < pixels.size(); ++x) {
+  for (std::size_t x = beside; x + beside < pixels.size(); ++x) {
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      finer[2 * x + 1] += weights[k] * pixels[x + k - 4];
-      finer[2 * x] += weights[k] * pixels[x + 4 - k];
+      finer[2 * x + 1] += weights[k] * pixels[x + k - before];
+      finer[2 * x] += weights[k] * pixels[x + before - k];
     }
   }
   return finer;
@@ -101,7 +53,7 @@ std::vector<double> refined(const std::vector<double>& pixels, const Weights& we
 
 // After six refinements one after the other, of one axis.
 double largest_error_of_all(const Weights& weights, double sigma, double center) {
-  constexpr std::size_t count = 64;
+  constexpr std::size_t count = 96;
   std::vector<double> pixels(count);
   for (std::size_t x = 0; x < count; ++x)
     pixels[x] = gaussian(static_cast<double>(x) - count / 2 - center, sigma);
@@ -118,19 +70,84 @@ double largest_error_of_all(const Weights& weights, double sigma, double center)
   return largest;
 }
 
-TEST(RefinementFilter, BestOneErrsByNoMoreThanStatedInAllRefinementsTogether) {
-  for (const double sigma : {2.0, 2.11, 2.2, 2.3, 2.5, 2.8, 3.1}) {
-    const RefinementOfSigma best = best_refinement(sigma);
-    for (double center = -0.5; center <= 0.5; center += 0.05)
-      EXPECT_LT(2 * largest_error_of_all(best.filter.weights, sigma, center), best.error) << sigma;
+double largest_error_of_all(const Weights& weights, double sigma) {
+  double largest = 0;
+  for (double center = -0.5; center <= 0.5; center += 0.1)
+    largest = std::max(largest, largest_error_of_all(weights, sigma, center));
+  return largest;
+}
+
+TEST(RefinementFilter, KeepsEvenLightEven) {
+  for (const double error : {6e-4, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    double sum = 0;
+    for (const double weight : choose_refinement(error).weights)
+      sum += weight;
+    EXPECT_NEAR(sum, 1, 2e-9) << error;
   }
 }
 
-TEST(RefinementFilter, LagrangeWeightsKeepTheErrorOverBothAxesAtTheSmallestWidth) {
-  for (const double error : {1e-4, 1e-5}) {
-    const RefinementFilter filter = choose_refinement(error);
-    EXPECT_LT(2 * largest_error(filter.weights, filter.smallest_sigma), error);
+// What least squares change are tenth differences.
+TEST(RefinementFilter, IsExactForPolynomialsOfDegreeNine) {
+  const Weights weights = choose_refinement(1e-4).weights;
+  for (int degree = 0; degree <= 9; ++degree) {
+    double interpolated = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      interpolated += weights[k] * std::pow((static_cast<double>(k) - taps_before) / 8, degree);
+    EXPECT_NEAR(interpolated, std::pow(0.25 / 8, degree), 1e-12) << degree;
   }
+}
+
+TEST(RefinementFilter, KeepsTheErrorOfAllRefinementsOverBothAxesAtTheSmallestWidth) {
+  for (const double error : {1e-3, 6e-4, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8}) {
+    const RefinementFilter filter = choose_refinement(error);
+    EXPECT_LT(2 * largest_error_of_all(filter.weights, filter.smallest_sigma), error);
+  }
+}
+
+// The next width of the table is at most a twentieth wider, and errors fall as sigma^-12.
+TEST(RefinementFilter, CarriesSplatsNotMuchWiderThanTheErrorNeeds) {
+  for (const double error : {6e-4, 1e-4, 1e-5, 2e-6}) {
+    const RefinementFilter filter = choose_refinement(error);
+    EXPECT_GT(2 * largest_error_of_all(filter.weights, 0.92 * filter.smallest_sigma), error);
+  }
+}
+
+TEST(RefinementFilter, BestOneErrsByNoMoreThanStatedInAllRefinementsTogether) {
+  for (const double sigma : {1.9, 2.0, 2.11, 2.2, 2.35, 2.5, 2.8, 3.1, 3.5, 4.0}) {
+    const RefinementOfSigma best = best_refinement(sigma);
+    EXPECT_LT(2 * largest_error_of_all(best.filter.weights, sigma), best.error) << sigma;
+  }
+}
+
+// GridPyramid::wider_for: a splat of peak P is P^(1/8) times wider.
+TEST(RefinementFilter, ErrsByNoMoreForBrightSplatsThatAreWiderByTheEighthRoot) {
+  for (const double sigma : {1.9, 2.11, 2.5, 2.8}) {
+    const RefinementOfSigma best = best_refinement(sigma);
+    for (double wider = 1; wider <= 4; wider *= 1.1892) {
+      EXPECT_LT(2 * std::pow(wider, 8) * largest_error_of_all(best.filter.weights, wider * sigma),
+                1.05 * best.error)
+          << sigma << " " << wider;
+    }
+  }
+}
+
+TEST(ShortRefinementFilter, HasTenTapsWhereTheyKeepTheError) {
+  for (const double error : {6e-4, 3e-4, 2e-4}) {
+    const RefinementFilter filter = choose_short_refinement(error);
+    EXPECT_TRUE(filter.has_ten_taps);
+    EXPECT_EQ(std::count(filter.weights.begin(), filter.weights.end(), 0), 6);
+    EXPECT_LT(2 * largest_error_of_all(filter.weights, filter.smallest_sigma), error);
+  }
+  EXPECT_FALSE(choose_short_refinement(1e-4).has_ten_taps);
+}
+
+// What scripts/design_refinement.py asks of them.
+TEST(ShortRefinementFilter, ErrsByLessThanItsLimitsAtTwoPixelsAndAfterEachFurtherRefinement) {
+  const Weights weights = choose_short_refinement(6.5e-4).weights;
+  EXPECT_LT(largest_error(weights, 2), 1.74e-4);
+  EXPECT_LT(largest_error(weights, 4), 4.01e-5);
+  EXPECT_LT(largest_error(weights, 8), 3.06e-5);
+  EXPECT_LT(largest_error(weights, 16), 1.30e-5);
 }
 
 }  // namespace
