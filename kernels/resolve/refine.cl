@@ -1,5 +1,12 @@
 // A grid interpolated to half its pixel size, axis by axis.
 
+// Pixels on either side that one is made from; weights beyond them are 0.
+#ifdef TEN_TAPS
+#define PIXELS_BESIDE 5
+#else
+#define PIXELS_BESIDE REFINEMENT_REACH
+#endif
+
 // Grids have even guards, so a finer pixel is left of its coarse pixel's center where its index is
 // even. Every pixel that is looked at is in memory (picture_layout.h).
 
@@ -17,10 +24,10 @@ static inline size_t temporary_columns(const GridPart part) {
   return ((size_t)(part.right_end - first_column(part)) + 15) & ~(size_t)15;
 }
 static inline int first_coarse_row(const GridPart part, Grid fine, Grid coarse) {
-  return coarse_place(part.top, fine, coarse) - REFINEMENT_REACH;
+  return coarse_place(part.top, fine, coarse) - PIXELS_BESIDE;
 }
 static inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
-  const int last = coarse_place(part.bottom - 1, fine, coarse) + REFINEMENT_REACH;
+  const int last = coarse_place(part.bottom - 1, fine, coarse) + PIXELS_BESIDE;
   return last + 1 - first_coarse_row(part, fine, coarse);
 }
 
@@ -30,21 +37,14 @@ typedef struct Pair {
   float8 even, odd;
 } Pair;
 
-// Weights beyond the middle ones may all be 0.
-#ifdef TEN_TAPS
-#define TAPS_BESIDE 5
-#else
-#define TAPS_BESIDE REFINEMENT_REACH
-#endif
-
 // From where `center` has the coarse ones, those beside them along the axis `stride` floats apart.
 INLINED Pair between(__global const float* center, size_t stride, const float* weights) {
   Pair pair = {(float8)(0.0f), (float8)(0.0f)};
 #pragma unroll
-  for (int k = -TAPS_BESIDE; k <= TAPS_BESIDE; ++k) {
+  for (int k = -PIXELS_BESIDE; k <= PIXELS_BESIDE; ++k) {
     const float8 beside = vload8(0, center + k * (int)stride);
-    if (k < TAPS_BESIDE) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
-    if (k > -TAPS_BESIDE) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
+    if (k < PIXELS_BESIDE) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
+    if (k > -PIXELS_BESIDE) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
   }
   return pair;
 }
@@ -92,7 +92,7 @@ __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
   const uint c = (uint)get_global_id(2);
   if (x >= p.part.right_end || first >= p.part.bottom) return;
   __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
-  ask_for(column + (REFINEMENT_REACH + 1) * temporary_columns(p.part));
+  ask_for(column + (PIXELS_BESIDE + 1) * temporary_columns(p.part));
   __global float* below = planes + pixel_at(fine, c, x, first + 2);
   ask_to_write(below);
   ask_to_write(below + fine.stride);

@@ -42,12 +42,13 @@ shared::GridPart widened(const shared::GridPart& part, int by) {
 }
 
 // What `part` of a grid is interpolated from, in pixels of the next coarser one.
-shared::GridPart coarse_part(const shared::GridPart& part, int fine_guard, int coarse_guard) {
+shared::GridPart coarse_part(const shared::GridPart& part, int fine_guard, int coarse_guard,
+                             int reach) {
   // Down also for pixels of the guard, which begin before the picture.
   const auto below = [&](int pixel) { return ((pixel - fine_guard) >> 1) + coarse_guard; };
   return widened({below(part.left), below(part.top), below(part.right_end - 1) + 1,
                   below(part.bottom - 1) + 1},
-                 REFINEMENT_REACH);
+                 reach);
 }
 
 bool is_whole(const Frame& frame) {
@@ -62,7 +63,8 @@ std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid
     return pyramid.grids[static_cast<std::size_t>(pyramid.level_grids[level])].guard;
   };
   for (std::size_t level = 1; level < pyramid.level_grids.size(); ++level)
-    wanted.push_back(coarse_part(wanted.back(), guard_of(level - 1), guard_of(level)));
+    wanted.push_back(coarse_part(wanted.back(), guard_of(level - 1), guard_of(level),
+                                 pyramid.refinement.reach()));
   return wanted;
 }
 

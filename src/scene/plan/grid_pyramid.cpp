@@ -11,12 +11,6 @@
 namespace splotchcl {
 namespace {
 
-// A pixel reads coarse pixels from half as many left of its own as there are taps to as many right:
-// with twice that of guard, of which a half is a finer grid's, every pixel that refining reads
-// exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it lies.
-constexpr int guard_pixels = static_cast<int>(refinement_taps);
-static_assert(guard_pixels % 2 == 0);
-
 // Below this a coarse grid costs more to refine than it saves.
 constexpr int smallest_coarse_side = 16;
 constexpr int most_levels = 12;
@@ -138,7 +132,10 @@ bool has_level(const Frame& frame, int level) {
 
 void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
   // A blur needs values beyond those that refining reads.
-  const int reach = reach_of_blurs(pyramid), guard = guard_pixels + reach + reach % 2;
+  const int reach = reach_of_blurs(pyramid);
+  // With twice of what refining reaches, of which a half is a finer grid's, every pixel that it reads
+  // exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it lies.
+  const int guard = 2 * pyramid.refinement.reach() + reach + reach % 2;
   for (int level = pyramid.first_level; has_level(frame, level); ++level) {
     if (pyramid.grids.size() + pyramid.grids_of_level() > most_grids) break;
     const int width = ceil_divide(frame.width, 1 << level);
