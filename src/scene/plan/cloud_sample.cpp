@@ -35,8 +35,20 @@ class ComponentSample {
     return particles / stride_ + (particles % stride_ != 0);
   }
 
+  // Sampled particles lie pages apart, so that a processor waits for each, unless it is asked to
+  // fetch them while it looks at others.
+  void ask_for(std::size_t sampled) const {
+    if (sampled >= count()) return;
+    const std::size_t i = particle(sampled);
+    for (const Column* column : component_.particles.columns()) {
+      if (!column->is_array() || column->source()) continue;
+      const std::size_t values = column->size() / component_.particles.count;
+      fetch(column->data() + values * i);
+    }
+  }
+
   std::optional<SampledCloud> cloud(std::size_t sampled) const {
-    const std::size_t i = sampled_index(sampled * stride_, stride_, component_.particles.count);
+    const std::size_t i = particle(sampled);
     const std::optional<PictureCloud> found = cloud_in_picture(component_, frame_, i);
     if (!found) return std::nullopt;
     SampledCloud cloud;
@@ -51,6 +63,15 @@ class ComponentSample {
   }
 
  private:
+  std::size_t particle(std::size_t sampled) const {
+    return sampled_index(sampled * stride_, stride_, component_.particles.count);
+  }
+  static void fetch(const float* value) {
+#ifdef __GNUC__
+    __builtin_prefetch(value);
+#endif
+  }
+
   const DrawnComponent& component_;
   const Frame& frame_;
   std::size_t stride_;
@@ -69,10 +90,11 @@ bool are_arrays(const Particles& particles) {
 // In the particles' order.
 void append(const ComponentSample& component, const BlockLoop& loop,
             std::vector<SampledCloud>& sample) {
-  constexpr std::size_t at_once = 512;
+  constexpr std::size_t at_once = 512, ahead = 16;
   std::vector<std::vector<SampledCloud>> blocks(component.count() / at_once + 1);
   loop(component.count(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
+      component.ask_for(i + ahead);
       if (const std::optional<SampledCloud> cloud = component.cloud(i))
         blocks[first / at_once].push_back(*cloud);
     }
