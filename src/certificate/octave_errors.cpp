@@ -21,14 +21,11 @@ constexpr double uneven = 2;
 // Peaks of which four cells hold so much are opaque if they are even, and then their errors do not
 // show.
 constexpr double bright_square = 8;
-// Errors of a peak show at most so many cells away: five pixels of a coarse grid are 2.4 sigma.
+// Errors of a peak on the picture's own grid show at most so many cells away.
 constexpr int peak_spread = 2;
 // The smallest cells are two pixels wide. A block at the picture's edge may reach beyond it, and
 // what is looked at around a cell lies up to three more away.
 constexpr int cells_in_block = BlockErrors::block_pixels / 2 + 3;
-// What a coarse grid errs by is interpolated by all further refinements, and the constant of the
-// filter's error grows from 3.5 to 5.2 for wide splats (docs/accuracy.md, "Coarse grids").
-constexpr double repeated_refinements = 1.7;
 // Light is averaged over so many sigma to each side.
 constexpr double light_reach = 1.5;
 
@@ -80,8 +77,7 @@ double error_of_means_in(int octave, double widest, const FramePlan& plan) {
 double error_of_peak(int octave, const PeakCells& cells, const Frame& frame,
                      const FramePlan& plan) {
   if (!cells.is_on_picture()) {
-    const double of_filters =
-        (plan.certify ? repeated_refinements : 1) * plan.grid_peak_error / plan.needs.grid_light;
+    const double of_filters = plan.grid_peak_error / plan.needs.grid_light;
     // A coarse grid softens the step at the edge of a cut disc.
     const double step = frame.kernel.cut ? std::exp(-*frame.kernel.cut * *frame.kernel.cut) : 0;
     return of_filters + step;
@@ -151,10 +147,10 @@ int peak_spread_of(const PeakCells& cells, const Frame& frame) {
   return std::max(peak_spread, static_cast<int>(std::ceil(*frame.kernel.cut)) + 1);
 }
 
-// Where a splat is drawn, and as far as a coarse grid's filters carry it: five pixels of each grid,
-// each half as wide as those of the one before.
+// Where a splat is drawn, and as far as a coarse grid's filters carry it: what they reach of each grid,
+// whose pixels are half as wide as those of the one before.
 int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
-  constexpr double filter_pixels = 10;
+  const double filter_pixels = 2 * plan.pyramid.refinement.reach();
   const double sigma = std::ldexp(widest_sigma(octave), -cells.level);
   const double reach =
       std::sqrt(extent2(octave, plan)) * sigma + (cells.is_on_picture() ? 1 : filter_pixels);
@@ -164,10 +160,10 @@ int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
 
 // As an estimate, what is left of an error of a peak so many cells away. Those of erf in full
 // precision do not fade along the axes. Coarse grids err by values that their filters take from
-// five pixels nearer.
+// pixels nearer.
 std::vector<double> peak_weights_of(int octave, const PeakCells& cells, const Frame& frame,
                                     const FramePlan& plan) {
-  constexpr double filter_pixels = 5;
+  const double filter_pixels = plan.pyramid.refinement.reach();
   const int spread = peak_spread_of(cells, frame);
   if (cells.is_on_picture() && plan.precision != Precision::full)
     return std::vector<double>(static_cast<std::size_t>(spread) + 1, 1.0);
