@@ -147,8 +147,8 @@ int peak_spread_of(const PeakCells& cells, const Frame& frame) {
   return std::max(peak_spread, static_cast<int>(std::ceil(*frame.kernel.cut)) + 1);
 }
 
-// Where a splat is drawn, and as far as a coarse grid's filters carry it: what they reach of each grid,
-// whose pixels are half as wide as those of the one before.
+// Where a splat is drawn, and as far as a coarse grid's filters carry it: what they reach of each
+// grid, whose pixels are half as wide as those of the one before.
 int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
   const double filter_pixels = 2 * plan.pyramid.refinement.reach();
   const double sigma = std::ldexp(widest_sigma(octave), -cells.level);

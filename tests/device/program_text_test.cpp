@@ -45,6 +45,22 @@ std::vector<ProgramSource> programs_of_all_frames() {
           Specialization::add_light()};
 }
 
+// Elsewhere a column or a width may be as small.
+TEST(ProgramTexts, LetLayersOfSinglePrecisionAloneTakeDenormalNumbersAsZero) {
+  DrawnComponent gray = component_of({{0, 0, 10, 2, 1}}, two_colors());
+  gray.absorption = {Absorption::Kind::gray, 1};
+  Frame frame = frame_of(16, 16, {gray});
+  for (const double tolerance : {1e-3, 0.0}) {
+    frame.tolerance = tolerance;
+    const FramePlan plan = make_plan(frame);
+    const Specialization variant(frame, plan, DeviceTraits());
+    EXPECT_EQ(text_of(variant.composite()).options,
+              plan.is_extended() ? "" : "-cl-denorms-are-zero")
+        << tolerance;
+    EXPECT_EQ(text_of(variant.bin()).options, "");
+  }
+}
+
 class ShortTexts : public StageTest {
  protected:
   static void expect_compiled(const std::vector<ProgramSource>& programs) {

@@ -15,6 +15,13 @@ std::string define_if(bool condition, const std::string& name) {
   return condition ? define(name) : std::string();
 }
 
+// Light that passes many layers fades to denormal numbers, which no picture shows.
+ProgramSource layers_of(const std::string& defines, const std::vector<std::string>& files) {
+  ProgramSource source = {defines, files};
+  source.denormals_are_zero = true;
+  return source;
+}
+
 bool writes_splats(ProjectOutput output) {
   return output != ProjectOutput::counts && output != ProjectOutput::key_counts &&
          output != ProjectOutput::window_counts;
@@ -255,7 +262,7 @@ ProgramSource Specialization::composite() const {
   defines += number_defines() + define_if(rows_, "LANES_8") +
              define_if(takes_rows_of_16(), "ROWS_OF_16") + define_if(stencils_, "STENCILS") +
              block_defines();
-  return {defines, composite_files()};
+  return layers_of(defines, composite_files());
 }
 
 ProgramSource Specialization::composite_with_clouds() const {
@@ -303,9 +310,9 @@ std::string Specialization::block_defines() const {
 }
 
 ProgramSource Specialization::join() const {
-  return {tile_defines() + define_if(rows_, "LANES_8") +
-              define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
-          join_files()};
+  return layers_of(tile_defines() + define_if(rows_, "LANES_8") +
+                       define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
+                   join_files());
 }
 
 // Coarse grids are for round splats that are not cut, and take center values.
@@ -313,13 +320,14 @@ ProgramSource Specialization::composite_slab() const {
   const std::string blocks = small_blocks_ || !rows_ ? define("SPLATS_OF_BLOCK 64u")
                              : full_precision_       ? define("SPLATS_OF_BLOCK 256u")
                                                      : std::string();
-  return {slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
-              define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") + blocks,
-          composite_files()};
+  return layers_of(slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
+                       define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") +
+                       blocks,
+                   composite_files());
 }
 
 ProgramSource Specialization::join_slab() const {
-  return {slab_defines() + define_if(rows_, "LANES_8"), join_files()};
+  return layers_of(slab_defines() + define_if(rows_, "LANES_8"), join_files());
 }
 
 ProgramSource Specialization::lay_slab() const {

@@ -13,8 +13,8 @@ std::string kernel_text(const std::string& name) {
   throw DeviceError("kernel source " + name + " is not part of this build");
 }
 
-// Relaxed math is unfit for keys and for expm1: no flags.
-constexpr char no_options[] = "";
+// Relaxed math is unfit for keys and for expm1.
+constexpr char zero_denormals[] = "-cl-denorms-are-zero";
 // As if opencl-c.h, of clang's headers, had been read.
 constexpr char without_declarations[] = "-D_OPENCL_H_";
 
@@ -24,11 +24,13 @@ ProgramText text_of(const ProgramSource& source) {
   std::string text = source.defines;
   for (const std::string& file : source.files)
     text += kernel_text(file);
-  return {no_options, text + source.more};
+  return {source.denormals_are_zero ? zero_denormals : "", text + source.more};
 }
 
 ProgramText short_text_of(const ProgramSource& source) {
-  return {without_declarations, kernel_text("builtins.h") + text_of(source).source};
+  const ProgramText text = text_of(source);
+  const std::string others = text.options.empty() ? "" : " " + text.options;
+  return {without_declarations + others, kernel_text("builtins.h") + text.source};
 }
 
 bool is_pocl(const compute::device& device) {

@@ -14,6 +14,9 @@ struct ProgramSource {
   std::string defines;
   std::vector<std::string> files;
   std::string more = {};
+  // What is smaller than 1.2e-38 may be taken as 0. Some processors take a hundred times as long
+  // for an operation on such a number as for another one.
+  bool denormals_are_zero = false;
 };
 
 // The same as a compiler takes it.

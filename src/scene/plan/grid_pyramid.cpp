@@ -133,8 +133,9 @@ bool has_level(const Frame& frame, int level) {
 void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
   // A blur needs values beyond those that refining reads.
   const int reach = reach_of_blurs(pyramid);
-  // With twice of what refining reaches, of which a half is a finer grid's, every pixel that it reads
-  // exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it lies.
+  // With twice of what refining reaches, of which a half is a finer grid's, every pixel that it
+  // reads exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it
+  // lies.
   const int guard = 2 * pyramid.refinement.reach() + reach + reach % 2;
   for (int level = pyramid.first_level; has_level(frame, level); ++level) {
     if (pyramid.grids.size() + pyramid.grids_of_level() > most_grids) break;
