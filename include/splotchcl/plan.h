@@ -83,7 +83,7 @@ struct RefinementFilter {
   double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
   bool has_ten_taps = false;  // all weights but the ten in the middle are 0
   // Old pixels on either side of the one under a new pixel that it is made from.
-  int reach() const { return has_ten_taps ? 5 : static_cast<int>(refinement_taps) / 2; }
+  constexpr int reach() const { return has_ten_taps ? 5 : static_cast<int>(refinement_taps) / 2; }
 };
 
 // Weights that become a round Gaussian of peak 1 when the grid is blurred, the same along either

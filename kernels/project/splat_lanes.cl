@@ -286,14 +286,16 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
 }
 
-// How far the center lies beyond the part of its grid that is drawn, along the axis where it is
-// farthest; below 0: within. Along x a wide splat counts as if it were as wide as it is high.
-INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
+// How far the center lies beyond a rectangle of the picture, along the axis where it is farthest,
+// in pixels of its grid; below 0: within. Along x a wide splat counts as if it were as wide as it
+// is high.
+INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, float top,
+                              float bottom, const ProjectParameters p) {
   const INTEGER level = level_of(s.grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
-  VALUE beyond = max(p.top * shrink - s.y, s.y - p.bottom * shrink);
+  VALUE beyond = max(top * shrink - s.y, s.y - bottom * shrink);
 #ifndef COPIES
-  VALUE beyond_x = max(p.left * shrink - s.x, s.x - p.right_end * shrink);
+  VALUE beyond_x = max(left * shrink - s.x, s.x - right_end * shrink);
 #ifdef ELLIPSES
   beyond_x = min(beyond_x, beyond_x * (s.radius / s.radius_x) + 1.0f);
 #endif
@@ -302,13 +304,12 @@ INLINED VALUE distance_beyond(const SplatLanes s, const ProjectParameters p) {
   return beyond;
 }
 
-// The same beyond the whole picture.
-INLINED VALUE distance_beyond_picture(const SplatLanes s, const ProjectParameters p) {
-  const VALUE shrink = AS_VALUE((127 - level_of(s.grid, p)) << 23);
+// Whether something of it shows in the whole picture, of splats on grids beside the picture's own.
+INLINED INTEGER shows_in_picture(const SplatLanes s, const ProjectParameters p) {
   const float left = (float)-p.middle_x, top = (float)-p.middle_y;
-  const float right_end = left + (float)p.width, bottom = top + (float)p.height;
-  return max(max(top * shrink - s.y, s.y - bottom * shrink),
-             max(left * shrink - s.x, s.x - right_end * shrink));
+  const VALUE beyond =
+      distance_beyond(s, left, left + (float)p.width, top, top + (float)p.height, p);
+  return (s.grid == 0) | (beyond <= s.farthest_shown);
 }
 
 // By the sign that place_on_grid() gives them.
@@ -316,18 +317,16 @@ INLINED INTEGER are_placed_as_stencils(const SplatLanes s) {
   return (s.grid > 0) & (s.sigma < 0.0f);
 }
 
-// Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Grids
-// beside the picture's own have a guard band, for pixels that are interpolated or blurred from it:
-// of what shows nowhere in the picture they need nothing. Those
+// Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Those
 // that end short of it by no more than their own radius leave something out, though: they are
 // listed, with a minus before a radius that reaches, so that the check after drawing knows them,
-// and not drawn.
+// and not drawn. Guard bands, from which pixels of the picture are interpolated or blurred, need
+// nothing of what shows nowhere in it.
 INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
-  const VALUE beyond = distance_beyond(*s, p);
+  const VALUE beyond = distance_beyond(*s, p.left, p.right_end, p.top, p.bottom, p);
   const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
   // The first pixel's center lies half a pixel within.
-  const INTEGER shows = (s->grid == 0) | (distance_beyond_picture(*s, p) <= s->farthest_shown);
-  const INTEGER reaches = (beyond + 0.5f <= s->radius + room) & shows;
+  const INTEGER reaches = (beyond + 0.5f <= s->radius + room) & shows_in_picture(*s, p);
 #ifdef COPIES
   s->visible &= reaches;
 #else

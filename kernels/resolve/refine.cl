@@ -2,7 +2,7 @@
 
 // Pixels on either side that one is made from; weights beyond them are 0.
 #ifdef TEN_TAPS
-#define PIXELS_BESIDE 5
+#define PIXELS_BESIDE REACH_OF_TEN_TAPS
 #else
 #define PIXELS_BESIDE REFINEMENT_REACH
 #endif

@@ -28,7 +28,13 @@ class ComponentSample {
         frame_(frame),
         stride_(stride),
         colors_(component),
-        least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {}
+        least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {
+    for (const Column* column : component.particles.columns()) {
+      const bool lies_in_memory = column->is_array() && !column->source();
+      if (lies_in_memory && component.particles.count > 0)
+        arrays_.push_back({column->data(), column->size() / component.particles.count});
+    }
+  }
 
   std::size_t count() const {
     const std::size_t particles = component_.particles.count;
@@ -40,11 +46,8 @@ class ComponentSample {
   void ask_for(std::size_t sampled) const {
     if (sampled >= count()) return;
     const std::size_t i = particle(sampled);
-    for (const Column* column : component_.particles.columns()) {
-      if (!column->is_array() || column->source()) continue;
-      const std::size_t values = column->size() / component_.particles.count;
-      fetch(column->data() + values * i);
-    }
+    for (const Array& array : arrays_)
+      fetch(array.values + array.of_particle * i);
   }
 
   std::optional<SampledCloud> cloud(std::size_t sampled) const {
@@ -63,6 +66,10 @@ class ComponentSample {
   }
 
  private:
+  struct Array {
+    const float* values;
+    std::size_t of_particle;  // so many
+  };
   std::size_t particle(std::size_t sampled) const {
     return sampled_index(sampled * stride_, stride_, component_.particles.count);
   }
@@ -77,6 +84,7 @@ class ComponentSample {
   std::size_t stride_;
   PeakColors colors_;
   double least_sigma_;
+  std::vector<Array> arrays_;  // the component's columns that lie in memory
 };
 
 // Columns that are made as they are wanted keep a block of what they made last, and ranks that

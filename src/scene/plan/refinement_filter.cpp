@@ -65,12 +65,15 @@ double overlap(double distance, double sigma) {
 Weights least_squares_weights(double sigma) {
   const Weights exact = lagrange_weights(exact_pixels);
   const std::array<Weights, changes> differences = tenth_differences();
+  Weights at_distance{}, wanted{};
+  for (std::size_t i = 0; i < taps; ++i) {
+    at_distance[i] = overlap(static_cast<double>(i), sigma);
+    wanted[i] = overlap(static_cast<double>(i) + first_pixel - new_pixel, sigma);
+  }
   SmallMatrix<taps> products{};
-  Weights wanted{};
   for (std::size_t i = 0; i < taps; ++i) {
     for (std::size_t k = 0; k < taps; ++k)
-      products[i][k] = overlap(static_cast<double>(i) - static_cast<double>(k), sigma);
-    wanted[i] = overlap(static_cast<double>(i) + first_pixel - new_pixel, sigma);
+      products[i][k] = at_distance[i > k ? i - k : k - i];
   }
   const Weights found = times(products, exact);
   SmallMatrix<changes> matrix{};
@@ -135,7 +138,7 @@ constexpr std::array<ErrorFrom, 16> least_squares_errors = {{{1.8, 9.8e-4},
                                                              {3, 1.25e-6}}};
 
 // Beyond, sums of squares are too small for double precision, and weights are Lagrange's: their
-// error falls as sigma^-16, from constants of 650 at 3.5 pixels on to 2000 of ever wider splats.
+// error falls as sigma^-16, with constants from 650 at 3.5 pixels to 1860 at 9, where it is 1e-12.
 constexpr double lagrange_constant = 2000, lagrange_power = 16;
 
 double lagrange_error(double sigma) {
