@@ -251,7 +251,7 @@ __attribute__((noinline)) static void composite_segment(
 #ifdef CLOUDS_IN_LISTS
     const float sigma = entries[k].sigma;
     if (is_cloud(sigma)) {
-      add_waiting(tile, &waiting);
+      add_waiting(tile, &waiting, grid.mean_sigma);
       if (!add_cloud(tile, cloud_of(sigma, &of_tile), &of_tile, &depth_of_block, &p)) continue;
     } else
 #endif
@@ -278,20 +278,20 @@ __attribute__((noinline)) static void composite_segment(
     ++drawn;
 #ifdef LIGHT_ORDERED
     if (drawn % 256u == 0u) {
-      add_waiting(tile, &waiting);
+      add_waiting(tile, &waiting, grid.mean_sigma);
       if (is_opaque(own_front, planes, grid, corner, tile, p.stop)) break;
     }
 #endif
 #ifdef SPLATS_OF_BLOCK
     if (drawn % SPLATS_OF_BLOCK == 0u) {
-      add_waiting(tile, &waiting);
+      add_waiting(tile, &waiting, grid.mean_sigma);
       add_block(tile, front);
       clear_planes(tile);
       depth_of_block = 0.0f;
     }
 #endif
   }
-  add_waiting(tile, &waiting);
+  add_waiting(tile, &waiting, grid.mean_sigma);
 #ifdef LIGHT_ORDERED
   if (is_one_block) {
     add_block_to_planes(tile, planes, grid, corner);

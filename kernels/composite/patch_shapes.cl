@@ -1,4 +1,5 @@
-// Shapes of some splats along the axes of a tile, for patches of it (patches.cl).
+// Splats whose shapes along the axes of a tile are worked out patch by patch (patches.cl): only
+// along those that they reach into.
 
 // As wide as registers are, and with as many rows as leave some of them for a splat.
 #ifdef ROWS_OF_16
@@ -10,21 +11,17 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #define load_patch(p) vload16(0, p)
 #define store_patch(v, p) vstore16(v, 0, p)
 #endif
-#ifdef CUT_BY_ROWS
-DEFINE_CUT_SHAPE(cut_shape_of_patch, float16, int16)
-#else
-#define cut_shape_of_patch cut_shape
-#endif
 #define PATCH float16
+#define PATCH_INTEGERS int16
 #define PATCH_WIDTH 16
 #define PATCH_LANES (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #else
 #define PATCH float8
+#define PATCH_INTEGERS int8
 #define PATCH_WIDTH 8
 #define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define load_patch load_eight
 #define store_patch store_eight
-#define cut_shape_of_patch cut_shape
 #endif
 
 #ifndef FACE_OF_CUBE
@@ -40,85 +37,125 @@ DEFINE_CUT_SHAPE(cut_shape_of_patch, float16, int16)
 // A bit of a word for each.
 #define MOST_SHAPES 32
 
-// One splat behind the other, zero beside their squares where no limits cut them.
+// What the shapes of splats along one axis of the tile follow from.
+typedef struct AxisOfSplats {
+  float place[MOST_SHAPES];  // of the center
+#ifdef FINE_PLACES
+  float low[MOST_SHAPES];  // what is to be added to it
+#endif
+  float sigma[MOST_SHAPES], factor[MOST_SHAPES];  // as factor_of() has it
+#ifndef CUT_BY_ROWS
+  float first[MOST_SHAPES], last[MOST_SHAPES];  // pixels that are drawn
+#endif
+} AxisOfSplats;
+
 typedef struct PatchShapes {
-  float across[MOST_SHAPES * TILE_WIDTH], along[MOST_SHAPES * TILE_HEIGHT];
+  AxisOfSplats x, y;
 #ifdef CUT_BY_ROWS
-  float limits[MOST_SHAPES * TILE_HEIGHT];  // as fill_limits() has them
-  float x[MOST_SHAPES], y[MOST_SHAPES], squeeze[MOST_SHAPES];
+  float cut2[MOST_SHAPES];
+#ifdef ELLIPSES
+  float squeeze[MOST_SHAPES];
+#endif
 #endif
   float light[MOST_SHAPES * PLANES];          // what is summed, or E and A
   uint of_columns[TILE_WIDTH / PATCH_WIDTH];  // bits of the splats that reach into patches of
   uint of_rows[TILE_HEIGHT / PATCH_HEIGHT];   // these columns, and of these rows
-} __attribute__((aligned(64))) PatchShapes;
+} PatchShapes;
 
-// What the shape along one axis follows from: the center lies at `place` + `low`, the tile's first
-// pixel at `first`; `square` is the range of pixels that are drawn.
-typedef struct Axis {
-  float first, place, low, sigma;
-  int2 square;
-} Axis;
+// Rows of a tile, one splat's behind the other's.
+#define ALL_ROWS (MOST_SHAPES * TILE_HEIGHT)
+
+// Of one splat behind the other, zero beside their squares where no limits cut them: the shape
+// along the columns of one patch, and along all rows of the tile; of sums the light of each channel
+// there.
+typedef struct PatchValues {
+#ifdef LIGHT_ORDERED
+  float along[ALL_ROWS];
+#else
+  float along[PLANES * ALL_ROWS];
+#endif
+  float across[MOST_SHAPES * PATCH_WIDTH];
+#ifdef CUT_BY_ROWS
+  float squares[MOST_SHAPES * PATCH_WIDTH];  // of distances along columns
+  float limits[ALL_ROWS];                    // as fill_limits() has them
+#endif
+} __attribute__((aligned(64))) PatchValues;
+
+// The number of the first of `splats`, of which there are some, and those without it.
+INLINED uint first_of(uint splats) {
+  return popcount(~splats & (splats - 1u));
+}
+INLINED uint without_first(uint splats) {
+  return splats & (splats - 1u);
+}
+
+INLINED PATCH distance_along(const AxisOfSplats* axis, uint k, PATCH centers) {
+#ifdef FINE_PLACES
+  return centers - axis->place[k] - axis->low[k];
+#else
+  return centers - axis->place[k];
+#endif
+}
 
 // Limits cut more than the square.
 #ifdef CUT_BY_ROWS
-#define WITHIN_SQUARE(shape, pixel, axis) (shape)
+#define WITHIN_SQUARE(shape, pixels, axis, k) (shape)
 #else
-#define WITHIN_SQUARE(shape, pixel, axis) \
-  select(shape, (PATCH)(0.0f),            \
-         ((pixel) < (float)(axis).square.x) | ((pixel) > (float)(axis).square.y))
+#define WITHIN_SQUARE(shape, pixels, axis, k) \
+  select(shape, (PATCH)(0.0f), ((pixels) < (axis)->first[k]) | ((pixels) > (axis)->last[k]))
 #endif
 
-INLINED PATCH centers_along(const Axis axis, PATCH pixel, float inverse) {
-  const PATCH d = (pixel + axis.first) - axis.place - axis.low;
-  return WITHIN_SQUARE(gaussian(d, inverse), pixel, axis);
-}
-INLINED PATCH means_along(const Axis axis, PATCH pixel, float per_sigma) {
-  const PATCH d = (pixel + axis.first) - axis.place - axis.low;
-  const PATCH mean =
-      error_function((d + 0.5f) * per_sigma) - error_function((d - 0.5f) * per_sigma);
-  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * axis.sigma), pixel, axis);
+// The shape of splat k along an axis, at these pixels of the tile, `d` from its center.
+INLINED PATCH shape_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d,
+                          float mean_sigma) {
+  const float factor = axis->factor[k], sigma = axis->sigma[k];
+  if (sigma >= mean_sigma) return WITHIN_SQUARE(exp2_negative(d * d * factor), pixels, axis, k);
+  const PATCH mean = error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor);
+  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * sigma), pixels, axis, k);
 }
 
-// The shape along an axis of a tile of `size` pixels: as many as hold the square, or, of a cut
-// kernel, whose squares differ more, all, since no processor foresees how many a splat has.
-INLINED void fill_axis_of_tile(float* values, int size, const Axis axis, float mean_sigma,
-                               PATCH lanes) {
+// What limits are held against: the square of the distance along columns, as a disc has it.
 #ifdef CUT_BY_ROWS
-  const int begin = 0, end = size;
-#else
-  const int count = (axis.square.y - axis.square.x + PATCH_WIDTH) & ~(PATCH_WIDTH - 1);
-  const int begin = min(axis.square.x, size - count), end = begin + count;
-  for (int k = 0; k < size; k += PATCH_WIDTH)
-    store_patch((PATCH)(0.0f), values + k);
+INLINED PATCH square_of_disc(const PatchShapes* shapes, uint k, PATCH d) {
+#ifdef ELLIPSES
+  const float squeeze = shapes->squeeze[k];
 #endif
-  if (axis.sigma >= mean_sigma) {
-    const float inverse = inverse_of(axis.sigma);
-    for (int k = begin; k < end; k += PATCH_WIDTH)
-      store_patch(centers_along(axis, (float)k + lanes, inverse), values + k);
-  } else {
-    const float per_sigma = 1.0f / axis.sigma;
-    for (int k = begin; k < end; k += PATCH_WIDTH)
-      store_patch(means_along(axis, (float)k + lanes, per_sigma), values + k);
+  return SQUEEZED(d) * SQUEEZED(d);
+}
+#endif
+
+INLINED void fill_across(const PatchShapes* shapes, uint splats, int x, float mean_sigma,
+                         PATCH lanes, PatchValues* values) {
+  const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
+  for (; splats != 0; splats = without_first(splats)) {
+    const uint k = first_of(splats), at = k * PATCH_WIDTH;
+    const PATCH d = distance_along(&shapes->x, k, centers);
+    store_patch(shape_along(&shapes->x, k, pixels, d, mean_sigma), values->across + at);
+#ifdef CUT_BY_ROWS
+    store_patch(square_of_disc(shapes, k, d), values->squares + at);
+#endif
   }
 }
 
-// What cuts the splat in the rows of a tile.
-#ifdef CUT_BY_ROWS
-INLINED void fill_limits_of_tile(PatchShapes* shapes, uint number, PATCH lanes,
-                                 __global const TileSplat* splat) {
-  const float cut2 = cut_radius(splat->radius) * cut_radius(splat->radius);
-  PATCH pixel = lanes;
-  for (int k = 0; k < TILE_HEIGHT; k += PATCH_WIDTH, pixel += (float)PATCH_WIDTH) {
-    const PATCH d = (pixel + FIRST_Y) - splat->y - LOW_Y(*splat);
-    store_patch(cut2 - d * d, shapes->limits + (number * TILE_HEIGHT + (uint)k));
-  }
-  shapes->x[number] = splat->x + LOW_X(*splat);
-  shapes->y[number] = splat->y + LOW_Y(*splat);
-  shapes->squeeze[number] = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
-}
+// Of as many rows from `y` on as a register holds.
+INLINED void fill_along(const PatchShapes* shapes, uint splats, int y, float mean_sigma,
+                        PATCH lanes, PatchValues* values) {
+  const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
+  for (; splats != 0; splats = without_first(splats)) {
+    const uint k = first_of(splats), at = k * TILE_HEIGHT + (uint)y;
+    const PATCH d = distance_along(&shapes->y, k, centers);
+    const PATCH shape = shape_along(&shapes->y, k, pixels, d, mean_sigma);
+#ifdef LIGHT_ORDERED
+    store_patch(shape, values->along + at);
 #else
-#define fill_limits_of_tile(shapes, number, lanes, splat)
+    for (uint c = 0; c < PLANES; ++c)
+      store_patch(shape * shapes->light[k * PLANES + c], values->along + (c * ALL_ROWS + at));
 #endif
+#ifdef CUT_BY_ROWS
+    store_patch(shapes->cut2[k] - d * d, values->limits + at);
+#endif
+  }
+}
 
 // Sets a splat's bit in the words of those of `count` patches that show some of its pixels.
 INLINED void set_bits(uint* words, int count, int2 pixels, int pixels_of_patch, uint bit) {
@@ -156,16 +193,36 @@ static inline void clear_shapes(PatchShapes* shapes) {
     shapes->of_rows[i] = 0;
 }
 
-// The splat of this number, which touches `rows` and `columns` of the tile. A call whose argument
-// tells the compiler that it may use registers of sixteen floats (lanes.cl).
-__attribute__((noinline)) static void put_shape(PatchShapes* shapes, uint number, int2 rows,
-                                                int2 columns, __global const TileSplat* splat,
-                                                float mean_sigma, PATCH lanes) {
-  const Axis along_x = {FIRST_X, splat->x, LOW_X(*splat), SIGMA_X(*splat), columns};
-  const Axis along_y = {FIRST_Y, splat->y, LOW_Y(*splat), splat->sigma, rows};
-  fill_axis_of_tile(shapes->across + number * TILE_WIDTH, TILE_WIDTH, along_x, mean_sigma, lanes);
-  fill_axis_of_tile(shapes->along + number * TILE_HEIGHT, TILE_HEIGHT, along_y, mean_sigma, lanes);
-  fill_limits_of_tile(shapes, number, lanes, splat);
+// What squares of distances are multiplied by for an exponent of 2, or, of means, distances.
+INLINED float factor_of(float sigma, float mean_sigma) {
+  return sigma >= mean_sigma ? -inverse_of(sigma) : 1.0f / sigma;
+}
+
+INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, float sigma,
+                      float mean_sigma, int2 pixels) {
+  axis->place[number] = place;
+#ifdef FINE_PLACES
+  axis->low[number] = low;
+#endif
+  axis->sigma[number] = sigma;
+  axis->factor[number] = factor_of(sigma, mean_sigma);
+#ifndef CUT_BY_ROWS
+  axis->first[number] = (float)pixels.x;
+  axis->last[number] = (float)pixels.y;
+#endif
+}
+
+// The splat of this number, which touches `rows` and `columns` of the tile.
+INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns,
+                       __global const TileSplat* splat, float mean_sigma) {
+  put_axis(&shapes->x, number, splat->x, LOW_X(*splat), SIGMA_X(*splat), mean_sigma, columns);
+  put_axis(&shapes->y, number, splat->y, LOW_Y(*splat), splat->sigma, mean_sigma, rows);
+#ifdef CUT_BY_ROWS
+  shapes->cut2[number] = cut_radius(splat->radius) * cut_radius(splat->radius);
+#ifdef ELLIPSES
+  shapes->squeeze[number] = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
+#endif
+#endif
   put_light(shapes->light + number * PLANES, splat);
   set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, 1u << number);
   set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, 1u << number);

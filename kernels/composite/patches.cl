@@ -43,40 +43,61 @@ INLINED void store_patch_row(const PatchRow row, float* pixel) {
 // A splat in the columns of a patch.
 typedef struct PatchSplat {
   PATCH across;
-  const float* light;
   const float* along;
+#ifdef LIGHT_ORDERED
+  const float* light;
+#endif
 #ifdef CUT_BY_ROWS
-  PATCH dx;
+  PATCH square;
   const float* limits;
-  float dy, squeeze;  // of the first row
+#ifdef SAMPLING_MEAN
+  PATCH dx;
+  float dy;  // of the first row
+#endif
 #endif
 } PatchSplat;
 
-INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, uint k, int x, int y, PATCH lanes) {
+INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* values, uint k,
+                                  int x, int y, PATCH lanes) {
   PatchSplat splat;
-  splat.across = load_patch(shapes->across + k * TILE_WIDTH + x);
-  splat.along = shapes->along + (k * TILE_HEIGHT + y);
+  splat.across = load_patch(values->across + k * PATCH_WIDTH);
+  splat.along = values->along + (k * TILE_HEIGHT + (uint)y);
+#ifdef LIGHT_ORDERED
   splat.light = shapes->light + k * PLANES;
+#endif
 #ifdef CUT_BY_ROWS
-  splat.dx = ((float)x + FIRST_X + lanes) - shapes->x[k];
-  splat.limits = shapes->limits + (k * TILE_HEIGHT + y);
-  splat.dy = (float)y + FIRST_Y - shapes->y[k];
-  splat.squeeze = shapes->squeeze[k];
+  splat.square = load_patch(values->squares + k * PATCH_WIDTH);
+  splat.limits = values->limits + (k * TILE_HEIGHT + (uint)y);
+#ifdef SAMPLING_MEAN
+  splat.dx = distance_along(&shapes->x, k, ((float)x + FIRST_X) + lanes);
+  splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
+#endif
 #endif
   return splat;
 }
 
-#ifdef LIGHT_ORDERED
-#define SHAPE_IN_ROW(splat, k) NOT_NEGATIVE((splat).across*(splat).along[k])
+// Of the pixels of row k, those that the kernel is not cut at.
+#ifndef CUT_BY_ROWS
+#define WHERE_DRAWN(splat, k, drawn, otherwise) (drawn)
 #else
-#define SHAPE_IN_ROW(splat, k) ((splat).across * (splat).along[k])
+#ifdef SAMPLING_MEAN
+// The pixel that holds the center keeps its light.
+#define OR_HOLDS_CENTER(splat, k)                                                             \
+  | (((splat).dx > -0.5f) & ((splat).dx <= 0.5f) &                                            \
+     (PATCH_INTEGERS)((splat).dy + (float)(k) > -0.5f && (splat).dy + (float)(k) <= 0.5f ? -1 \
+                                                                                         : 0))
+#else
+#define OR_HOLDS_CENTER(splat, k)
 #endif
-INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
-  return cut_shape_of_patch(SHAPE_IN_ROW(splat, k), splat.dx, splat.dy + (float)k, splat.limits[k],
-                            splat.squeeze);
-}
+#define WHERE_DRAWN(splat, k, drawn, otherwise) \
+  select(otherwise, drawn, ((splat).square <= (splat).limits[k]) OR_HOLDS_CENTER(splat, k))
+#endif
 
 #ifdef LIGHT_ORDERED
+INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
+  return WHERE_DRAWN(splat, k, NOT_NEGATIVE(splat.across * splat.along[k]), (PATCH)(0.0f));
+}
+
 // A layer as THIN_LAYER() (rows.cl) has it: channel c's light and opacity are planes c and `o`.
 #define PATCH_CHANNEL(c, o, COVERED)                  \
   {                                                   \
@@ -104,15 +125,17 @@ INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
   return row;
 }
 #else
+#define ADD_CHANNEL_OF_ROW(c) \
+  row.plane##c = WHERE_DRAWN( \
+      splat, k, row.plane##c + splat.across * splat.along[c * ALL_ROWS + k], row.plane##c);
 INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH shape = shape_in_row(splat, k);
-  row.plane0 += shape * splat.light[0];
-  row.plane1 += shape * splat.light[1];
-  row.plane2 += shape * splat.light[2];
+  ADD_CHANNEL_OF_ROW(0)
+  ADD_CHANNEL_OF_ROW(1)
+  ADD_CHANNEL_OF_ROW(2)
 #if PLANES == 6
-  row.plane3 += shape * splat.light[3];
-  row.plane4 += shape * splat.light[4];
-  row.plane5 += shape * splat.light[5];
+  ADD_CHANNEL_OF_ROW(3)
+  ADD_CHANNEL_OF_ROW(4)
+  ADD_CHANNEL_OF_ROW(5)
 #endif
   return row;
 }
@@ -142,35 +165,49 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
   }
 
 // Those of `splats`, of which there are some, to the patch from (x, y) on.
-#define EACH_SPLAT(ROWS)                                             \
-  for (; splats != 0; splats &= splats - 1u) {                       \
-    const uint k = popcount(~splats & (splats - 1u));                \
-    const PatchSplat splat = splat_of_patch(shapes, k, x, y, lanes); \
-    ROWS                                                             \
+#define ADD_EACH_SPLAT(ROWS)                                                 \
+  for (; splats != 0; splats = without_first(splats)) {                      \
+    const uint k = first_of(splats);                                         \
+    const PatchSplat splat = splat_of_patch(shapes, values, k, x, y, lanes); \
+    ROWS                                                                     \
   }
 INLINED void add_to_patch(float* tile, int x, int y, uint splats, const PatchShapes* shapes,
-                          LayerForms forms, PATCH lanes) {
+                          const PatchValues* values, LayerForms forms, PATCH lanes) {
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
 #ifdef LIGHT_ORDERED
   if ((splats & forms.more_terms) == 0) {
-    EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
+    ADD_EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
   } else {
-    EACH_SPLAT(ADD_AS_FORMS_ARE)
+    ADD_EACH_SPLAT(ADD_AS_FORMS_ARE)
   }
 #else
-  EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
+  ADD_EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
 #endif
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
 
-// Adds the splats of these shapes to the tile. A call, as that of patch_shapes.cl.
+INLINED uint splats_of_rows(const PatchShapes* shapes, int y) {
+  uint splats = 0;
+  for (int row = y; row < y + PATCH_WIDTH; row += PATCH_HEIGHT)
+    splats |= shapes->of_rows[row / PATCH_HEIGHT];
+  return splats;
+}
+
+// Adds the splats of these shapes to the tile. A call whose argument tells the compiler that it may
+// use registers of sixteen floats (lanes.cl).
 __attribute__((noinline)) static void add_to_patches(float* tile, const PatchShapes* shapes,
-                                                     LayerForms forms, PATCH lanes) {
-  for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT) {
-    for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
-      const uint splats = shapes->of_columns[x / PATCH_WIDTH] & shapes->of_rows[y / PATCH_HEIGHT];
-      if (splats != 0) add_to_patch(tile, x, y, splats, shapes, forms, lanes);
+                                                     LayerForms forms, float mean_sigma,
+                                                     PATCH lanes) {
+  PatchValues values;
+  for (int y = 0; y < TILE_HEIGHT; y += PATCH_WIDTH)
+    fill_along(shapes, splats_of_rows(shapes, y), y, mean_sigma, lanes, &values);
+  for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
+    const uint of_columns = shapes->of_columns[x / PATCH_WIDTH];
+    fill_across(shapes, of_columns, x, mean_sigma, lanes, &values);
+    for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT) {
+      const uint splats = of_columns & shapes->of_rows[y / PATCH_HEIGHT];
+      if (splats != 0) add_to_patch(tile, x, y, splats, shapes, &values, forms, lanes);
     }
   }
 }

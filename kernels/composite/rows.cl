@@ -62,16 +62,14 @@ static inline float inverse_of(float sigma) {
 // `shape` of the pixels of a row, zero beyond its limit; with means the pixel that holds the center
 // keeps its light.
 #ifdef SAMPLING_MEAN
-#define BESIDE_CENTER(INTS) (dx <= -0.5f | dx > 0.5f | (INTS)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
+#define BESIDE_CENTER (dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
 #else
-#define BESIDE_CENTER(INTS) (INTS)(-1)
+#define BESIDE_CENTER (int8)(-1)
 #endif
-#define DEFINE_CUT_SHAPE(name, FLOATS, INTS)                                                 \
-  static inline FLOATS name(FLOATS shape, FLOATS dx, float dy, float limit, float squeeze) { \
-    const INTS outside = SQUEEZED(dx) * SQUEEZED(dx) > limit;                                \
-    return select(shape, (FLOATS)(0.0f), outside & BESIDE_CENTER(INTS));                     \
-  }
-DEFINE_CUT_SHAPE(cut_shape, float8, int8)
+static inline float8 cut_shape(float8 shape, float8 dx, float dy, float limit, float squeeze) {
+  const int8 outside = SQUEEZED(dx) * SQUEEZED(dx) > limit;
+  return select(shape, (float8)(0.0f), outside & BESIDE_CENTER);
+}
 
 // The limits of `count` rows, or of a few more, the first one's center at distance `first` - `low`.
 static inline void fill_limits(float* along, float first, float low, int count,

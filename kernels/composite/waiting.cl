@@ -5,7 +5,7 @@ typedef struct WaitingSplats {
   uint count;
 } WaitingSplats;
 #define clear_waiting(waiting) ((waiting)->count = 0)
-#define add_waiting(tile, waiting)
+#define add_waiting(tile, waiting, mean_sigma)
 #define let_wait(tile, waiting, rows, columns, splat, mean_sigma, form) 0
 #else
 
@@ -22,9 +22,9 @@ static inline void clear_waiting(WaitingSplats* waiting) {
 }
 
 // Adds those that wait to the tile.
-static inline void add_waiting(float* tile, WaitingSplats* waiting) {
+static inline void add_waiting(float* tile, WaitingSplats* waiting, float mean_sigma) {
   if (waiting->count == 0) return;
-  add_to_patches(tile, &waiting->shapes, waiting->forms, PATCH_LANES);
+  add_to_patches(tile, &waiting->shapes, waiting->forms, mean_sigma, PATCH_LANES);
   clear_waiting(waiting);
 }
 
@@ -55,17 +55,17 @@ static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 
                            __global const TileSplat* splat, float mean_sigma, int form) {
   if (!waits(waiting, rows, columns, splat, form)) {
 #ifdef LIGHT_ORDERED
-    add_waiting(tile, waiting);
+    add_waiting(tile, waiting, mean_sigma);
 #endif
     return 0;
   }
   const uint number = waiting->count++;
-  put_shape(&waiting->shapes, number, rows, columns, splat, mean_sigma, PATCH_LANES);
+  put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
 #ifdef LIGHT_ORDERED
   waiting->forms.more_terms |= (uint)(form > BY_ONE_TERM) << number;
   waiting->forms.three_terms |= (uint)(form == BY_THREE_TERMS) << number;
 #endif
-  if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
+  if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting, mean_sigma);
   return 1;
 }
 #endif
