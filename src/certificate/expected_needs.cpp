@@ -9,8 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "certificate/expected_ends.h"
 #include "certificate/octave_errors.h"
 #include "certificate/peak_cells.h"
+#include "certificate/width_octave.h"
 #include "parallel/for_blocks.h"
 #include "scene/plan/cloud_sample.h"
 #include "scene/plan/light_structure.h"
@@ -112,10 +114,6 @@ class OctaveSample {
   std::unordered_map<std::uint64_t, Sampled> cells_;
 };
 
-int octave_of(double sigma) {
-  return sigma < 1 ? 0 : std::min(std::ilogb(sigma) + 1, width_octaves - 1);
-}
-
 GridsOfSplats grids_of(const SampledCloud& cloud, double sigma, const FramePlan& plan) {
   const GridPyramid& pyramid = plan.pyramid;
   const bool has_others = pyramid.grids.size() > 1;
@@ -133,9 +131,8 @@ using Samples = std::array<std::vector<OctaveSample>, width_octaves>;
 Samples collect(const std::vector<SampledCloud>& clouds, const FramePlan& plan) {
   Samples samples;
   for (const SampledCloud& cloud : clouds) {
-    const double sigma =
-        std::sqrt(cloud.sigma * cloud.sigma + static_cast<double>(plan.splats.widening));
-    const int octave = octave_of(sigma);
+    const double sigma = drawn_sigma(cloud, plan);
+    const int octave = width_octave(sigma);
     const GridsOfSplats on = grids_of(cloud, sigma, plan);
     std::vector<OctaveSample>& of_octave = samples[static_cast<std::size_t>(octave)];
     auto at = std::find_if(of_octave.begin(), of_octave.end(),
@@ -177,45 +174,94 @@ std::vector<Crowd> crowds_of(const std::vector<SampledCloud>& clouds, bool is_sa
   return crowds;
 }
 
-bool can_be_expected(const Frame& frame, const FramePlan& plan) {
-  if (plan.is_extended() || plan.certify || plan.has_ellipses) return false;
-  // What light without absorption needs is guessed from how bright it is (make_plan.cpp).
-  if (plan.light == LightPlan::emission) return false;
-  // Sources without a brightest, which shine through what absorbs, amplify errors by how bright
-  // they are there.
-  return plan.light != LightPlan::ordered || std::isfinite(brightest_source(frame));
+double most_error(const std::vector<Crowd>& crowds) {
+  double most = 0;
+  for (const Crowd& crowd : crowds)
+    most = std::max(most, crowd.error);
+  return most;
+}
+
+// Sources without a brightest, which shine through what absorbs, amplify errors by how bright they
+// are there.
+bool can_expect_crowds(const Frame& frame, const FramePlan& plan) {
+  return !plan.needs_sort() || std::isfinite(brightest_source(frame));
+}
+
+// Of a part of the particles none knows how unevenly all of them lie. Sums without an order are
+// drawn so fast that it would take a part of that, and slabs have ends of their own.
+bool can_expect_ends(const Frame& frame, const FramePlan& plan, bool is_sample) {
+  return plan.needs_sort() && plan.slabs == 0 && !is_sample && !frame.kernel.cut;
+}
+
+// What light without absorption needs is guessed from how bright it is (make_plan.cpp).
+bool can_be_expected(const FramePlan& plan) {
+  return !plan.is_extended() && !plan.certify && !plan.has_ellipses &&
+         plan.light != LightPlan::emission;
+}
+
+void all_cores(std::size_t count, std::size_t block_size,
+               const std::function<void(std::size_t, std::size_t)>& work) {
+  for_blocks(count, block_size, work);
+}
+
+// `error` is the most that any of them do.
+void add_needs_of_crowds(const std::vector<Crowd>& crowds, double error, double times,
+                         bool knows_ends, const FramePlan& plan, SplatNeeds& needs) {
+  double on_grids = 0;
+  for (const Crowd& crowd : crowds) {
+    if (!crowd.on.are_picture) on_grids = std::max(on_grids, crowd.light);
+  }
+  needs.grid_light = std::max(1.0, times * on_grids);
+  for (const Crowd& crowd : crowds) {
+    const auto octave = static_cast<std::size_t>(crowd.octave);
+    WidthNeed& need = needs.widths[octave];
+    if (crowd.light > 0 && !knows_ends) need.farther = std::log(times * error);
+    // Beside the picture's own grid no blurred grid may be good enough: they are drawn on it then.
+    if (crowd.on.level > 0 || crowd.error <= 0) continue;
+    const double had = std::max(1.0, plan.needs.widths[octave].light);
+    const double in_proportion = std::min(times * error * had, crowd.light_of_means);
+    need.light = std::max({need.light, times * crowd.light, in_proportion});
+  }
+}
+
+void add_needs_of_ends(const ExpectedEnds& ends, SplatNeeds& needs) {
+  constexpr double least_part = 0.03;  // octaves that do less are not drawn farther
+  constexpr double left = 0.3;         // of what is promised
+  for (std::size_t octave = 0; octave < needs.widths.size(); ++octave) {
+    if (ends.of_octaves[octave] > least_part)
+      needs.widths[octave].farther = std::log(ends.error / left);
+  }
 }
 
 }  // namespace
 
 std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan,
                                          bool on_all_cores) {
-  if (!can_be_expected(frame, plan)) return std::nullopt;
-  const BlockLoop loop = [](std::size_t count, std::size_t block_size,
-                            const std::function<void(std::size_t, std::size_t)>& work) {
-    for_blocks(count, block_size, work);
-  };
-  const std::vector<SampledCloud> clouds = sample_clouds(frame, on_all_cores ? loop : BlockLoop());
+  // What may be left to the check: more where only a sample is known.
+  constexpr double most_of_sample = 1, most_of_all = 0.3, most_of_ends = 0.7;
+  if (!can_be_expected(plan)) return std::nullopt;
+  const BlockLoop loop = on_all_cores ? BlockLoop(all_cores) : BlockLoop();
+  const std::vector<SampledCloud> clouds = sample_clouds(frame, loop);
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
-  const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
-  const double times = is_sample ? margin_of_sample : margin;
-  double error = 0, on_grids = 0;
-  for (const Crowd& crowd : crowds) {
-    error = std::max(error, crowd.error);
-    if (!crowd.on.are_picture) on_grids = std::max(on_grids, crowd.light);
-  }
-  if (error <= 1) return std::nullopt;
+  const bool knows_ends = can_expect_ends(frame, plan, is_sample);
   SplatNeeds needs;
-  needs.grid_light = std::max(1.0, times * on_grids);
-  for (const Crowd& crowd : crowds) {
-    WidthNeed& need = needs.widths[static_cast<std::size_t>(crowd.octave)];
-    if (crowd.light > 0) need.farther = std::log(times * error);
-    // Beside the picture's own grid no blurred grid may be good enough: they are drawn on it then.
-    if (crowd.on.level > 0 || crowd.error <= 0) continue;
-    const double in_proportion = std::min(times * error, crowd.light_of_means);
-    need.light = std::max({need.light, times * crowd.light, in_proportion});
+  bool are_any = false;
+  if (knows_ends || can_expect_crowds(frame, plan)) {
+    const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
+    const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin;
+    if (error > (knows_ends ? most_of_all : most_of_sample)) {
+      add_needs_of_crowds(crowds, error, times, knows_ends, plan, needs);
+      are_any = true;
+    }
   }
-  return needs;
+  if (knows_ends) {
+    const ExpectedEnds ends = expected_ends(clouds, frame, plan, loop);
+    if (ends.error > most_of_ends) {
+      add_needs_of_ends(ends, needs);
+      are_any = true;
+    }
+  }
+  return are_any ? std::optional<SplatNeeds>(needs) : std::nullopt;
 }
 
 }  // namespace splotchcl

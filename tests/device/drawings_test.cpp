@@ -42,6 +42,22 @@ class Drawings : public PictureTest {
     return frame;
   }
 
+  // Wide clouds in the middle, whose ends add up around them.
+  static Frame cluster_in_the_dark(double tolerance) {
+    CloudSetup setup;
+    setup.width = 100;
+    setup.height = 70;
+    setup.count = 4000;
+    setup.sigma_low = 8;
+    setup.sigma_high = 12;
+    setup.column_low = 0.01;
+    setup.column_high = 0.3;
+    Frame frame = frame_of(400, 300, {random_clouds(setup)});
+    frame.components[0].absorption = {Absorption::Kind::gray, 0.2};
+    frame.tolerance = tolerance;
+    return frame;
+  }
+
   // How many of the pixels from the first column on differ, and of those before it.
   static std::pair<int, int> differences(const Image& a, const Image& b, int first) {
     int beyond = 0, before = 0;
@@ -57,6 +73,16 @@ class Drawings : public PictureTest {
 TEST_F(Drawings, OfCutKernelsNeedNoSecondOne) {
   for (const double tolerance : {1e-2, 1e-3, 1e-4})
     EXPECT_EQ(drawings_of(faint_discs_in_one_place(tolerance)), 1U) << tolerance;
+}
+
+TEST_F(Drawings, InOrderAreOneWhereAllEndsAreKnownBefore) {
+  for (const double tolerance : {1e-3, 1e-5}) {
+    const Frame frame = cluster_in_the_dark(tolerance);
+    EXPECT_EQ(drawings_of(frame), 1U) << tolerance;
+    renderer().render(frame, make_plan(frame));
+    EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U)
+        << "a plan that does not know them, " << tolerance;
+  }
 }
 
 TEST_F(Drawings, AfterTheFirstAreOfThePartsThatBrokeThePromise) {

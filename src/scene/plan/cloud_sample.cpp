@@ -12,7 +12,8 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t sample_limit = 32768;
+// Of more than `most_in_full` so many.
+constexpr std::size_t sample_limit = 32768, most_in_full = 65536;
 
 bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
   const double reach = 7 * cloud.sigma;  // no cloud is drawn farther
@@ -28,6 +29,7 @@ class ComponentSample {
         frame_(frame),
         stride_(stride),
         colors_(component),
+        emitted_part_(peak_emission(component) / std::max(peak_color(component), least_color)),
         least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {
     for (const Column* column : component.particles.columns()) {
       const bool lies_in_memory = column->is_array() && !column->source();
@@ -59,8 +61,10 @@ class ComponentSample {
     cloud.y = found->y;
     cloud.sigma = std::hypot(found->sigma, least_sigma_);
     if (!reaches_picture(cloud, frame_)) return std::nullopt;
-    cloud.light = colors_(i) / component_.reference_column * found->column * found->sigma /
-                  cloud.sigma * std::min(1.0, pi * cloud.sigma * cloud.sigma);
+    const double amplitude = colors_(i) / component_.reference_column * found->column;
+    cloud.light =
+        amplitude * found->sigma / cloud.sigma * std::min(1.0, pi * cloud.sigma * cloud.sigma);
+    cloud.emitted_part = emitted_part(amplitude);
     cloud.weight = static_cast<double>(stride_);
     return cloud;
   }
@@ -73,6 +77,11 @@ class ComponentSample {
   std::size_t particle(std::size_t sampled) const {
     return sampled_index(sampled * stride_, stride_, component_.particles.count);
   }
+  // With gray absorption the dim emit less than they absorb (scene.h, Absorption).
+  double emitted_part(double amplitude) const {
+    if (component_.absorption.kind != Absorption::Kind::gray) return emitted_part_;
+    return amplitude > 0 ? amplitude / (amplitude + component_.absorption.factor) : 0;
+  }
   static void fetch(const float* value) {
 #ifdef __GNUC__
     __builtin_prefetch(value);
@@ -82,7 +91,10 @@ class ComponentSample {
   const DrawnComponent& component_;
   const Frame& frame_;
   std::size_t stride_;
+  static constexpr double least_color = 1e-300;
+
   PeakColors colors_;
+  double emitted_part_;
   double least_sigma_;
   std::vector<Array> arrays_;  // the component's columns that lie in memory
 };
@@ -120,7 +132,8 @@ void one_after_the_other(std::size_t count, std::size_t at_once,
 }  // namespace
 
 std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores) {
-  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
+  const std::uint64_t count = particle_count(frame);
+  const std::size_t stride = count <= most_in_full ? 1 : sample_stride(count, sample_limit);
   std::vector<SampledCloud> sample;
   for (const DrawnComponent& component : frame.components) {
     const bool may_share = on_all_cores && are_arrays(component.particles);

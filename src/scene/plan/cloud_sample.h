@@ -10,19 +10,21 @@ namespace splotchcl {
 
 // A particle that may be seen in the picture.
 struct SampledCloud {
-  double x = 0, y = 0;  // pixels of the whole picture
-  double sigma = 0;     // pixels, with kernel.min_radius
-  double light = 0;     // or depth, whichever is more, in a pixel: of narrow ones their flux
-  double weight = 1;    // particles that it stands for
+  double x = 0, y = 0;      // pixels of the whole picture
+  double sigma = 0;         // pixels, with kernel.min_radius
+  double light = 0;         // or depth, whichever is more, in a pixel: of narrow ones their flux
+  double emitted_part = 1;  // of it, what is emitted
+  double weight = 1;        // particles that it stands for
 };
 
 // Calls work(first, last) for all blocks of `count` things, in any order.
 using BlockLoop = std::function<void(std::size_t count, std::size_t block_size,
                                      const std::function<void(std::size_t, std::size_t)>& work)>;
 
-// At most 32768 particles of a frame, those that the whole picture does not show left out. The
-// same in every run, and whatever crop is drawn. Of a file that is mapped each is a page that the
-// system has to find, so columns that are arrays are looked at `on_all_cores`, where that is given.
+// All particles of a frame of at most 65536, of others at most 32768, those that the whole picture
+// does not show left out. The same in every run, and whatever crop is drawn. Of a file that is
+// mapped each is a page that the system has to find, so columns that are arrays are looked at
+// `on_all_cores`, where that is given.
 std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores = {});
 
 }  // namespace splotchcl

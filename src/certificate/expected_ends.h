@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/plan/cloud_sample.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What the ends of splats will do where they do most, over what is promised.
+struct ExpectedEnds {
+  double error = 0;
+  std::array<double, width_octaves> of_octaves{};  // its parts
+};
+
+// Of all clouds of a frame that has no grid but the picture's own, by the sums of the check
+// (docs/accuracy.md, "Checked after drawing"). `on_all_cores`, where that is given.
+ExpectedEnds expected_ends(const std::vector<SampledCloud>& clouds, const Frame& frame,
+                           const FramePlan& plan, const BlockLoop& on_all_cores = {});
+
+}  // namespace splotchcl
