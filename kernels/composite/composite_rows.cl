@@ -65,15 +65,18 @@ static inline void store_tile(const float* tile, __global float* planes, const G
 #ifdef SPLATS_OF_BLOCK
 // Equal splats err by equal roundings, up to half of one each, and a layer that is thinner than
 // half a rounding of the opacity in front of it adds light, but no opacity. Drawn by themselves in
-// blocks of so many, n of them err by as many roundings and one for each block, not by n.
+// blocks of so many, n of them err by as many roundings and one for each block, not by n. Leaves
+// nothing in the block.
 #ifdef LIGHT_ORDERED
-static inline void add_block(const float* block, float* front) {
+static inline void add_block(float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH) {
     const PATCH opacity = load_patch(front + SUMS * TILE_PIXELS + i);
     const PATCH behind = load_patch(block + SUMS * TILE_PIXELS + i);
     const PATCH t = transmittance_of(opacity);
     store_patch(load_patch(front + i) + t * load_patch(block + i), front + i);
     store_patch(carry_behind(opacity, t, behind), front + SUMS * TILE_PIXELS + i);
+    store_patch((PATCH)(0.0f), block + i);
+    store_patch((PATCH)(0.0f), block + SUMS * TILE_PIXELS + i);
   }
 }
 
@@ -97,9 +100,11 @@ static inline void add_block_to_planes(const float* block, __global float* plane
   }
 }
 #else
-static inline void add_block(const float* block, float* front) {
-  for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH)
+static inline void add_block(float* block, float* front) {
+  for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH) {
     store_patch(load_patch(front + i) + load_patch(block + i), front + i);
+    store_patch((PATCH)(0.0f), block + i);
+  }
 }
 #endif
 #endif
@@ -286,7 +291,6 @@ __attribute__((noinline)) static void composite_segment(
     if (drawn % SPLATS_OF_BLOCK == 0u) {
       add_waiting(tile, &waiting, grid.mean_sigma);
       add_block(tile, front);
-      clear_planes(tile);
       depth_of_block = 0.0f;
     }
 #endif
