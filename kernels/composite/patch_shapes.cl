@@ -69,11 +69,7 @@ typedef struct PatchShapes {
 // along the columns of one patch, and along all rows of the tile; of sums the light of each channel
 // there.
 typedef struct PatchValues {
-#ifdef LIGHT_ORDERED
   float along[ALL_ROWS];
-#else
-  float along[PLANES * ALL_ROWS];
-#endif
   float across[MOST_SHAPES * PATCH_WIDTH];
 #ifdef CUT_BY_ROWS
   float squares[MOST_SHAPES * PATCH_WIDTH];  // of distances along columns
@@ -145,12 +141,7 @@ INLINED void fill_along(const PatchShapes* shapes, uint splats, int y, float mea
     const uint k = first_of(splats), at = k * TILE_HEIGHT + (uint)y;
     const PATCH d = distance_along(&shapes->y, k, centers);
     const PATCH shape = shape_along(&shapes->y, k, pixels, d, mean_sigma);
-#ifdef LIGHT_ORDERED
     store_patch(shape, values->along + at);
-#else
-    for (uint c = 0; c < PLANES; ++c)
-      store_patch(shape * shapes->light[k * PLANES + c], values->along + (c * ALL_ROWS + at));
-#endif
 #ifdef CUT_BY_ROWS
     store_patch(shapes->cut2[k] - d * d, values->limits + at);
 #endif

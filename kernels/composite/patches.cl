@@ -42,11 +42,16 @@ INLINED void store_patch_row(const PatchRow row, float* pixel) {
 
 // A splat in the columns of a patch.
 typedef struct PatchSplat {
-  PATCH across;
-  const float* along;
 #ifdef LIGHT_ORDERED
+  PATCH across;
   const float* light;
+#else
+  PATCH light0, light1, light2;
+#if PLANES == 6
+  PATCH light3, light4, light5;
 #endif
+#endif
+  const float* along;
 #ifdef CUT_BY_ROWS
   PATCH square;
   const float* limits;
@@ -60,10 +65,20 @@ typedef struct PatchSplat {
 INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* values, uint k,
                                   int x, int y, PATCH lanes) {
   PatchSplat splat;
-  splat.across = load_patch(values->across + k * PATCH_WIDTH);
+  const PATCH across = load_patch(values->across + k * PATCH_WIDTH);
   splat.along = values->along + (k * TILE_HEIGHT + (uint)y);
 #ifdef LIGHT_ORDERED
+  splat.across = across;
   splat.light = shapes->light + k * PLANES;
+#else
+  splat.light0 = across * shapes->light[k * PLANES];
+  splat.light1 = across * shapes->light[k * PLANES + 1];
+  splat.light2 = across * shapes->light[k * PLANES + 2];
+#if PLANES == 6
+  splat.light3 = across * shapes->light[k * PLANES + 3];
+  splat.light4 = across * shapes->light[k * PLANES + 4];
+  splat.light5 = across * shapes->light[k * PLANES + 5];
+#endif
 #endif
 #ifdef CUT_BY_ROWS
   splat.square = load_patch(values->squares + k * PATCH_WIDTH);
@@ -126,9 +141,9 @@ INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
 }
 #else
 #define ADD_CHANNEL_OF_ROW(c) \
-  row.plane##c = WHERE_DRAWN( \
-      splat, k, row.plane##c + splat.across * splat.along[c * ALL_ROWS + k], row.plane##c);
+  row.plane##c = WHERE_DRAWN(splat, k, row.plane##c + splat.light##c * along, row.plane##c);
 INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH along = splat.along[k];
   ADD_CHANNEL_OF_ROW(0)
   ADD_CHANNEL_OF_ROW(1)
   ADD_CHANNEL_OF_ROW(2)
