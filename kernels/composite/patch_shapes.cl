@@ -34,8 +34,15 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #error "a tile is not made of whole patches"
 #endif
 
-// A bit of a word for each.
+// A bit of a word for each. The more there are, the less often patches are loaded and stored;
+// layers took longer with 64.
+#ifndef LIGHT_ORDERED
+#define MOST_SHAPES 64
+typedef ulong ShapeBits;
+#else
 #define MOST_SHAPES 32
+typedef uint ShapeBits;
+#endif
 
 // What the shapes of splats along one axis of the tile follow from.
 typedef struct AxisOfSplats {
@@ -57,9 +64,9 @@ typedef struct PatchShapes {
   float squeeze[MOST_SHAPES];
 #endif
 #endif
-  float light[MOST_SHAPES * PLANES];          // what is summed, or E and A
-  uint of_columns[TILE_WIDTH / PATCH_WIDTH];  // bits of the splats that reach into patches of
-  uint of_rows[TILE_HEIGHT / PATCH_HEIGHT];   // these columns, and of these rows
+  float light[MOST_SHAPES * PLANES];  // what is summed, or E and A
+  // Those that reach into patches of these columns, and of these rows.
+  ShapeBits of_columns[TILE_WIDTH / PATCH_WIDTH], of_rows[TILE_HEIGHT / PATCH_HEIGHT];
 } PatchShapes;
 
 // Rows of a tile, one splat's behind the other's.
@@ -78,11 +85,11 @@ typedef struct PatchValues {
 } __attribute__((aligned(64))) PatchValues;
 
 // The number of the first of `splats`, of which there are some, and those without it.
-INLINED uint first_of(uint splats) {
-  return popcount(~splats & (splats - 1u));
+INLINED uint first_of(ShapeBits splats) {
+  return (uint)popcount(~splats & (splats - 1));
 }
-INLINED uint without_first(uint splats) {
-  return splats & (splats - 1u);
+INLINED ShapeBits without_first(ShapeBits splats) {
+  return splats & (splats - 1);
 }
 
 INLINED PATCH distance_along(const AxisOfSplats* axis, uint k, PATCH centers) {
@@ -120,7 +127,7 @@ INLINED PATCH square_of_disc(const PatchShapes* shapes, uint k, PATCH d) {
 }
 #endif
 
-INLINED void fill_across(const PatchShapes* shapes, uint splats, int x, float mean_sigma,
+INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, float mean_sigma,
                          PATCH lanes, PatchValues* values) {
   const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
   for (; splats != 0; splats = without_first(splats)) {
@@ -134,7 +141,7 @@ INLINED void fill_across(const PatchShapes* shapes, uint splats, int x, float me
 }
 
 // Of as many rows from `y` on as a register holds.
-INLINED void fill_along(const PatchShapes* shapes, uint splats, int y, float mean_sigma,
+INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, float mean_sigma,
                         PATCH lanes, PatchValues* values) {
   const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
   for (; splats != 0; splats = without_first(splats)) {
@@ -149,10 +156,11 @@ INLINED void fill_along(const PatchShapes* shapes, uint splats, int y, float mea
 }
 
 // Sets a splat's bit in the words of those of `count` patches that show some of its pixels.
-INLINED void set_bits(uint* words, int count, int2 pixels, int pixels_of_patch, uint bit) {
+INLINED void set_bits(ShapeBits* words, int count, int2 pixels, int pixels_of_patch,
+                      ShapeBits bit) {
   for (int i = 0; i < count; ++i) {
     const int begin = i * pixels_of_patch;
-    words[i] |= pixels.y >= begin && pixels.x < begin + pixels_of_patch ? bit : 0u;
+    words[i] |= pixels.y >= begin && pixels.x < begin + pixels_of_patch ? bit : (ShapeBits)0;
   }
 }
 
@@ -215,7 +223,8 @@ INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns
 #endif
 #endif
   put_light(shapes->light + number * PLANES, splat);
-  set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH, 1u << number);
-  set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, 1u << number);
+  set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH,
+           (ShapeBits)1 << number);
+  set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, (ShapeBits)1 << number);
 }
 #endif

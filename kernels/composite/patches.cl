@@ -5,7 +5,7 @@
 
 // Bits of the splats whose layers take more than one term, and of those that take three.
 typedef struct LayerForms {
-  uint more_terms, three_terms;
+  ShapeBits more_terms, three_terms;
 } LayerForms;
 
 // Light, and behind it opacities in order.
@@ -170,13 +170,13 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
 #define ADD_ONE_TERM(k) row##k = add_one_term(row##k, splat, k);
 #define ADD_TWO_TERMS(k) row##k = add_two_terms(row##k, splat, k);
 #define ADD_THREE_TERMS(k) row##k = add_three_terms(row##k, splat, k);
-#define ADD_AS_FORMS_ARE                    \
-  if (!(forms.more_terms >> k & 1u)) {      \
-    EACH_ROW(ADD_ONE_TERM)                  \
-  } else if (forms.three_terms >> k & 1u) { \
-    EACH_ROW(ADD_THREE_TERMS)               \
-  } else {                                  \
-    EACH_ROW(ADD_TWO_TERMS)                 \
+#define ADD_AS_FORMS_ARE                   \
+  if (!(forms.more_terms >> k & 1)) {      \
+    EACH_ROW(ADD_ONE_TERM)                 \
+  } else if (forms.three_terms >> k & 1) { \
+    EACH_ROW(ADD_THREE_TERMS)              \
+  } else {                                 \
+    EACH_ROW(ADD_TWO_TERMS)                \
   }
 
 // Those of `splats`, of which there are some, to the patch from (x, y) on.
@@ -186,7 +186,7 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
     const PatchSplat splat = splat_of_patch(shapes, values, k, x, y, lanes); \
     ROWS                                                                     \
   }
-INLINED void add_to_patch(float* tile, int x, int y, uint splats, const PatchShapes* shapes,
+INLINED void add_to_patch(float* tile, int x, int y, ShapeBits splats, const PatchShapes* shapes,
                           const PatchValues* values, LayerForms forms, PATCH lanes) {
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
@@ -202,8 +202,8 @@ INLINED void add_to_patch(float* tile, int x, int y, uint splats, const PatchSha
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
 
-INLINED uint splats_of_rows(const PatchShapes* shapes, int y) {
-  uint splats = 0;
+INLINED ShapeBits splats_of_rows(const PatchShapes* shapes, int y) {
+  ShapeBits splats = 0;
   for (int row = y; row < y + PATCH_WIDTH; row += PATCH_HEIGHT)
     splats |= shapes->of_rows[row / PATCH_HEIGHT];
   return splats;
@@ -218,10 +218,10 @@ __attribute__((noinline)) static void add_to_patches(float* tile, const PatchSha
   for (int y = 0; y < TILE_HEIGHT; y += PATCH_WIDTH)
     fill_along(shapes, splats_of_rows(shapes, y), y, mean_sigma, lanes, &values);
   for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
-    const uint of_columns = shapes->of_columns[x / PATCH_WIDTH];
+    const ShapeBits of_columns = shapes->of_columns[x / PATCH_WIDTH];
     fill_across(shapes, of_columns, x, mean_sigma, lanes, &values);
     for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT) {
-      const uint splats = of_columns & shapes->of_rows[y / PATCH_HEIGHT];
+      const ShapeBits splats = of_columns & shapes->of_rows[y / PATCH_HEIGHT];
       if (splats != 0) add_to_patch(tile, x, y, splats, shapes, &values, forms, lanes);
     }
   }

@@ -62,8 +62,8 @@ static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
 #ifdef LIGHT_ORDERED
-  waiting->forms.more_terms |= (uint)(form > BY_ONE_TERM) << number;
-  waiting->forms.three_terms |= (uint)(form == BY_THREE_TERMS) << number;
+  waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
+  waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
 #endif
   if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting, mean_sigma);
   return 1;
