@@ -73,8 +73,7 @@ typedef struct PatchShapes {
 #define ALL_ROWS (MOST_SHAPES * TILE_HEIGHT)
 
 // Of one splat behind the other, zero beside their squares where no limits cut them: the shape
-// along the columns of one patch, and along all rows of the tile; of sums the light of each channel
-// there.
+// along the columns of one patch, and along all rows of the tile.
 typedef struct PatchValues {
   float along[ALL_ROWS];
   float across[MOST_SHAPES * PATCH_WIDTH];

@@ -36,13 +36,6 @@ struct Part {
   bool is_of_itself = false;  // peaks are counted as parts of themselves
 };
 
-PixelBlock pixels_of(const PictureLight& picture, std::size_t block) {
-  constexpr int side = BlockErrors::block_pixels;
-  const int x = static_cast<int>(block) % picture.columns * side;
-  const int y = static_cast<int>(block) / picture.columns * side;
-  return {x, x + side, y, y + side};
-}
-
 // The part of itself by which every splat may err: the polynomial of exp, means of bright splats,
 // and the roundings of sums. These have either sign: 6.5 standard deviations are passed once in
 // 1e10 (docs/accuracy.md).
@@ -104,7 +97,7 @@ class FrameErrors {
   ErrorParts in_block(std::size_t block, std::vector<Part>& parts) const {
     const BlockLight& light = picture_.blocks[block];
     const double promise = promise_of(block), response = light.response / promise;
-    const PixelBlock pixels = pixels_of(picture_, block);
+    const PixelBlock pixels = pixels_of_block(block, picture_.columns);
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -77,13 +76,6 @@ std::vector<PeakCells> cells_of(const std::vector<SampledCloud>& clouds, const F
   return all;
 }
 
-PixelBlock block_at(std::size_t number, int columns) {
-  constexpr int side = BlockErrors::block_pixels;
-  const int x = static_cast<int>(number) % columns * side;
-  const int y = static_cast<int>(number) / columns * side;
-  return {x, x + side, y, y + side};
-}
-
 ExpectedEnds ends_in(const PixelBlock& block,
                      const std::vector<std::optional<OctaveErrors>>& octaves, double promise) {
   ExpectedEnds ends;
@@ -95,31 +87,23 @@ ExpectedEnds ends_in(const PixelBlock& block,
   return ends;
 }
 
-void run(const BlockLoop& on_all_cores, std::size_t count, std::size_t at_once,
-         const std::function<void(std::size_t, std::size_t)>& work) {
-  if (on_all_cores)
-    on_all_cores(count, at_once, work);
-  else
-    work(0, count);
-}
-
 }  // namespace
 
 ExpectedEnds expected_ends(const std::vector<SampledCloud>& clouds, const Frame& frame,
-                           const FramePlan& plan, const BlockLoop& on_all_cores) {
+                           const FramePlan& plan, const BlockLoop& loop) {
   constexpr std::size_t blocks_at_once = 256;
   const Frame whole = whole_picture(frame);
   const std::vector<PeakCells> cells = cells_of(clouds, whole, plan);
   std::vector<std::optional<OctaveErrors>> octaves(cells.size());
-  run(on_all_cores, octaves.size(), 1, [&](std::size_t first, std::size_t last) {
+  loop(octaves.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       octaves[i].emplace(cells[i], whole, plan);
   });
   const BlockErrors blocks(frame.width, frame.height);
   std::vector<ExpectedEnds> of_blocks(blocks.errors.size());
-  run(on_all_cores, of_blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
+  loop(of_blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b)
-      of_blocks[b] = ends_in(block_at(b, blocks.columns), octaves, plan.shares.promise);
+      of_blocks[b] = ends_in(pixels_of_block(b, blocks.columns), octaves, plan.shares.promise);
   });
   return *std::max_element(of_blocks.begin(), of_blocks.end(),
                            [](const auto& a, const auto& b) { return a.error < b.error; });

@@ -240,7 +240,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   // What may be left to the check: more where only a sample is known.
   constexpr double most_of_sample = 1, most_of_all = 0.3, most_of_ends = 0.7;
   if (!can_be_expected(plan)) return std::nullopt;
-  const BlockLoop loop = on_all_cores ? BlockLoop(all_cores) : BlockLoop();
+  const BlockLoop loop = on_all_cores ? all_cores : one_after_the_other;
   const std::vector<SampledCloud> clouds = sample_clouds(frame, loop);
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
   const bool knows_ends = can_expect_ends(frame, plan, is_sample);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "certificate/block_sums.h"
 #include "certificate/peak_cells.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/frame_check.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
@@ -14,6 +16,14 @@ namespace splotchcl {
 struct PixelBlock {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
+
+// The block of this number of BlockErrors, of which so many lie side by side.
+inline PixelBlock pixels_of_block(std::size_t number, int columns) {
+  constexpr int side = BlockErrors::block_pixels;
+  const int x = static_cast<int>(number) % columns * side;
+  const int y = static_cast<int>(number) / columns * side;
+  return {x, x + side, y, y + side};
+}
 
 // Cells around a pixel whose splats may end there: all up to `reach` away, and one farther with
 // what is left of the nearest of them.

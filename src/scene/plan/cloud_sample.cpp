@@ -29,7 +29,7 @@ class ComponentSample {
         frame_(frame),
         stride_(stride),
         colors_(component),
-        emitted_part_(peak_emission(component) / std::max(peak_color(component), least_color)),
+        emitted_part_(peak_emission(component) / std::max(peak_color(component), 1e-300)),
         least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {
     for (const Column* column : component.particles.columns()) {
       const bool lies_in_memory = column->is_array() && !column->source();
@@ -91,8 +91,6 @@ class ComponentSample {
   const DrawnComponent& component_;
   const Frame& frame_;
   std::size_t stride_;
-  static constexpr double least_color = 1e-300;
-
   PeakColors colors_;
   double emitted_part_;
   double least_sigma_;
@@ -123,22 +121,22 @@ void append(const ComponentSample& component, const BlockLoop& loop,
     sample.insert(sample.end(), block.begin(), block.end());
 }
 
-void one_after_the_other(std::size_t count, std::size_t at_once,
-                         const std::function<void(std::size_t, std::size_t)>& work) {
-  for (std::size_t first = 0; first < count; first += at_once)
-    work(first, std::min(first + at_once, count));
-}
-
 }  // namespace
 
-std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores) {
+void one_after_the_other(std::size_t count, std::size_t block_size,
+                         const std::function<void(std::size_t, std::size_t)>& work) {
+  for (std::size_t first = 0; first < count; first += block_size)
+    work(first, std::min(first + block_size, count));
+}
+
+std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& loop) {
   const std::uint64_t count = particle_count(frame);
   const std::size_t stride = count <= most_in_full ? 1 : sample_stride(count, sample_limit);
   std::vector<SampledCloud> sample;
   for (const DrawnComponent& component : frame.components) {
-    const bool may_share = on_all_cores && are_arrays(component.particles);
+    const bool may_share = are_arrays(component.particles);
     append(ComponentSample(component, frame, stride),
-           may_share ? on_all_cores : one_after_the_other, sample);
+           may_share ? loop : BlockLoop(one_after_the_other), sample);
   }
   return sample;
 }

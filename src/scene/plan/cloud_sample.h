@@ -21,10 +21,15 @@ struct SampledCloud {
 using BlockLoop = std::function<void(std::size_t count, std::size_t block_size,
                                      const std::function<void(std::size_t, std::size_t)>& work)>;
 
+// By the calling thread alone.
+void one_after_the_other(std::size_t count, std::size_t block_size,
+                         const std::function<void(std::size_t, std::size_t)>& work);
+
 // All particles of a frame of at most 65536, of others at most 32768, those that the whole picture
 // does not show left out. The same in every run, and whatever crop is drawn. Of a file that is
 // mapped each is a page that the system has to find, so columns that are arrays are looked at
-// `on_all_cores`, where that is given.
-std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& on_all_cores = {});
+// by `loop`.
+std::vector<SampledCloud> sample_clouds(const Frame& frame,
+                                        const BlockLoop& loop = one_after_the_other);
 
 }  // namespace splotchcl
