@@ -14,8 +14,8 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 }
 
 // Splats in sorted order, and in each list the entries that follow.
-#define SPLATS_AHEAD 16
-#define ENTRIES_AHEAD 2
+#define SPLATS_AHEAD 32
+#define ENTRIES_AHEAD 4
 #define SLOTS_AHEAD 32
 
 #ifndef BLOCKS_OF_PROJECTION
@@ -32,9 +32,11 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   const uint begin = p.first + block * p.stride;
   const uint end = min(begin + p.length, p.end);
   for (uint slot = begin; slot < end; ++slot) {
+    ask_for(order + slot + NUMBERS_AHEAD);
     ask_for(splats + order[min(slot + SPLATS_AHEAD, end - 1)]);
     const Splat splat = splats[order[slot]];
     __global Splat* kept = in_order + (slot - p.first);
+    ask_to_write(kept + SLOTS_AHEAD);
     *kept = splat;
     __global const Grid* grid = grids + grid_of(splat);
 #ifdef TILES_IN_SPLAT

@@ -53,6 +53,9 @@ __attribute__((noinline)) static void add_one_by_one(const Batch* batch, int cou
   }
 }
 
+// A batch takes less than memory does to answer.
+#define ENTRIES_AHEAD 64
+
 INLINED void collect_batch(__global const TileSplat* entries, int count, const TileOfCells* tile,
                            const CertifyParameters* p) {
   Batch batch;
@@ -103,7 +106,9 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
   for (uint s = id; s < p.segment_count && segments[s].tile == number; ++s) {
     const uint end = segments[s].end;
     tile.cells[p.listed] += (float)(end - segments[s].begin);
-    for (uint k = segments[s].begin; k < end; k += LANES)
+    for (uint k = segments[s].begin; k < end; k += LANES) {
+      ask_for_entries(entries + k + ENTRIES_AHEAD);
       collect_batch(entries + k, end - k < LANES ? (int)(end - k) : LANES, &tile, &p);
+    }
   }
 }

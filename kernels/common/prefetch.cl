@@ -14,3 +14,7 @@
 #define ask_for(place)
 #define ask_to_write(place)
 #endif
+// Numbers of four bytes read one after the other are asked for so many ahead, a line of the cache
+// at a time: not every processor sees them coming, or early enough.
+#define NUMBERS_AHEAD 512
+#define NUMBERS_OF_LINE 16

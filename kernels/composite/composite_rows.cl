@@ -177,6 +177,8 @@ static inline int is_opaque(const float* front, __global const float* planes, co
 }
 #endif
 
+#define ENTRIES_AHEAD 32
+
 // A call: of a kernel itself PoCL makes three copies. Its last argument tells the compiler that it
 // may use registers of sixteen floats (lanes.cl).
 __attribute__((noinline)) static void composite_segment(
@@ -228,6 +230,7 @@ __attribute__((noinline)) static void composite_segment(
   EntryWindows windows;
   for (uint k = segment.begin; k < end; ++k) {
     const int in_batch = (int)((k - segment.begin) % LANES);
+    if (in_batch == 0) ask_for_entries(entries + k + ENTRIES_AHEAD);
 #ifdef STENCILS
     if (in_batch == 0 && stencil) {
       find_stencils(entries + k, stencil, &stencil_batch);

@@ -11,6 +11,8 @@
       __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS \
           TILE_PARAMETERS
 
+#define SPLATS_WRITTEN_AHEAD 64
+
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
 __attribute__((noinline)) static void project_block(uint block, const ProjectParameters* of_frame,
@@ -112,6 +114,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
         const Splat listed = splat;
 #endif
         __global Splat* kept = splats + slot;
+        ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
         STORE_SPLAT(found, k, listed, kept);
 #ifdef EXTENDED_NUMBERS
 #ifdef COPIES

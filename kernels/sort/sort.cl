@@ -1,6 +1,10 @@
 // Least-significant-digit radix sort of (key, value) pairs, 8-bit digits, stable:
 // histogram, scan, scatter. A work-item walks one block of pairs in order; no work-item
 // waits for another, so no forward progress is assumed.
+// Neighbours have the same digit often, and a processor that counts one waits until the one before
+// has been counted: so they are counted apart, and added up at the end.
+#define COUNTED_APART 4
+
 // Also, per block, the bits that are set in some keys and in all of them: a digit that is the
 // same for all needs no pass.
 __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
@@ -8,18 +12,33 @@ __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
   const uint block = get_global_id(0);
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
-  uint histogram[SORT_DIGITS];
-  for (uint d = 0; d < SORT_DIGITS; ++d)
-    histogram[d] = 0;
-  uint some = 0, all = ~0u;
-  for (uint i = begin; i < end; ++i) {
-    const uint key = keys[i];
-    some |= key;
-    all &= key;
-    ++histogram[(key >> p.shift) & (SORT_DIGITS - 1)];
+  uint counts[COUNTED_APART][SORT_DIGITS];
+  for (uint k = 0; k < COUNTED_APART; ++k) {
+    for (uint d = 0; d < SORT_DIGITS; ++d)
+      counts[k][d] = 0;
   }
-  for (uint d = 0; d < SORT_DIGITS; ++d)
-    histograms[d * p.block_count + block] = histogram[d];
+  uint some = 0, all = ~0u;
+  uint i = begin;
+  for (; i + NUMBERS_OF_LINE <= end; i += NUMBERS_OF_LINE) {
+    ask_for(keys + i + NUMBERS_AHEAD);
+    for (uint k = 0; k < NUMBERS_OF_LINE; ++k) {
+      const uint key = keys[i + k];
+      some |= key;
+      all &= key;
+      ++counts[k % COUNTED_APART][(key >> p.shift) & (SORT_DIGITS - 1)];
+    }
+  }
+  for (; i < end; ++i) {
+    some |= keys[i];
+    all &= keys[i];
+    ++counts[0][(keys[i] >> p.shift) & (SORT_DIGITS - 1)];
+  }
+  for (uint d = 0; d < SORT_DIGITS; ++d) {
+    uint sum = 0;
+    for (uint k = 0; k < COUNTED_APART; ++k)
+      sum += counts[k][d];
+    histograms[d * p.block_count + block] = sum;
+  }
   bits[block].some = some;
   bits[block].all = all;
 }
@@ -48,13 +67,18 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
   uint next[SORT_DIGITS];
   for (uint d = 0; d < SORT_DIGITS; ++d)
     next[d] = histograms[d * p.block_count + block];
-  for (uint i = begin; i < end; ++i) {
-    const uint key = keys[i];
-    const uint place = next[(key >> p.shift) & (SORT_DIGITS - 1)]++;
-    sorted_keys[place] = key;
-    sorted_values[place] = values[i];
-    ask_to_write(sorted_keys + place + PAIRS_AHEAD);
-    ask_to_write(sorted_values + place + PAIRS_AHEAD);
+  for (uint first = begin; first < end; first += NUMBERS_OF_LINE) {
+    ask_for(keys + first + NUMBERS_AHEAD);
+    ask_for(values + first + NUMBERS_AHEAD);
+    const uint line_end = min(first + NUMBERS_OF_LINE, end);
+    for (uint i = first; i < line_end; ++i) {
+      const uint key = keys[i];
+      const uint place = next[(key >> p.shift) & (SORT_DIGITS - 1)]++;
+      sorted_keys[place] = key;
+      sorted_values[place] = values[i];
+      ask_to_write(sorted_keys + place + PAIRS_AHEAD);
+      ask_to_write(sorted_values + place + PAIRS_AHEAD);
+    }
   }
 }
 
@@ -82,8 +106,12 @@ __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* e
   const uint block = get_global_id(0);
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
-  for (uint i = begin; i < end; ++i)
+  for (uint i = begin; i < end; ++i) {
+    ask_for(ends + values[i] + 2 * NUMBERS_AHEAD);
+    ask_for(values + i + NUMBERS_AHEAD);
+    ask_to_write(keys + i + NUMBERS_AHEAD);
     keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[values[i]] >> p.shift);
+  }
 }
 
 static inline int run_is_in_order(__global const ushort* ends, __global const uint* values,
@@ -112,6 +140,21 @@ static inline void sort_run_by_digit(__global const ushort* ends, __global const
     to[next[(ends[from[i]] >> shift) & (SORT_DIGITS - 1)]++] = from[i];
 }
 
+// Whether any of eight keys from number i on equals the next.
+static inline int have_equals(__global const uint* keys, uint i) {
+  return any(vload8(0, keys + i) == vload8(0, keys + i + 1));
+}
+
+// So many keys before a run is looked at its ends are asked for: they lie all over memory.
+#define RUNS_AHEAD 64
+
+static inline void ask_for_ends(__global const uint* keys, __global const uint* values,
+                                __global const ushort* ends, uint i) {
+  if (!have_equals(keys, i)) return;
+  for (uint k = 0; k <= 8; ++k)
+    ask_for(ends + values[i + k]);
+}
+
 // Puts each run of equal sorted keys into the order of their ends. The block in which a run begins
 // has all of it. `scratch` is as long as `values`.
 __kernel void sort_runs(const SortParameters p, __global const uint* keys,
@@ -121,6 +164,13 @@ __kernel void sort_runs(const SortParameters p, __global const uint* keys,
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i) {
+    // Hardly any keys are those of a run.
+    ask_for(keys + i + NUMBERS_AHEAD);
+    if (p.count - i > RUNS_AHEAD + 8) ask_for_ends(keys, values, ends, i + RUNS_AHEAD);
+    if (p.count - i > 8 && !have_equals(keys, i)) {
+      i += 7;
+      continue;
+    }
     const uint key = keys[i];
     if (i + 1 == p.count || keys[i + 1] != key || (i > 0 && keys[i - 1] == key)) continue;
     uint length = 2;

@@ -48,6 +48,7 @@ struct KeyedSplats {
   Buffer<std::uint32_t> keys;      // their upper 32 bits
   Buffer<std::uint16_t> key_ends;  // slot by slot the 16 bits below; none where a field is the key
   Buffer<std::uint32_t> order;     // the slot of splat i: i, or farther behind
+  Buffer<std::uint32_t> scratch;   // as long as `order`, for sorting; none: the sorter takes some
   std::uint32_t count = 0;
   // Slots that hold no splat, for as many as there are particles around the camera; none: slots
   // from `count` on are free.

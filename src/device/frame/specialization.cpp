@@ -279,14 +279,14 @@ std::vector<std::string> Specialization::composite_files() const {
                {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(), {"rows.cl", "entry_lanes.cl", "entry_windows.cl", "patch_shapes.cl",
-                               "patches.cl", "waiting.cl"});
+    files.insert(files.end(), {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl",
+                               "patch_shapes.cl", "patches.cl", "waiting.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {
       files.push_back("splat_rows.cl");
     }
-    files.insert(files.end(), {"stencil_rows.cl", "prefetch.cl", "composite_rows.cl"});
+    files.insert(files.end(), {"stencil_rows.cl", "composite_rows.cl"});
   } else {
     files.push_back("composite_groups.cl");
   }
@@ -366,8 +366,8 @@ ProgramSource Specialization::certify() const {
       define_if(rows_, "LANES_8") + tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
   if (rows_) {
     return {defines,
-            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "entry_lanes.cl",
-             "prefetch.cl", "collected.cl", "collect.cl"}};
+            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "prefetch.cl",
+             "entry_lanes.cl", "collected.cl", "collect.cl"}};
   }
   return {defines,
           {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "lanes.cl",

@@ -61,6 +61,23 @@ compute::buffer BufferPool::new_buffer(std::size_t bytes, Filling filling) {
   return compute::buffer(context_, bytes);
 }
 
+std::array<PooledMemory, 2> BufferPool::take_two(std::uint64_t bytes, const char* what) {
+  // The second begins where OpenCL lets it, and not at the same line of a page as the first.
+  const std::uint64_t line = std::max<std::uint64_t>(
+      context_.get_device().get_info<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8, 1);
+  const std::uint64_t part = std::max<std::uint64_t>(bytes, 1) + padding;
+  const std::uint64_t second = (part / line + 2) * line;
+  const auto whole =
+      std::make_shared<const PooledMemory>(*this, take(second + part, what, Filling::whole));
+  const auto part_from = [&](std::uint64_t first) {
+    compute::buffer memory = whole->memory();
+    return PooledMemory(whole,
+                        memory.create_subbuffer(CL_MEM_READ_WRITE, static_cast<std::size_t>(first),
+                                                static_cast<std::size_t>(part)));
+  };
+  return {part_from(0), part_from(second)};
+}
+
 void BufferPool::give_back(compute::buffer memory) {
   used_bytes_ -= memory.size();
   free_.push_back(std::move(memory));

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,10 +24,16 @@ class PooledMemory {
   PooledMemory() = default;
   PooledMemory(BufferPool& pool, compute::buffer memory)
       : pool_(&pool), memory_(std::move(memory)) {}
+  // A part of what goes back when its last part does.
+  PooledMemory(std::shared_ptr<const PooledMemory> whole, compute::buffer part)
+      : whole_(std::move(whole)), memory_(std::move(part)) {}
   PooledMemory(PooledMemory&& other) noexcept
-      : pool_(std::exchange(other.pool_, nullptr)), memory_(std::move(other.memory_)) {}
+      : pool_(std::exchange(other.pool_, nullptr)),
+        whole_(std::move(other.whole_)),
+        memory_(std::move(other.memory_)) {}
   PooledMemory& operator=(PooledMemory&& other) noexcept {
     std::swap(pool_, other.pool_);
+    std::swap(whole_, other.whole_);
     std::swap(memory_, other.memory_);
     return *this;
   }
@@ -35,6 +43,7 @@ class PooledMemory {
 
  private:
   BufferPool* pool_ = nullptr;
+  std::shared_ptr<const PooledMemory> whole_;
   compute::buffer memory_;
 };
 
@@ -101,6 +110,13 @@ class BufferPool {
   Buffer<T> get(std::uint64_t count, const char* what, Filling filling = Filling::whole) {
     return {PooledMemory(*this, take(count * sizeof(T), what, filling)), count};
   }
+  // Two of `count` values each that lie in one stretch of memory. It comes back when both have: so
+  // it serves larger buffers then, which neither of two apart would.
+  template <class T>
+  std::array<Buffer<T>, 2> get_two(std::uint64_t count, const char* what) {
+    std::array<PooledMemory, 2> parts = take_two(count * sizeof(T), what);
+    return {Buffer<T>(std::move(parts[0]), count), Buffer<T>(std::move(parts[1]), count)};
+  }
   template <class T>
   Buffer<T> upload(const std::vector<T>& values, const char* what) {
     Buffer<T> buffer = get<T>(values.size(), what);
@@ -157,6 +173,7 @@ class BufferPool {
   friend class PooledMemory;
   compute::buffer take(std::uint64_t bytes, const char* what, Filling filling);
   compute::buffer new_buffer(std::size_t bytes, Filling filling);
+  std::array<PooledMemory, 2> take_two(std::uint64_t bytes, const char* what);
   void give_back(compute::buffer memory);
   void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
   void release_until_it_fits(std::uint64_t wanted);

@@ -351,7 +351,10 @@ KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
   keyed.free_slots = free_slots(found, stride, keyed.particles.around);
   if (keyed.particles.around > 0) keyed.particles.chunks_around = chunks_around(all, found);
   const std::uint64_t most = keyed.particles.visible + keyed.particles.around;
-  keyed.keys = pool.get<std::uint32_t>(most, "sort keys");
+  // What sorting alone needs comes back as one: lists find their memory there.
+  auto [sort_keys, scratch] = pool.get_two<std::uint32_t>(most, "sort keys");
+  keyed.keys = std::move(sort_keys);
+  keyed.scratch = std::move(scratch);
   keyed.order = pool.get<std::uint32_t>(most, "order");
   scan_counts(all.blocks, counts, offsets);
   Launch(context_.device, "project",

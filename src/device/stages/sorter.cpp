@@ -38,25 +38,25 @@ Sorter::Sorter(DeviceContext& device, bool is_used) : device_(device) {
     groups_.emplace(device);
 }
 
-Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                                 std::uint32_t count) const {
+Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {
   BufferPool& pool = device_.pool;
   shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
   const auto histograms = pool.get<std::uint32_t>(
       std::uint64_t{SORT_DIGITS} * parameters.block_count, "sort histogram");
   const auto bits = pool.get<shared::KeyBits>(parameters.block_count, "key bits");
-  auto from = std::make_pair(std::move(keys), std::move(values));
-  auto to = std::make_pair(pool.get<std::uint32_t>(count, "sort keys"),
-                           pool.get<std::uint32_t>(count, "order"));
+  const bool has_scratch = pairs.scratch.size() > 0;
+  if (!has_scratch) pairs.scratch = pool.get<std::uint32_t>(count, "order");
+  auto other_keys = pool.get<std::uint32_t>(count, "sort keys");
   const Program program = device_.programs.get(Specialization::sort());
   std::uint32_t differing = ~0u;  // until the first pass has seen the keys
+  bool is_in_scratch = false;
   for (std::uint32_t shift = 0; shift < 32; shift += SORT_DIGIT_BITS) {
     // A digit that all keys share needs no pass.
     if (shift > 0 && (differing >> shift) % SORT_DIGITS == 0) continue;
     parameters.shift = shift;
     Launch(device_, "sort", program.create_kernel("sort_histogram"))
         .value(parameters)
-        .arg(from.first)
+        .arg(pairs.keys)
         .arg(histograms)
         .arg(bits)
         .run_items(parameters.block_count);
@@ -70,22 +70,33 @@ Sorter::Pairs Sorter::sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_
         .run_items(1);
     Launch(device_, "sort", program.create_kernel("sort_scatter"))
         .value(parameters)
-        .arg(from.first)
-        .arg(from.second)
+        .arg(pairs.keys)
+        .arg(pairs.values)
         .arg(histograms)
-        .arg(to.first)
-        .arg(to.second)
+        .arg(other_keys)
+        .arg(pairs.scratch)
         .run_items(parameters.block_count);
-    std::swap(from, to);
+    std::swap(pairs.keys, other_keys);
+    std::swap(pairs.values, pairs.scratch);
+    is_in_scratch = !is_in_scratch;
   }
-  return {std::move(from.first), std::move(from.second), std::move(to.second)};
+  // Scratch memory is to go back soon.
+  if (has_scratch && is_in_scratch) {
+    device_.timer.add(
+        "sort",
+        device_.queue.enqueue_copy_buffer(pairs.values.memory(), pairs.scratch.memory(), 0, 0,
+                                          std::size_t{count} * sizeof(std::uint32_t)),
+        StageTimer::Kind::serial);
+    std::swap(pairs.values, pairs.scratch);
+  }
+  return pairs;
 }
 
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
                                    std::uint32_t count) const {
   if (count < 2) return values;
   if (groups_) return groups_->sort(std::move(keys), std::move(values), count);
-  return sort_pairs(std::move(keys), std::move(values), count).values;
+  return sort_pairs({std::move(keys), std::move(values), {}}, count).values;
 }
 
 // Upper bits that all keys share make room for ends. How many bits of the ends are left.
@@ -117,22 +128,28 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
 
 // Hardly any keys agree in their upper 32 bits, and those that do lie side by side once these
 // are sorted: so their ends are neither moved nor digits of the radix sort.
+Buffer<std::uint32_t> Sorter::sort_with_ends(Pairs pairs, const Buffer<std::uint16_t>& ends,
+                                             std::uint32_t count) const {
+  const std::uint32_t bits_left = take_in_ends(pairs.keys, ends, pairs.values, count);
+  Pairs sorted = sort_pairs(std::move(pairs), count);
+  if (bits_left > 0) {
+    const shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
+    Launch(device_, "sort", device_.programs.get(Specialization::sort()).create_kernel("sort_runs"))
+        .value(parameters)
+        .arg(sorted.keys)
+        .arg(ends)
+        .arg(sorted.values)
+        .arg(sorted.scratch)
+        .run_items(parameters.block_count);
+  }
+  return std::move(sorted.values);
+}
+
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                                    Buffer<std::uint32_t> values, std::uint32_t count) const {
   if (count < 2) return values;
   if (groups_) return groups_->sort(std::move(keys), ends, std::move(values), count);
-  const std::uint32_t bits_left = take_in_ends(keys, ends, values, count);
-  Pairs sorted = sort_pairs(std::move(keys), std::move(values), count);
-  if (bits_left == 0) return std::move(sorted.values);
-  const shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
-  Launch(device_, "sort", device_.programs.get(Specialization::sort()).create_kernel("sort_runs"))
-      .value(parameters)
-      .arg(sorted.keys)
-      .arg(ends)
-      .arg(sorted.values)
-      .arg(sorted.scratch)
-      .run_items(parameters.block_count);
-  return std::move(sorted.values);
+  return sort_with_ends({std::move(keys), std::move(values), {}}, ends, count);
 }
 
 SortedSplats Sorter::sort(KeyedSplats keyed) const {
@@ -140,9 +157,18 @@ SortedSplats Sorter::sort(KeyedSplats keyed) const {
   sorted.splats = std::move(keyed.splats);
   sorted.count = keyed.count;
   const bool has_ends = keyed.key_ends.size() > 0;
-  sorted.order =
-      has_ends ? sort(std::move(keyed.keys), keyed.key_ends, std::move(keyed.order), keyed.count)
-               : sort(std::move(keyed.keys), std::move(keyed.order), keyed.count);
+  if (keyed.count < 2) {
+    sorted.order = std::move(keyed.order);
+  } else if (groups_) {
+    sorted.order = has_ends
+                       ? groups_->sort(std::move(keyed.keys), keyed.key_ends,
+                                       std::move(keyed.order), keyed.count)
+                       : groups_->sort(std::move(keyed.keys), std::move(keyed.order), keyed.count);
+  } else {
+    Pairs pairs = {std::move(keyed.keys), std::move(keyed.order), std::move(keyed.scratch)};
+    sorted.order = has_ends ? sort_with_ends(std::move(pairs), keyed.key_ends, keyed.count)
+                            : sort_pairs(std::move(pairs), keyed.count).values;
+  }
   return sorted;
 }
 

@@ -25,12 +25,13 @@ class Sorter {
                              Buffer<std::uint32_t> values, std::uint32_t count) const;
 
  private:
-  // Sorted pairs, and room for as many values.
+  // And room for as many values. What comes with it gives it back: values end where they began.
   struct Pairs {
     Buffer<std::uint32_t> keys, values, scratch;
   };
-  Pairs sort_pairs(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                   std::uint32_t count) const;
+  Pairs sort_pairs(Pairs pairs, std::uint32_t count) const;
+  Buffer<std::uint32_t> sort_with_ends(Pairs pairs, const Buffer<std::uint16_t>& ends,
+                                       std::uint32_t count) const;
   std::uint32_t take_in_ends(const Buffer<std::uint32_t>& keys, const Buffer<std::uint16_t>& ends,
                              const Buffer<std::uint32_t>& values, std::uint32_t count) const;
 
