@@ -86,8 +86,8 @@ INLINED void collect_batch(__global const TileSplat* entries, int count, const T
 __kernel void collect(const CertifyParameters p, __global const Grid* grids,
                       __global const Segment* segments, __global const TileSplat* entries,
                       __global float* cells) {
-  const uint id = get_global_id(0);
-  if (id >= p.segment_count) return;
+  const uint id = piece_of_item(p.segment_count);
+  if (id == NO_PIECE) return;
   const uint number = segments[id].tile;
   if (id > 0 && segments[id - 1].tile == number) return;
   const uint g = grid_of_tile(grids, p.grid_count, number);

@@ -124,9 +124,9 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
                         __global float* planes, __global float* partials,
                         __global const ExtendedSplat* splats) {
-  const uint id = get_global_id(0);
-  if (id >= p.end_segment) return;
-  const Segment segment = segments[id];
+  const uint piece = piece_of_item(p.end_segment - p.first_segment);
+  if (piece == NO_PIECE) return;
+  const Segment segment = segments[p.first_segment + piece];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
   const uint column = in_grid % (uint)grid.tiles_x, row = in_grid / (uint)grid.tiles_x;

@@ -322,8 +322,8 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
                         __global float* planes,
                         __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
-  const uint id = p.first_segment + get_global_id(0);
-  if (id >= p.end_segment) return;
-  composite_segment(segments[id], &p, grids, entries, planes,
+  const uint piece = piece_of_item(p.end_segment - p.first_segment);
+  if (piece == NO_PIECE) return;
+  composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes,
                     partials CLOUDS_ARGUMENTS STENCIL_ARGUMENTS, PATCH_LANES);
 }

@@ -13,6 +13,10 @@
 
 #define SPLATS_WRITTEN_AHEAD 64
 
+static inline uint blocks_of(const ProjectParameters p) {
+  return (p.end_particle - p.first_particle + p.block_particles - 1) / p.block_particles;
+}
+
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
 __attribute__((noinline)) static void project_block(uint block, const ProjectParameters* of_frame,
@@ -172,8 +176,10 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 // a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
 // more, else 0.
 __kernel void project(const ProjectParameters p, const ExtendedParameters e, PROJECT_PARAMETERS) {
-  project_block(get_global_id(0), &p, &e, NUMBERS_OF_LANES, positions, smoothing_lengths, weights,
-                colors, intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
+  const uint block = piece_of_item(blocks_of(p));
+  if (block == NO_PIECE) return;
+  project_block(block, &p, &e, NUMBERS_OF_LANES, positions, smoothing_lengths, weights, colors,
+                intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
                 width_needs,
                 left_out OWN_COLORS_ARGUMENT EXTENDED_ARGUMENTS KEY_ARGUMENTS TILE_ARGUMENTS);
 }

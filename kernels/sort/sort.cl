@@ -9,7 +9,8 @@
 // same for all needs no pass.
 __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
                              __global uint* histograms, __global KeyBits* bits) {
-  const uint block = get_global_id(0);
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint counts[COUNTED_APART][SORT_DIGITS];
@@ -61,7 +62,8 @@ __kernel void sort_scan(const SortParameters p, __global uint* histograms) {
 __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
                            __global const uint* values, __global const uint* histograms,
                            __global uint* sorted_keys, __global uint* sorted_values) {
-  const uint block = get_global_id(0);
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint next[SORT_DIGITS];
@@ -87,7 +89,8 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
 
 // The bits that are set in some and in all of a block's keys.
 __kernel void sort_bits(const SortParameters p, __global const uint* keys, __global KeyBits* bits) {
-  const uint block = get_global_id(0);
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint some = 0, all = ~0u;
@@ -103,7 +106,8 @@ __kernel void sort_bits(const SortParameters p, __global const uint* keys, __glo
 // lowest `shift`.
 __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
                                 __global const uint* values, __global uint* keys) {
-  const uint block = get_global_id(0);
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i) {
@@ -160,7 +164,8 @@ static inline void ask_for_ends(__global const uint* keys, __global const uint* 
 __kernel void sort_runs(const SortParameters p, __global const uint* keys,
                         __global const ushort* ends, __global uint* values,
                         __global uint* scratch) {
-  const uint block = get_global_id(0);
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i) {

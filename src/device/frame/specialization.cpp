@@ -153,7 +153,7 @@ bool Specialization::finds_tiles(ProjectOutput output) const {
 // Where the camera sees particles.
 std::vector<std::string> Specialization::view_files() const {
   std::vector<std::string> files = {"splat.h",     "project.h",   "common.cl", "lanes.cl",
-                                    "extended.cl", "prefetch.cl", "load.cl"};
+                                    "extended.cl", "prefetch.cl", "pieces.cl", "load.cl"};
   if (!rows_) files.insert(files.begin(), "group.h");
   if (is_wide_angle(projection_))
     files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
@@ -211,7 +211,7 @@ ProgramSource Specialization::compact() {
 }
 
 ProgramSource Specialization::sort() {
-  return {"", {"prefetch.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
+  return {"", {"prefetch.cl", "pieces.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
 }
 
 ProgramSource Specialization::carry() {
@@ -236,7 +236,7 @@ ProgramSource Specialization::bin() const {
       define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
   if (rows_) {
     return {defines,
-            {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "tiles.cl",
+            {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "pieces.cl", "tiles.cl",
              "amplitudes.cl", "entries.cl", "bin.cl"}};
   }
   return {defines,
@@ -254,7 +254,7 @@ ProgramSource Specialization::composite() const {
         "precise.cl", "extended.cl", "extended_lanes.cl", "extended_pixels.cl"};
     if (has_rows())
       files.insert(files.end(), {"double_lanes.cl", "extended_means.cl", "extended_shape.cl",
-                                 "composite_extended_rows.cl"});
+                                 "pieces.cl", "composite_extended_rows.cl"});
     else
       files.push_back("composite_extended_groups.cl");
     return {defines, files};
@@ -286,7 +286,7 @@ std::vector<std::string> Specialization::composite_files() const {
     } else {
       files.push_back("splat_rows.cl");
     }
-    files.insert(files.end(), {"stencil_rows.cl", "composite_rows.cl"});
+    files.insert(files.end(), {"stencil_rows.cl", "pieces.cl", "composite_rows.cl"});
   } else {
     files.push_back("composite_groups.cl");
   }
@@ -366,7 +366,7 @@ ProgramSource Specialization::certify() const {
       define_if(rows_, "LANES_8") + tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
   if (rows_) {
     return {defines,
-            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "prefetch.cl",
+            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "prefetch.cl", "pieces.cl",
              "entry_lanes.cl", "collected.cl", "collect.cl"}};
   }
   return {defines,

@@ -41,6 +41,12 @@ void Launch::run_items(std::size_t items) {
   enqueue(1, &items, &local);
 }
 
+void Launch::run_pieces(std::size_t pieces) {
+  // PoCL hands out up to 32 items for each thread at once, and half of the last ones.
+  constexpr std::size_t enough_items = 1024;
+  if (pieces > 0) run_items(pieces * std::max<std::size_t>(1, enough_items / pieces));
+}
+
 void Launch::run_grid(std::size_t width, std::size_t height, std::size_t depth) {
   if (width == 0 || height == 0 || depth == 0) return;
   const std::size_t local[3] = {64, 1, 1};

@@ -183,8 +183,8 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
       .arg(starts)
       .arg(lists.segments)
       .run_items(1);
-  Launch(device, "bin", program_.create_kernel("bin_scatter"))
-      .value(parameters)
+  Launch scatter(device, "bin", program_.create_kernel("bin_scatter"));
+  scatter.value(parameters)
       .arg(context_.grids)
       .arg(counted.splats->splats)
       .arg(*counted.order)
@@ -195,8 +195,13 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
       .arg(starts)
       .arg(context_.colors.components)
       .arg(context_.colors.knots)
-      .arg(lists.entries)
-      .run_items(parameters.block_count);
+      .arg(lists.entries);
+  // Blocks of sorted splats have as much to do each, and write side by side: threads do best with
+  // blocks that follow one another.
+  if (context_.plan.needs_sort())
+    scatter.run_items(parameters.block_count);
+  else
+    scatter.run_pieces(parameters.block_count);
 }
 
 }  // namespace splotchcl

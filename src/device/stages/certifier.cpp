@@ -118,7 +118,7 @@ void Certifier::collect(const TileLists& lists) {
       .arg(lists.segments)
       .arg(lists.entries)
       .arg(cells_)
-      .run_items(lists.segment_count);
+      .run_pieces(lists.segment_count);
 }
 
 void Certifier::collect_in_groups(const TileLists& lists,

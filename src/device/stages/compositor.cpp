@@ -117,7 +117,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
   }
   if (specialization.has_stencils()) launch.arg(context_.stencils);
   if (specialization.has_rows()) {
-    launch.run_items(count);
+    launch.run_pieces(count);
   } else {
     launch.run_groups(count, specialization.is_extended() ? tile_pixels / 8 : tile_pixels);
   }

@@ -192,7 +192,7 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   if (scan_) {
     launch.run_groups(block_count(parameters), GROUP_ITEMS);
   } else {
-    launch.run_items(block_count(parameters));
+    launch.run_pieces(block_count(parameters));
   }
 }
 

@@ -59,7 +59,7 @@ Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {
         .arg(pairs.keys)
         .arg(histograms)
         .arg(bits)
-        .run_items(parameters.block_count);
+        .run_pieces(parameters.block_count);
     if (shift == 0) {
       differing = differing_bits(pool.download(bits, parameters.block_count));
       if (differing % SORT_DIGITS == 0) continue;
@@ -75,7 +75,7 @@ Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {
         .arg(histograms)
         .arg(other_keys)
         .arg(pairs.scratch)
-        .run_items(parameters.block_count);
+        .run_pieces(parameters.block_count);
     std::swap(pairs.keys, other_keys);
     std::swap(pairs.values, pairs.scratch);
     is_in_scratch = !is_in_scratch;
@@ -110,7 +110,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
       .value(parameters)
       .arg(keys)
       .arg(bits)
-      .run_items(parameters.block_count);
+      .run_pieces(parameters.block_count);
   const std::uint32_t differing =
       differing_bits(device_.pool.download(bits, parameters.block_count));
   parameters.shift = 16;
@@ -122,7 +122,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
       .arg(ends)
       .arg(values)
       .arg(keys)
-      .run_items(parameters.block_count);
+      .run_pieces(parameters.block_count);
   return parameters.shift;
 }
 
@@ -140,7 +140,7 @@ Buffer<std::uint32_t> Sorter::sort_with_ends(Pairs pairs, const Buffer<std::uint
         .arg(ends)
         .arg(sorted.values)
         .arg(sorted.scratch)
-        .run_items(parameters.block_count);
+        .run_pieces(parameters.block_count);
   }
   return std::move(sorted.values);
 }
