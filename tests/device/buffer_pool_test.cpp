@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "device/stages.h"
 
@@ -50,6 +51,32 @@ TEST_F(Pool, GivesFreeMemoryBackRatherThanHoldMuchMoreThanWasInUse) {
   own_.reset_peak();
   const auto other = get(10 * megabyte);
   EXPECT_LE(own_.peak_bytes(), 42 * megabyte);
+}
+
+TEST_F(Pool, HandsOutTwoBuffersThatDoNotOverlap) {
+  constexpr std::uint64_t count = 1000;
+  const auto two = own_.get_two<std::uint32_t>(count, "test");
+  const std::vector<std::uint32_t> ones(count, 1), twos(count, 2);
+  own_.write(two[0], 0, ones.data(), count);
+  own_.write(two[1], 0, twos.data(), count);
+  EXPECT_EQ(own_.download(two[0], count), ones);
+  EXPECT_EQ(own_.download(two[1], count), twos);
+}
+
+TEST_F(Pool, HandsOutMemoryOfTwoBuffersAsOneWhenBothCameBack) {
+  auto two = std::optional(own_.get_two<std::byte>(20 * megabyte, "test"));
+  const std::uint64_t total = own_.peak_bytes();
+  two.reset();
+  const auto large = get(40 * megabyte);
+  EXPECT_EQ(own_.peak_bytes(), total);
+}
+
+TEST_F(Pool, KeepsMemoryOfTwoBuffersAsLongAsOneIsInUse) {
+  auto two = own_.get_two<std::byte>(20 * megabyte, "test");
+  const std::uint64_t total = own_.peak_bytes();
+  two[0] = Buffer<std::byte>();
+  const auto other = get(20 * megabyte);
+  EXPECT_GE(own_.peak_bytes(), total + 20 * megabyte);
 }
 
 }  // namespace

@@ -57,6 +57,30 @@ TEST_P(Sort, GivesTheStableOrderIndexForIndex) {
   }
 }
 
+// One pass and three end in the scratch memory, two and four in the values' own.
+TEST_P(Sort, NeverLeavesTheOrderInScratchMemory) {
+  constexpr std::uint32_t count = 5000;
+  for (const double most : {255.0, 65535.0, 16777215.0, 4294967295.0}) {
+    const Keys keys = random_keys(count, 0, most);
+    Keys order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    BufferPool& pool = device().pool;
+    auto [sort_keys, scratch] = pool.get_two<std::uint32_t>(count, "sort keys");
+    pool.write(sort_keys, 0, keys.data(), count);
+    KeyedSplats keyed;
+    keyed.count = count;
+    keyed.keys = std::move(sort_keys);
+    keyed.scratch = std::move(scratch);
+    keyed.order = pool.upload(order, "order");
+    const SortedSplats sorted = Sorter(device()).sort(std::move(keyed));
+    EXPECT_EQ(pool.download(sorted.order, count), stable_order(keys)) << most;
+    cl_mem whole = nullptr;
+    clGetMemObjectInfo(sorted.order.memory().get(), CL_MEM_ASSOCIATED_MEMOBJECT, sizeof(whole),
+                       &whole, nullptr);
+    EXPECT_EQ(whole, nullptr) << most;
+  }
+}
+
 // Also on a simulator (scripts/test --icd oclgrind).
 TEST_P(Sort, KeepsTheOrderOfEqualKeys) {
   const Keys keys = random_keys(10000, 0, 10);
