@@ -42,9 +42,10 @@ void Launch::run_items(std::size_t items) {
 }
 
 void Launch::run_pieces(std::size_t pieces) {
+  if (pieces < 2) return run_items(pieces);
   // PoCL hands out up to 32 items for each thread at once, and half of the last ones.
-  constexpr std::size_t enough_items = 1024;
-  if (pieces > 0) run_items(pieces * std::max<std::size_t>(1, enough_items / pieces));
+  constexpr std::size_t enough_items = 1024, most_of_piece = 64;
+  run_items(pieces * std::clamp<std::size_t>(enough_items / pieces, 1, most_of_piece));
 }
 
 void Launch::run_grid(std::size_t width, std::size_t height, std::size_t depth) {
