@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "device/frame/block_counts.h"
 #include "device/frame/column_arguments.h"
 #include "device/frame/view_bounds.h"
 #include "device/opencl/launch.h"
@@ -36,46 +37,6 @@ std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
 void take_window(const KeyWindow& window, shared::ProjectParameters& parameters) {
   parameters.window_first = wide(window.first);
   parameters.window_end = wide(window.end);
-}
-
-ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
-  ParticleCounts sum;
-  for (const shared::BlockCounts& block : blocks) {
-    sum.visible += block.visible;
-    sum.bad += block.bad;
-    sum.too_sharp += block.too_sharp;
-    sum.around += block.around;
-  }
-  return sum;
-}
-
-// Which of a chunk's blocks have particles around the camera.
-std::vector<std::uint32_t> blocks_around(const shared::BlockCounts* first, std::size_t count) {
-  std::vector<std::uint32_t> blocks;
-  for (std::uint32_t b = 0; b < count; ++b) {
-    if (first[b].around > 0) blocks.push_back(b);
-  }
-  return blocks;
-}
-
-// Of blocks whose particles have a slot each, and of what follows the last.
-std::vector<std::uint32_t> first_slots(std::uint32_t blocks, std::uint32_t stride) {
-  std::vector<std::uint32_t> first(std::size_t{blocks} + 1);
-  for (std::uint32_t b = 0; b <= blocks; ++b)
-    first[b] = b * stride;
-  return first;
-}
-
-// The first `wanted` slots that their blocks' splats leave. Particles around the camera leave as
-// many as they are.
-std::vector<std::uint32_t> free_slots(const std::vector<shared::BlockCounts>& blocks,
-                                      std::uint32_t stride, std::uint64_t wanted) {
-  std::vector<std::uint32_t> slots;
-  for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-    for (std::uint32_t k = blocks[b].visible; k < stride && slots.size() < wanted; ++k)
-      slots.push_back(b * stride + k);
-  }
-  return slots;
 }
 
 }  // namespace
