@@ -24,8 +24,7 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 __kernel void bin_count(const BinParameters p, __global const Grid* grids,
                         __global const Splat* splats, __global const uint* order,
                         __global uint* counts, __global uint* tiles, __global Splat* in_order) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+  const uint block = get_global_id(0);
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;

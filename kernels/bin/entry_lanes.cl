@@ -13,8 +13,7 @@
 // LANES entries from one on. Lists are read from front to back, but not every processor sees that,
 // or early enough.
 INLINED void ask_for_entries(__global const TileSplat* entries) {
-  const uint bytes_of_line = 64;
-  for (uint i = 0; i < LANES * sizeof(TileSplat); i += bytes_of_line)
-    ask_for((__global const char*)entries + i);
+  for (uint i = 0; i < LANES * sizeof(TileSplat) / sizeof(uint); i += NUMBERS_OF_LINE)
+    ask_for((__global const uint*)entries + i);
 }
 #endif

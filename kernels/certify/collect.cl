@@ -100,8 +100,7 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
   tile.of_grid = grid_of_cells(&p, g, grid);
   tile.reach = reach_of(grid, tile.column, tile.row);
   tile.cells = cells + (size_t)number * p.cells_per_tile;
-  const uint floats_of_line = 16;
-  for (uint i = 0; i < p.cells_per_tile; i += floats_of_line)
+  for (uint i = 0; i < p.cells_per_tile; i += NUMBERS_OF_LINE)
     ask_to_write(tile.cells + i);
   for (uint s = id; s < p.segment_count && segments[s].tile == number; ++s) {
     const uint end = segments[s].end;

@@ -14,7 +14,7 @@
 #define ask_for(place)
 #define ask_to_write(place)
 #endif
-// Numbers of four bytes read one after the other are asked for so many ahead, a line of the cache
-// at a time: not every processor sees them coming, or early enough.
-#define NUMBERS_AHEAD 512
+// Numbers of four bytes: as many as a line of the cache has; and so far ahead they are asked for
+// where they are read one after the other, which not every processor sees, or early enough.
 #define NUMBERS_OF_LINE 16
+#define NUMBERS_AHEAD 512

@@ -40,11 +40,10 @@ static inline void load_opacities(float* tile, __global const float* planes, con
 #define ROWS_OF_TILE (PLANES * TILE_HEIGHT)
 static inline void ask_for_rows(__global float* planes, const Grid grid, size_t corner, int first,
                                 int count) {
-  const int floats_of_line = 16;
   for (int row = first; row < min(first + count, ROWS_OF_TILE); ++row) {
     __global const float* begin =
         planes + row_of_tile(grid, corner, row / TILE_HEIGHT, row % TILE_HEIGHT);
-    for (int x = 0; x < TILE_WIDTH; x += floats_of_line)
+    for (int x = 0; x < TILE_WIDTH; x += NUMBERS_OF_LINE)
       ask_to_write(begin + x);
   }
 }

@@ -14,7 +14,8 @@
 #define SPLATS_WRITTEN_AHEAD 64
 
 static inline uint blocks_of(const ProjectParameters p) {
-  return (p.end_particle - p.first_particle + p.block_particles - 1) / p.block_particles;
+  const uint particles = p.end_particle - p.first_particle;
+  return particles / p.block_particles + (particles % p.block_particles != 0);
 }
 
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The

@@ -27,8 +27,7 @@ typedef struct StripRow {
 // A row has few lines of the cache, and the next one lies pages away: hardware sees none coming.
 #define ROWS_AHEAD 8
 INLINED void ask_for_row(__global const float* first, int half_width) {
-  const int floats_of_line = 16;
-  for (int x = -half_width; x < STRIP + half_width; x += floats_of_line)
+  for (int x = -half_width; x < STRIP + half_width; x += NUMBERS_OF_LINE)
     ask_for(first + x);
 }
 

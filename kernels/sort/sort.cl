@@ -1,10 +1,6 @@
 // Least-significant-digit radix sort of (key, value) pairs, 8-bit digits, stable:
 // histogram, scan, scatter. A work-item walks one block of pairs in order; no work-item
 // waits for another, so no forward progress is assumed.
-// Neighbours have the same digit often, and a processor that counts one waits until the one before
-// has been counted: so they are counted apart, and added up at the end.
-#define COUNTED_APART 4
-
 // Also, per block, the bits that are set in some keys and in all of them: a digit that is the
 // same for all needs no pass.
 __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
@@ -13,33 +9,22 @@ __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
   if (block == NO_PIECE) return;
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
-  uint counts[COUNTED_APART][SORT_DIGITS];
-  for (uint k = 0; k < COUNTED_APART; ++k) {
-    for (uint d = 0; d < SORT_DIGITS; ++d)
-      counts[k][d] = 0;
-  }
+  uint histogram[SORT_DIGITS];
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    histogram[d] = 0;
   uint some = 0, all = ~0u;
-  uint i = begin;
-  for (; i + NUMBERS_OF_LINE <= end; i += NUMBERS_OF_LINE) {
-    ask_for(keys + i + NUMBERS_AHEAD);
-    for (uint k = 0; k < NUMBERS_OF_LINE; ++k) {
-      const uint key = keys[i + k];
+  for (uint first = begin; first < end; first += NUMBERS_OF_LINE) {
+    ask_for(keys + first + NUMBERS_AHEAD);
+    const uint line_end = min(first + NUMBERS_OF_LINE, end);
+    for (uint i = first; i < line_end; ++i) {
+      const uint key = keys[i];
       some |= key;
       all &= key;
-      ++counts[k % COUNTED_APART][(key >> p.shift) & (SORT_DIGITS - 1)];
+      ++histogram[(key >> p.shift) & (SORT_DIGITS - 1)];
     }
   }
-  for (; i < end; ++i) {
-    some |= keys[i];
-    all &= keys[i];
-    ++counts[0][(keys[i] >> p.shift) & (SORT_DIGITS - 1)];
-  }
-  for (uint d = 0; d < SORT_DIGITS; ++d) {
-    uint sum = 0;
-    for (uint k = 0; k < COUNTED_APART; ++k)
-      sum += counts[k][d];
-    histograms[d * p.block_count + block] = sum;
-  }
+  for (uint d = 0; d < SORT_DIGITS; ++d)
+    histograms[d * p.block_count + block] = histogram[d];
   bits[block].some = some;
   bits[block].all = all;
 }

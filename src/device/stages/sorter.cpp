@@ -92,13 +92,6 @@ Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {
   return pairs;
 }
 
-Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                                   std::uint32_t count) const {
-  if (count < 2) return values;
-  if (groups_) return groups_->sort(std::move(keys), std::move(values), count);
-  return sort_pairs({std::move(keys), std::move(values), {}}, count).values;
-}
-
 // Upper bits that all keys share make room for ends. How many bits of the ends are left.
 std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
                                    const Buffer<std::uint16_t>& ends,
@@ -145,30 +138,35 @@ Buffer<std::uint32_t> Sorter::sort_with_ends(Pairs pairs, const Buffer<std::uint
   return std::move(sorted.values);
 }
 
+// In either shape, by ends as well where there are some.
+Buffer<std::uint32_t> Sorter::order_of(Pairs pairs, const Buffer<std::uint16_t>& ends,
+                                       std::uint32_t count) const {
+  if (count < 2) return std::move(pairs.values);
+  const bool has_ends = ends.size() > 0;
+  if (groups_) {
+    return has_ends ? groups_->sort(std::move(pairs.keys), ends, std::move(pairs.values), count)
+                    : groups_->sort(std::move(pairs.keys), std::move(pairs.values), count);
+  }
+  return has_ends ? sort_with_ends(std::move(pairs), ends, count)
+                  : sort_pairs(std::move(pairs), count).values;
+}
+
+Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
+                                   std::uint32_t count) const {
+  return order_of({std::move(keys), std::move(values), {}}, {}, count);
+}
+
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                                    Buffer<std::uint32_t> values, std::uint32_t count) const {
-  if (count < 2) return values;
-  if (groups_) return groups_->sort(std::move(keys), ends, std::move(values), count);
-  return sort_with_ends({std::move(keys), std::move(values), {}}, ends, count);
+  return order_of({std::move(keys), std::move(values), {}}, ends, count);
 }
 
 SortedSplats Sorter::sort(KeyedSplats keyed) const {
   SortedSplats sorted;
   sorted.splats = std::move(keyed.splats);
   sorted.count = keyed.count;
-  const bool has_ends = keyed.key_ends.size() > 0;
-  if (keyed.count < 2) {
-    sorted.order = std::move(keyed.order);
-  } else if (groups_) {
-    sorted.order = has_ends
-                       ? groups_->sort(std::move(keyed.keys), keyed.key_ends,
-                                       std::move(keyed.order), keyed.count)
-                       : groups_->sort(std::move(keyed.keys), std::move(keyed.order), keyed.count);
-  } else {
-    Pairs pairs = {std::move(keyed.keys), std::move(keyed.order), std::move(keyed.scratch)};
-    sorted.order = has_ends ? sort_with_ends(std::move(pairs), keyed.key_ends, keyed.count)
-                            : sort_pairs(std::move(pairs), keyed.count).values;
-  }
+  sorted.order = order_of({std::move(keyed.keys), std::move(keyed.order), std::move(keyed.scratch)},
+                          keyed.key_ends, keyed.count);
   return sorted;
 }
 

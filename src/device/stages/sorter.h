@@ -25,10 +25,13 @@ class Sorter {
                              Buffer<std::uint32_t> values, std::uint32_t count) const;
 
  private:
-  // And room for as many values. What comes with it gives it back: values end where they began.
+  // And room for as many values. Where pairs come with some, values end in the memory that they
+  // came in; else in either.
   struct Pairs {
     Buffer<std::uint32_t> keys, values, scratch;
   };
+  Buffer<std::uint32_t> order_of(Pairs pairs, const Buffer<std::uint16_t>& ends,
+                                 std::uint32_t count) const;
   Pairs sort_pairs(Pairs pairs, std::uint32_t count) const;
   Buffer<std::uint32_t> sort_with_ends(Pairs pairs, const Buffer<std::uint16_t>& ends,
                                        std::uint32_t count) const;
