@@ -1,60 +1,6 @@
 // Splats whose shapes along the axes of a tile are worked out patch by patch (patches.cl): only
 // along those that they reach into.
-
-// As wide as registers are, and with as many rows as leave some of them for a splat.
-#ifdef ROWS_OF_16
-#ifdef __clang__
-typedef float16 __attribute__((aligned(4))) Sixteen;
-#define load_patch(p) (*(const Sixteen*)(p))
-#define store_patch(v, p) (*(Sixteen*)(p) = (v))
-#else
-#define load_patch(p) vload16(0, p)
-#define store_patch(v, p) vstore16(v, 0, p)
-#endif
-#define PATCH float16
-#define PATCH_INTEGERS int16
-#define PATCH_WIDTH 16
-#define PATCH_LANES (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
-#else
-#define PATCH float8
-#define PATCH_INTEGERS int8
-#define PATCH_WIDTH 8
-#define PATCH_LANES (float8)(0, 1, 2, 3, 4, 5, 6, 7)
-#define load_patch load_eight
-#define store_patch store_eight
-#endif
-
 #ifndef FACE_OF_CUBE
-#if PLANES == 6
-#define PATCH_HEIGHT (PATCH_WIDTH / 4)
-#else
-#define PATCH_HEIGHT (PATCH_WIDTH / 2)
-#endif
-#if TILE_WIDTH % PATCH_WIDTH != 0 || TILE_HEIGHT % PATCH_WIDTH != 0
-#error "a tile is not made of whole patches"
-#endif
-
-// A bit of a word for each. The more there are, the less often patches are loaded and stored;
-// layers took longer with 64.
-#ifndef LIGHT_ORDERED
-#define MOST_SHAPES 64
-typedef ulong ShapeBits;
-#else
-#define MOST_SHAPES 32
-typedef uint ShapeBits;
-#endif
-
-// What the shapes of splats along one axis of the tile follow from.
-typedef struct AxisOfSplats {
-  float place[MOST_SHAPES];  // of the center
-#ifdef FINE_PLACES
-  float low[MOST_SHAPES];  // what is to be added to it
-#endif
-  float sigma[MOST_SHAPES], factor[MOST_SHAPES];  // as factor_of() has it
-#ifndef CUT_BY_ROWS
-  float first[MOST_SHAPES], last[MOST_SHAPES];  // pixels that are drawn
-#endif
-} AxisOfSplats;
 
 typedef struct PatchShapes {
   AxisOfSplats x, y;
@@ -65,8 +11,7 @@ typedef struct PatchShapes {
 #endif
 #endif
   float light[MOST_SHAPES * PLANES];  // what is summed, or E and A
-  // Those that reach into patches of these columns, and of these rows.
-  ShapeBits of_columns[TILE_WIDTH / PATCH_WIDTH], of_rows[TILE_HEIGHT / PATCH_HEIGHT];
+  PatchReach reach;
 } PatchShapes;
 
 // Rows of a tile, one splat's behind the other's.
@@ -82,22 +27,6 @@ typedef struct PatchValues {
   float limits[ALL_ROWS];                    // as fill_limits() has them
 #endif
 } __attribute__((aligned(64))) PatchValues;
-
-// The number of the first of `splats`, of which there are some, and those without it.
-INLINED uint first_of(ShapeBits splats) {
-  return (uint)popcount(~splats & (splats - 1));
-}
-INLINED ShapeBits without_first(ShapeBits splats) {
-  return splats & (splats - 1);
-}
-
-INLINED PATCH distance_along(const AxisOfSplats* axis, uint k, PATCH centers) {
-#ifdef FINE_PLACES
-  return centers - axis->place[k] - axis->low[k];
-#else
-  return centers - axis->place[k];
-#endif
-}
 
 // Limits cut more than the square.
 #ifdef CUT_BY_ROWS
@@ -131,7 +60,7 @@ INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, flo
   const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
   for (; splats != 0; splats = without_first(splats)) {
     const uint k = first_of(splats), at = k * PATCH_WIDTH;
-    const PATCH d = distance_along(&shapes->x, k, centers);
+    const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);
     store_patch(shape_along(&shapes->x, k, pixels, d, mean_sigma), values->across + at);
 #ifdef CUT_BY_ROWS
     store_patch(square_of_disc(shapes, k, d), values->squares + at);
@@ -145,21 +74,12 @@ INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, floa
   const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
   for (; splats != 0; splats = without_first(splats)) {
     const uint k = first_of(splats), at = k * TILE_HEIGHT + (uint)y;
-    const PATCH d = distance_along(&shapes->y, k, centers);
+    const PATCH d = DISTANCE_ALONG(&shapes->y, k, centers);
     const PATCH shape = shape_along(&shapes->y, k, pixels, d, mean_sigma);
     store_patch(shape, values->along + at);
 #ifdef CUT_BY_ROWS
     store_patch(shapes->cut2[k] - d * d, values->limits + at);
 #endif
-  }
-}
-
-// Sets a splat's bit in the words of those of `count` patches that show some of its pixels.
-INLINED void set_bits(ShapeBits* words, int count, int2 pixels, int pixels_of_patch,
-                      ShapeBits bit) {
-  for (int i = 0; i < count; ++i) {
-    const int begin = i * pixels_of_patch;
-    words[i] |= pixels.y >= begin && pixels.x < begin + pixels_of_patch ? bit : (ShapeBits)0;
   }
 }
 
@@ -184,12 +104,11 @@ INLINED void put_light(float* light, __global const TileSplat* splat) {
 #endif
 }
 
-static inline void clear_shapes(PatchShapes* shapes) {
-  for (int i = 0; i < TILE_WIDTH / PATCH_WIDTH; ++i)
-    shapes->of_columns[i] = 0;
-  for (int i = 0; i < TILE_HEIGHT / PATCH_HEIGHT; ++i)
-    shapes->of_rows[i] = 0;
-}
+#ifdef ELLIPSES
+#define SQUEEZE_OF(shapes, k) (shapes)->squeeze[k]
+#else
+#define SQUEEZE_OF(shapes, k) 1.0f
+#endif
 
 // What squares of distances are multiplied by for an exponent of 2, or, of means, distances.
 INLINED float factor_of(float sigma, float mean_sigma) {
@@ -222,8 +141,12 @@ INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns
 #endif
 #endif
   put_light(shapes->light + number * PLANES, splat);
-  set_bits(shapes->of_columns, TILE_WIDTH / PATCH_WIDTH, columns, PATCH_WIDTH,
-           (ShapeBits)1 << number);
-  set_bits(shapes->of_rows, TILE_HEIGHT / PATCH_HEIGHT, rows, PATCH_HEIGHT, (ShapeBits)1 << number);
+#ifdef CUT_BY_ROWS
+  put_reach(&shapes->reach, number, &shapes->x, &shapes->y, shapes->cut2[number],
+            SQUEEZE_OF(shapes, number));
+#else
+  set_bits(shapes->reach.of_columns, PATCH_COLUMNS, columns, PATCH_WIDTH, (ShapeBits)1 << number);
+  set_bits(shapes->reach.of_rows, PATCH_ROWS, rows, PATCH_HEIGHT, (ShapeBits)1 << number);
+#endif
 }
 #endif

@@ -84,7 +84,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
   splat.square = load_patch(values->squares + k * PATCH_WIDTH);
   splat.limits = values->limits + (k * TILE_HEIGHT + (uint)y);
 #ifdef SAMPLING_MEAN
-  splat.dx = distance_along(&shapes->x, k, ((float)x + FIRST_X) + lanes);
+  splat.dx = DISTANCE_ALONG(&shapes->x, k, ((float)x + FIRST_X) + lanes);
   splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
 #endif
 #endif
@@ -140,20 +140,28 @@ INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
   return row;
 }
 #else
-#define ADD_CHANNEL_OF_ROW(c) \
+#if PLANES == 6
+#define EACH_PLANE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
+#else
+#define EACH_PLANE(DO) DO(0) DO(1) DO(2)
+#endif
+#define ADD_TO_PLANE(c) row.plane##c += splat.light##c * along;
+// Additions take a mask where registers of sixteen are; elsewhere one mask serves all planes.
+#ifdef ROWS_OF_16
+#define ADD_TO_PLANE_WHERE_DRAWN(c) \
   row.plane##c = WHERE_DRAWN(splat, k, row.plane##c + splat.light##c * along, row.plane##c);
 INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
   const PATCH along = splat.along[k];
-  ADD_CHANNEL_OF_ROW(0)
-  ADD_CHANNEL_OF_ROW(1)
-  ADD_CHANNEL_OF_ROW(2)
-#if PLANES == 6
-  ADD_CHANNEL_OF_ROW(3)
-  ADD_CHANNEL_OF_ROW(4)
-  ADD_CHANNEL_OF_ROW(5)
-#endif
+  EACH_PLANE(ADD_TO_PLANE_WHERE_DRAWN)
   return row;
 }
+#else
+INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
+  const PATCH along = WHERE_DRAWN(splat, k, (PATCH)(splat.along[k]), (PATCH)(0.0f));
+  EACH_PLANE(ADD_TO_PLANE)
+  return row;
+}
+#endif
 #endif
 
 // The rows of a patch, written out, since compilers keep arrays in memory.
@@ -186,8 +194,10 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
     const PatchSplat splat = splat_of_patch(shapes, values, k, x, y, lanes); \
     ROWS                                                                     \
   }
-INLINED void add_to_patch(float* tile, int x, int y, ShapeBits splats, const PatchShapes* shapes,
+INLINED void add_to_patch(float* tile, int x, int y, const PatchShapes* shapes,
                           const PatchValues* values, LayerForms forms, PATCH lanes) {
+  ShapeBits splats = splats_of_patch(&shapes->reach, x / PATCH_WIDTH, y / PATCH_HEIGHT);
+  if (splats == 0) return;
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
 #ifdef LIGHT_ORDERED
@@ -202,10 +212,11 @@ INLINED void add_to_patch(float* tile, int x, int y, ShapeBits splats, const Pat
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
 
-INLINED ShapeBits splats_of_rows(const PatchShapes* shapes, int y) {
+// Those in the rows from y on that a register holds.
+INLINED ShapeBits splats_of_rows(const PatchReach* reach, int y) {
   ShapeBits splats = 0;
   for (int row = y; row < y + PATCH_WIDTH; row += PATCH_HEIGHT)
-    splats |= shapes->of_rows[row / PATCH_HEIGHT];
+    splats |= splats_of_row(reach, row / PATCH_HEIGHT);
   return splats;
 }
 
@@ -215,15 +226,14 @@ __attribute__((noinline)) static void add_to_patches(float* tile, const PatchSha
                                                      LayerForms forms, float mean_sigma,
                                                      PATCH lanes) {
   PatchValues values;
+  const PatchReach* const reach = &shapes->reach;
   for (int y = 0; y < TILE_HEIGHT; y += PATCH_WIDTH)
-    fill_along(shapes, splats_of_rows(shapes, y), y, mean_sigma, lanes, &values);
+    fill_along(shapes, splats_of_rows(reach, y), y, mean_sigma, lanes, &values);
   for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
-    const ShapeBits of_columns = shapes->of_columns[x / PATCH_WIDTH];
-    fill_across(shapes, of_columns, x, mean_sigma, lanes, &values);
-    for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT) {
-      const ShapeBits splats = of_columns & shapes->of_rows[y / PATCH_HEIGHT];
-      if (splats != 0) add_to_patch(tile, x, y, splats, shapes, &values, forms, lanes);
-    }
+    const ShapeBits of_column = splats_of_column(reach, x / PATCH_WIDTH);
+    fill_across(shapes, of_column, x, mean_sigma, lanes, &values);
+    for (int y = 0; y < TILE_HEIGHT && of_column != 0; y += PATCH_HEIGHT)
+      add_to_patch(tile, x, y, shapes, &values, forms, lanes);
   }
 }
 #endif

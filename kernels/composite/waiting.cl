@@ -16,7 +16,7 @@ typedef struct WaitingSplats {
 } WaitingSplats;
 
 static inline void clear_waiting(WaitingSplats* waiting) {
-  clear_shapes(&waiting->shapes);
+  clear_reach(&waiting->shapes.reach);
   waiting->count = 0;
   waiting->forms.more_terms = waiting->forms.three_terms = 0;
 }
