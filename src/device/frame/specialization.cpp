@@ -279,9 +279,9 @@ std::vector<std::string> Specialization::composite_files() const {
                {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(), {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl",
-                               "patch.cl", "patch_reach.cl", "patch_shapes.cl", "patches.cl",
-                               "waiting.cl"});
+    files.insert(files.end(),
+                 {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl", "patch.cl",
+                  "patch_reach.cl", "patch_shapes.cl", "patches.cl", "waiting.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {
