@@ -5,6 +5,9 @@
 
 // Only a part of the patches of a disc's square are the disc's.
 #ifdef CUT_BY_ROWS
+#if PATCH_COLUMNS > 8 || MOST_SHAPES % 32 != 0
+#error "columns of patches and words of splats are taken in eights and whole words"
+#endif
 
 // Bits of 32 splats in each word, words of eight rows together.
 #define WORDS_OF_SPLATS (MOST_SHAPES / 32)
