@@ -80,7 +80,7 @@ Bytes header() {
   put_32(bytes, 0);
   put_32(bytes, 0x04200000);
   put_text(bytes, "mntrRGB XYZ ");
-  for (const std::uint32_t part : {2026, 1, 1, 0, 0, 0})
+  for (const std::uint32_t part : {2026u, 1u, 1u, 0u, 0u, 0u})
     put_16(bytes, part);  // when it was made
   put_text(bytes, "acsp");
   for (int i = 0; i < 7; ++i)
