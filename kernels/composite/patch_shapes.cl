@@ -14,6 +14,12 @@ typedef struct PatchShapes {
   PatchReach reach;
 } PatchShapes;
 
+#ifdef ELLIPSES
+#define SQUEEZE_OF(shapes, k) (shapes)->squeeze[k]
+#else
+#define SQUEEZE_OF(shapes, k) 1.0f
+#endif
+
 // Rows of a tile, one splat's behind the other's.
 #define ALL_ROWS (MOST_SHAPES * TILE_HEIGHT)
 
@@ -47,10 +53,7 @@ INLINED PATCH shape_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH 
 
 // What limits are held against: the square of the distance along columns, as a disc has it.
 #ifdef CUT_BY_ROWS
-INLINED PATCH square_of_disc(const PatchShapes* shapes, uint k, PATCH d) {
-#ifdef ELLIPSES
-  const float squeeze = shapes->squeeze[k];
-#endif
+INLINED PATCH square_of_disc(PATCH d, float squeeze) {
   return SQUEEZED(d) * SQUEEZED(d);
 }
 #endif
@@ -63,7 +66,7 @@ INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, flo
     const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);
     store_patch(shape_along(&shapes->x, k, pixels, d, mean_sigma), values->across + at);
 #ifdef CUT_BY_ROWS
-    store_patch(square_of_disc(shapes, k, d), values->squares + at);
+    store_patch(square_of_disc(d, SQUEEZE_OF(shapes, k)), values->squares + at);
 #endif
   }
 }
@@ -103,12 +106,6 @@ INLINED void put_light(float* light, __global const TileSplat* splat) {
 #endif
 #endif
 }
-
-#ifdef ELLIPSES
-#define SQUEEZE_OF(shapes, k) (shapes)->squeeze[k]
-#else
-#define SQUEEZE_OF(shapes, k) 1.0f
-#endif
 
 // What squares of distances are multiplied by for an exponent of 2, or, of means, distances.
 INLINED float factor_of(float sigma, float mean_sigma) {

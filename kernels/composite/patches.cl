@@ -231,8 +231,9 @@ __attribute__((noinline)) static void add_to_patches(float* tile, const PatchSha
     fill_along(shapes, splats_of_rows(reach, y), y, mean_sigma, lanes, &values);
   for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
     const ShapeBits of_column = splats_of_column(reach, x / PATCH_WIDTH);
+    if (of_column == 0) continue;
     fill_across(shapes, of_column, x, mean_sigma, lanes, &values);
-    for (int y = 0; y < TILE_HEIGHT && of_column != 0; y += PATCH_HEIGHT)
+    for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT)
       add_to_patch(tile, x, y, shapes, &values, forms, lanes);
   }
 }

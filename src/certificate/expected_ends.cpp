@@ -9,6 +9,7 @@
 #include "certificate/octave_errors.h"
 #include "certificate/peak_cells.h"
 #include "certificate/width_octave.h"
+#include "scene/plan/splat_limits.h"
 #include "splotchcl/frame_check.h"
 
 namespace splotchcl {
@@ -54,9 +55,7 @@ double counted_light(const SampledCloud& cloud, const FramePlan& plan) {
 // Of the octaves that have any.
 std::vector<PeakCells> cells_of(const std::vector<SampledCloud>& clouds, const Frame& frame,
                                 const FramePlan& plan) {
-  const auto least_extent = static_cast<double>(plan.splats.least_extent);
-  const double edge_peak =
-      std::exp(least_extent * least_extent) / static_cast<double>(plan.splats.inverse_edge);
+  const double brightest = edge_peak(plan.splats);
   std::array<std::optional<PeakCells>, width_octaves> of_octaves;
   for (const SampledCloud& cloud : clouds) {
     const int octave = width_octave(drawn_sigma(cloud, plan));
@@ -67,7 +66,7 @@ std::vector<PeakCells> cells_of(const std::vector<SampledCloud>& clouds, const F
     const int row = nearest_cell(cloud.y, endings.side, endings.rows);
     endings.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(endings.columns) +
                    static_cast<std::size_t>(column)] +=
-        static_cast<float>(cloud.weight * std::min(counted_light(cloud, plan), edge_peak));
+        static_cast<float>(cloud.weight * std::min(counted_light(cloud, plan), brightest));
   }
   std::vector<PeakCells> all;
   for (std::optional<PeakCells>& cells : of_octaves) {

@@ -108,14 +108,9 @@ double light_that_makes_means(int octave, const FramePlan& plan) {
   return light_of_bright_means(plan.splats, without_widening(widest_sigma(octave), plan));
 }
 
-double extent2(int octave, const FramePlan& plan) {
-  const auto least_extent = static_cast<double>(plan.splats.least_extent);
-  return least_extent * least_extent + plan.needs.widths[static_cast<std::size_t>(octave)].farther;
-}
-
 // What is left of a splat where it ends. A cut is part of the model.
 double ending_of(int octave, const Frame& frame, const FramePlan& plan) {
-  return frame.kernel.cut ? 0 : std::exp(-extent2(octave, plan));
+  return frame.kernel.cut ? 0 : std::exp(-least_extent2(plan, octave));
 }
 
 // So many cells around any cell that a block may look at are all that there are.
@@ -126,7 +121,7 @@ int reach_of_all(const CellSums& cells) {
 EndingWindow window_of(int octave, int level, const CellSums& cells, const FramePlan& plan) {
   const int side = cells.side, all = reach_of_all(cells);
   const double sigma = std::ldexp(widest_sigma(octave), -level);
-  const double radius = std::sqrt(extent2(octave, plan)) * sigma + 0.5;
+  const double radius = std::sqrt(least_extent2(plan, octave)) * sigma + 0.5;
   EndingWindow window;
   if (radius > static_cast<double>(all) * side) {
     window.reach = all;
@@ -153,7 +148,7 @@ int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
   const double filter_pixels = 2 * plan.pyramid.refinement.reach();
   const double sigma = std::ldexp(widest_sigma(octave), -cells.level);
   const double reach =
-      std::sqrt(extent2(octave, plan)) * sigma + (cells.is_on_picture() ? 1 : filter_pixels);
+      std::sqrt(least_extent2(plan, octave)) * sigma + (cells.is_on_picture() ? 1 : filter_pixels);
   return static_cast<int>(
       std::min<double>(std::ceil(reach / cells.peaks.side), reach_of_all(cells.peaks)));
 }

@@ -7,6 +7,7 @@
 #include "device/frame/chunks.h"
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -44,7 +45,7 @@ class FrameBuffers {
       largest = std::max<std::uint64_t>(largest, component.particles.count);
     const std::uint64_t block = traits_.project_block;
     const std::uint64_t blocks =
-        std::min<std::uint64_t>(traits_.chunk_blocks, (largest + block - 1) / block);
+        std::min<std::uint64_t>(traits_.chunk_blocks, ceil_divide(largest, block));
     return blocks * block * splats_per_particle();
   }
 
@@ -55,7 +56,7 @@ class FrameBuffers {
     const std::uint64_t block = traits_.project_block;
     std::uint64_t blocks = 0;
     for (const DrawnComponent& component : frame_.components)
-      blocks += (component.particles.count + block - 1) / block;
+      blocks += ceil_divide<std::uint64_t>(component.particles.count, block);
     return blocks * block * splats_per_particle();
   }
 

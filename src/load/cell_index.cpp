@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
 
@@ -39,8 +40,8 @@ std::vector<ParticleBox> boxes_around_cells(const std::vector<ParticleCell>& cel
                                             std::uint64_t particles, const Vec3& origin) {
   const ParticleBox nothing = {
       {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
-  std::vector<ParticleBox> boxes(
-      static_cast<std::size_t>((particles + block_particles - 1) / block_particles), nothing);
+  std::vector<ParticleBox> boxes(static_cast<std::size_t>(ceil_divide(particles, block_particles)),
+                                 nothing);
   for (const ParticleCell& cell : cells) {
     const std::uint64_t last = (cell.first + cell.count - 1) / block_particles;
     for (std::uint64_t block = cell.first / block_particles; block <= last; ++block)

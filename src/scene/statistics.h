@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/ceil_divide.h"
 #include "scene/particle_pass.h"
 #include "splotchcl/particles.h"
 #include "splotchcl/scene.h"
@@ -18,12 +19,12 @@ struct ValueRange {
 // Every `stride`-th of `count` things, so that at most `limit` are looked at: what is
 // found in the data is the same in every run.
 inline std::size_t sample_stride(std::size_t count, std::size_t limit) {
-  return count <= limit ? 1 : (count + limit - 1) / limit;
+  return count <= limit ? 1 : ceil_divide(count, limit);
 }
 
 // The first of every `stride`-th particle that lies in the run, or one behind it.
 inline std::size_t first_sampled(const ParticleRun& run, std::size_t stride) {
-  return (run.begin + stride - 1) / stride * stride;
+  return ceil_divide(run.begin, stride) * stride;
 }
 
 // Which of the `stride` things from `first` on is looked at, below `count`: any of them, but the

@@ -9,6 +9,7 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -42,8 +43,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   p.block_particles = device.traits.project_block;
   set_strides(buffers, p);
   const bool has_own_colors = !particles.color_vector.is_absent();
-  const std::size_t count =
-      (particles.count + p.block_particles - 1) / std::size_t{p.block_particles};
+  const std::size_t count = ceil_divide(particles.count, p.block_particles);
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
   const Program program =
       device.programs.get(Specialization::boxes(device.traits.rows, has_own_colors));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/ceil_divide.h"
+
 namespace splotchcl {
 
 namespace {
@@ -19,8 +21,8 @@ std::vector<SplatChunk> cut(std::uint64_t count, std::uint32_t length) {
 
 // Of as few equal parts as are no longer than that: buffers of one serve for all.
 std::uint32_t equal_length(std::uint64_t count, std::uint32_t longest) {
-  const std::uint64_t parts = std::max<std::uint64_t>(1, (count + longest - 1) / longest);
-  return static_cast<std::uint32_t>((count + parts - 1) / parts);
+  const std::uint64_t parts = std::max<std::uint64_t>(1, ceil_divide(count, longest));
+  return static_cast<std::uint32_t>(ceil_divide(count, parts));
 }
 
 }  // namespace
@@ -50,7 +52,7 @@ std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTrait
   std::vector<ParticleChunk> chunks;
   for (std::uint32_t c = 0; c < frame.components.size(); ++c) {
     const std::uint64_t count = frame.components[c].particles.count;
-    const std::uint64_t blocks = (count + block - 1) / block;
+    const std::uint64_t blocks = ceil_divide(count, block);
     const std::uint32_t length = block * equal_length(blocks, traits.chunk_length() / block);
     for (const SplatChunk& part : cut(count, length))
       chunks.push_back({c, part.first, part.first + part.count});
@@ -63,8 +65,7 @@ std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
   const std::uint32_t length = traits.project_block;
   std::vector<ChunkBlocks> all;
   for (const ParticleChunk& chunk : chunks) {
-    all.push_back({chunk, std::vector<std::uint32_t>(chunk.count() / length +
-                                                     (chunk.count() % length != 0))});
+    all.push_back({chunk, std::vector<std::uint32_t>(ceil_divide(chunk.count(), length))});
     std::iota(all.back().blocks.begin(), all.back().blocks.end(), 0u);
   }
   return all;
@@ -73,7 +74,7 @@ std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
 std::vector<ChunkRange> sum_leaves(std::size_t chunks, const DeviceTraits& traits) {
   constexpr std::size_t most_leaves = 1024;
   const std::size_t length =
-      std::max<std::size_t>(traits.leaf_chunks, (chunks + most_leaves - 1) / most_leaves);
+      std::max<std::size_t>(traits.leaf_chunks, ceil_divide(chunks, most_leaves));
   std::vector<ChunkRange> leaves;
   for (std::size_t first = 0; first < chunks; first += length)
     leaves.push_back({first, std::min(first + length, chunks)});

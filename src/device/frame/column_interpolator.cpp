@@ -5,6 +5,7 @@
 #include "device/frame/shared.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -53,8 +54,7 @@ Launch launch_of(DeviceContext& device, const char* kernel) {
 }
 
 void run(Launch& launch, const shared::InterpolateParameters& p, const DeviceContext& device) {
-  const std::size_t items =
-      (std::size_t{p.particles} + p.particles_of_item - 1) / p.particles_of_item;
+  const std::size_t items = ceil_divide(p.particles, p.particles_of_item);
   if (device.traits.rows) {
     launch.run_items(items);
   } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/ceil_divide.h"
 #include "scene/plan/grid_pyramid.h"
 
 namespace splotchcl {
@@ -14,10 +15,6 @@ constexpr int beside_picture = 128;
 
 // More digits than floats have near a splat would be lost.
 constexpr int most_place_bits = 24;
-
-int ceil_divide(int value, int by) {
-  return (value + by - 1) / by;
-}
 
 // A multiple of the coarsest grid's pixels near the middle, so that it is a corner of pixels in
 // every grid.

@@ -1,15 +1,14 @@
 #include "device/stages/certifier.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 #include "device/frame/cell_layout.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
 #include "parallel/for_blocks.h"
+#include "scene/plan/splat_limits.h"
 
 namespace splotchcl {
 namespace {
@@ -71,11 +70,9 @@ Certifier::Certifier(const StageContext& context) : context_(context) {
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
   parameters_.light_behind = static_cast<float>(context.plan.light_behind);
-  const float least2 = limits.least_extent * limits.least_extent;
-  parameters_.edge_peak = std::exp(least2) / limits.inverse_edge;
-  for (std::size_t octave = 0; octave < std::size(parameters_.extent2); ++octave)
-    parameters_.extent2[octave] =
-        least2 + static_cast<float>(context.plan.needs.widths[octave].farther);
+  parameters_.edge_peak = static_cast<float>(edge_peak(limits));
+  for (int octave = 0; octave < WIDTH_OCTAVES; ++octave)
+    parameters_.extent2[octave] = static_cast<float>(least_extent2(context.plan, octave));
   parameters_.blurs = grid_blurs(context.plan.pyramid);
 }
 

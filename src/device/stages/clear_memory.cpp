@@ -6,6 +6,7 @@
 #include "device/frame/shared.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -21,7 +22,7 @@ void clear_together(DeviceContext& device, const char* stage, const compute::buf
   const shared::ClearParameters parameters = {static_cast<std::uint32_t>(word),
                                               static_cast<std::uint32_t>(word >> 32),
                                               static_cast<std::uint32_t>(step / 4)};
-  const std::size_t items = (parameters.words + CLEARED_WORDS - 1) / CLEARED_WORDS;
+  const std::size_t items = ceil_divide<std::size_t>(parameters.words, CLEARED_WORDS);
   Launch(device, stage, device.programs.get(Specialization::clear()).create_kernel("clear"))
       .value(parameters)
       .arg(memory)

@@ -5,15 +5,12 @@
 
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
 
 static_assert(SORT_DIGITS == GROUP_ITEMS, "an item of a group has a digit");
-
-std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
-  return value / by + (value % by != 0 ? 1 : 0);
-}
 
 std::uint32_t bits_of(std::uint32_t value) {
   std::uint32_t bits = 0;

@@ -9,13 +9,10 @@
 #include "device/stages/clear_memory.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
-
-std::uint32_t ceil_divide(std::uint32_t value, std::uint32_t by) {
-  return value / by + (value % by != 0 ? 1 : 0);
-}
 
 std::uint32_t block_count(const shared::ProjectParameters& parameters) {
   return ceil_divide(parameters.end_particle - parameters.first_particle,

@@ -7,6 +7,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
 #include "scene/plan/blur_filter.h"
 #include "scene/plan/grid_pyramid.h"
@@ -30,20 +31,16 @@ Image image_on_large_pages(int width, int height) {
 // Rows of eight, or of a strip, may reach beyond the last plane.
 constexpr std::size_t padding_of_rows = 2 * STRIP;
 
-std::size_t strips(std::size_t pixels, std::size_t per_item) {
-  return (pixels + per_item - 1) / per_item;
-}
-
 // Pairs of an even row and the next that a part touches.
 std::size_t row_pairs(const shared::GridPart& part) {
-  return strips(static_cast<std::size_t>(part.bottom - (part.top & ~1)), 2);
+  return ceil_divide(static_cast<std::size_t>(part.bottom - (part.top & ~1)), 2);
 }
 
 // Floats of one plane of a part blurred along its columns, and of one refined along them. A part
 // that is refined begins with an even column, and has the rows that its taps look at.
 std::size_t blurred_floats(const shared::GridPart& part, int reach) {
   const auto height = static_cast<std::size_t>(part.bottom - part.top + 2 * reach);
-  return height * 8 * strips(static_cast<std::size_t>(part.right_end - part.left), 8);
+  return height * 8 * ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8);
 }
 
 std::size_t refined_rows(const shared::GridPart& part) {
@@ -51,7 +48,7 @@ std::size_t refined_rows(const shared::GridPart& part) {
 }
 
 std::size_t refined_strips(const shared::GridPart& part) {
-  return strips(static_cast<std::size_t>(part.right_end - part.left) + 1, 16);
+  return ceil_divide(static_cast<std::size_t>(part.right_end - part.left) + 1, 16);
 }
 
 }  // namespace
@@ -187,7 +184,7 @@ void Resolver::blur_in_strips(const Planes& planes, const std::vector<std::size_
       .arg(context_.grids)
       .arg(planes.light)
       .arg(*target.memory)
-      .run_grid(strips(width, STRIP), strips(height, ROWS_OF_BAND),
+      .run_grid(ceil_divide(width, STRIP), ceil_divide(height, ROWS_OF_BAND),
                 context_.specialization.planes());
 }
 
@@ -207,7 +204,8 @@ void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
   static_assert(most_blur_weights == MOST_BLUR_WEIGHTS);
   std::copy(weights.begin(), weights.end(), parameters.weights);
 
-  const std::size_t width_strips = strips(static_cast<std::size_t>(part.right_end - part.left), 8);
+  const std::size_t width_strips =
+      ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8);
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
   const std::size_t plane_count = context_.specialization.planes();
@@ -264,14 +262,14 @@ void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
       .arg(context_.grids)
       .arg(*fine.memory)
       .arg(columns)
-      .run_grid(strips(width, 8), row_pairs(part), context_.specialization.planes());
+      .run_grid(ceil_divide(width, 8), row_pairs(part), context_.specialization.planes());
 }
 
 SlabLight Resolver::start_slabs() const {
   const shared::Grid& grid = context_.layout.grids.front();
   const shared::GridPart& part = context_.layout.wanted.front();
   const std::uint64_t floats = std::uint64_t{context_.specialization.planes()} * grid.plane_size;
-  const std::size_t eights = strips(static_cast<std::size_t>(part.right_end - part.left), 8) *
+  const std::size_t eights = ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8) *
                              static_cast<std::size_t>(part.bottom - part.top);
   SlabLight slab;
   // Rows of eight may reach beyond the last plane.
@@ -298,8 +296,8 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
       .arg(slab.room.columns)
       .arg(slab.before)
       .arg(slab.errors)
-      .run_grid(strips(static_cast<std::size_t>(part.right_end - part.left), 8), row_pairs(part),
-                1);
+      .run_grid(ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8),
+                row_pairs(part), 1);
   planes.used_grids = picture;
   return planes;
 }
@@ -316,7 +314,7 @@ void Resolver::begin_slab(const Planes& planes, const SlabLight& slab) const {
 }
 
 std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
-  const auto eights = strips(static_cast<std::size_t>(parameters_.width), 8);
+  const auto eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   const auto rows = static_cast<std::size_t>(parameters_.height);
   const std::vector<float> of_eights = context_.device.pool.download(slab.errors, eights * rows);
   constexpr std::size_t side = BlockErrors::block_pixels;
@@ -378,7 +376,7 @@ void Resolver::resolve_in_place(const Planes& planes, Image& image) const {
 
 void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels) const {
   DeviceContext& device = context_.device;
-  const std::size_t width_strips = strips(static_cast<std::size_t>(parameters_.width), 8);
+  const std::size_t width_strips = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   shared::ResolveParameters parameters = parameters_;
   Buffer<float> background;
   if (context_.specialization.has_background_image()) {

@@ -13,6 +13,7 @@
 #include "device/stages/clear_memory.h"
 #include "device/stages/project_parameters.h"
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/plan/light_structure.h"
@@ -362,9 +363,8 @@ void Surroundings::put_behind(const SmoothPicture& layer, const Planes& planes) 
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
   const Buffer<float> behind = planes_of(layer);
-  const auto pixels_of_item = static_cast<std::size_t>(context_.specialization.pixels_behind());
-  const std::size_t items =
-      (static_cast<std::size_t>(crop.width) + pixels_of_item - 1) / pixels_of_item;
+  const auto items =
+      static_cast<std::size_t>(ceil_divide(crop.width, context_.specialization.pixels_behind()));
   Launch(device, "surroundings",
          device.programs.get(context_.specialization.behind()).create_kernel("put_behind"))
       .value(parameters)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/ceil_divide.h"
 #include "scene/plan/blur_filter.h"
 #include "scene/plan/refinement_filter.h"
 #include "scene/plan/stencil.h"
@@ -18,10 +19,6 @@ constexpr std::size_t most_grids = 32;  // bits of used_grids (records.h)
 
 // Stencils do not come closer than that (docs/accuracy.md).
 constexpr double least_stencil_error = 8e-5;
-
-int ceil_divide(int value, int by) {
-  return (value + by - 1) / by;
-}
 
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
 // is exp(-cut^2) of the peak. Where many such edges cross, their errors have either sign:

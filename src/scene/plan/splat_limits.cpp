@@ -95,6 +95,16 @@ bool takes_pixel_means(const Frame& frame) {
   return frame.kernel.sampling == Sampling::mean && frame.projection != Projection::cube;
 }
 
+double edge_peak(const SplatLimits& limits) {
+  const auto least_extent = static_cast<double>(limits.least_extent);
+  return std::exp(least_extent * least_extent) / static_cast<double>(limits.inverse_edge);
+}
+
+double least_extent2(const FramePlan& plan, int octave) {
+  const auto least_extent = static_cast<double>(plan.splats.least_extent);
+  return least_extent * least_extent + plan.needs.widths[static_cast<std::size_t>(octave)].farther;
+}
+
 SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& shares, LightPlan light,
                                 const Responses& response) {
   SplatLimits limits;

@@ -35,6 +35,12 @@ struct Responses {
 // of splats that are as wide as pixels make them (docs/projections.md).
 bool takes_pixel_means(const Frame& frame);
 
+// The light of the brightest splat that is drawn no farther than the faintest ones are.
+double edge_peak(const SplatLimits& limits);
+
+// How far splats of an octave of widths are drawn at least, in sigma, squared.
+double least_extent2(const FramePlan& plan, int octave);
+
 SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& shares, LightPlan light,
                                 const Responses& response);
 
