@@ -96,7 +96,7 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 // all that are: all particles are projected anew. Where the whole would be drawn in order, in place
 // of slabs, its list entries are not known.
 double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
-  // Nanoseconds of two cores (docs/performance.md, "Slabs").
+  // Nanoseconds of two cores (docs/tuning.md, "Slabs").
   constexpr double start = 1e6, pixel = 50, pixel_in_order = 1000;
   constexpr double part_in_order = 10, part_of_sum = 20;  // for each particle
   constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20;
