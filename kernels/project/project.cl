@@ -142,7 +142,9 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #ifdef COUNT_TILES
         __global const Grid* grid = grids + grid_of(listed);
 #ifdef TILES_IN_SPLAT
+#ifdef WRITES_ALL_LANES
         if (grid->is_part && !is_visible) continue;
+#endif
         const uint touched = tiles_in_lists(listed.tiles, kept, grid);
 #else
         const uint touched = tiles_of(listed, *grid);

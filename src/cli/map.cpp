@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "common/output_files.h"
+#include "common/quiet_errors.h"
 #include "open_scene/input_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
@@ -87,7 +88,10 @@ DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) 
     return [](const Frame& frame) { return reference::render(frame).to_float(); };
   }
   renderer.emplace(RendererOptions{options.device});
-  return [&renderer](const Frame& frame) { return renderer->render(frame); };
+  return [&renderer](const Frame& frame) {
+    const QuietErrors quiet;  // of compilers
+    return renderer->render(frame);
+  };
 }
 
 }  // namespace

@@ -44,6 +44,15 @@ class KernelCache : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(KernelCache, OfAMapIsFilledWithoutALineOfCompilers) {
+  const ProgramResult result =
+      run_in(folder_,
+             "mkdir pocl && POCL_CACHE_DIR=\"$PWD/pocl\" SPLOTCHCL_CACHE=\"$PWD/kernels\" "
+             "\"$splotchcl\" map h --quantity counts --size 32x24 -o map.fits");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("warning")));
+}
+
 // In the second half, where the code of most is.
 TEST_F(KernelCache, ThatIsDamagedIsCompiledAgain) {
   ASSERT_EQ(draw_without_pocls_own("first.png").exit_code, 0);
