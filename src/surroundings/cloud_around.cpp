@@ -12,10 +12,6 @@
 namespace splotchcl {
 namespace {
 
-// Wider clouds than so many pixels take the mean over a pixel from derivatives at its center: the
-// first that is left out is below 3.8e-4 / sigma^6.
-constexpr double wide_sigma = 16;
-
 // The mean of exp(-(t - center)^2 / sigma^2) over a pixel.
 double mean_profile(double center, double sigma, int pixel) {
   // Turned so that both ends count from below: differences of erfc keep their digits.
@@ -33,7 +29,8 @@ double mean_of_value(double u2, double inverse_sigma2) {
   return 1 + inverse_sigma2 * ((u2 - 0.5) / 6 + inverse_sigma2 * ((u2 * (4 * u2 - 12) + 3) / 480));
 }
 
-double splat_column(const SplatAround& splat, int x, int y, double farthest2, Sampling sampling) {
+double splat_column(const SplatAround& splat, int x, int y, double farthest2, Sampling sampling,
+                    double wide_sigma) {
   const double dx = (x + 0.5 - splat.x) / splat.sigma_x, dy = (y + 0.5 - splat.y) / splat.sigma_y;
   const double x2 = dx * dx, y2 = dy * dy;
   const bool is_wide = splat.sigma_x > wide_sigma && splat.sigma_y > wide_sigma;
@@ -130,6 +127,11 @@ bool has_clouds_around(const Frame& frame) {
   return frame.through_clouds && frame.projection != Projection::orthographic;
 }
 
+// The first derivative that is left out is below 3.8e-4 / sigma^6.
+double sigma_of_means_by_values(double error) {
+  return std::pow(3.8e-4 / error, 1.0 / 6);
+}
+
 double ray_part(double distance_in_sigma) {
   const double u = std::clamp((distance_in_sigma - all_ray) / (all_splat - all_ray), 0.0, 1.0);
   return 1 - u * u * (3 - 2 * u);
@@ -175,12 +177,12 @@ CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, st
 }
 
 double column_around(const CloudAround& cloud, int x, int y, const Vec3& direction,
-                     const KernelSettings& kernel) {
+                     const KernelSettings& kernel, double wide_sigma) {
   double column =
       cloud.ray > 0 ? cloud.ray * ray_column(cloud.center, direction, cloud.farthest2) : 0;
   for (const SplatAround& splat : cloud.splats) {
     if (is_cut_away(splat, x, y, kernel)) continue;
-    column += cloud.splat * splat_column(splat, x, y, cloud.farthest2, kernel.sampling);
+    column += cloud.splat * splat_column(splat, x, y, cloud.farthest2, kernel.sampling, wide_sigma);
   }
   return column;
 }

@@ -46,9 +46,14 @@ struct CloudAround {
 // Particle i of the component, which is good and around the camera; its key is left 0.
 CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, std::size_t i);
 
-// Its column of a central one of 1 in pixel (x, y), where `direction` is seen.
+// The width in pixels from which on the mean of a splat over a pixel follows from the value at its
+// center, and derivatives there, up to this part of itself.
+double sigma_of_means_by_values(double error);
+
+// Its column of a central one of 1 in pixel (x, y), where `direction` is seen. Splats wider than
+// `wide_sigma` pixels take means by values.
 double column_around(const CloudAround& cloud, int x, int y, const Vec3& direction,
-                     const KernelSettings& kernel);
+                     const KernelSettings& kernel, double wide_sigma);
 
 // How far from the view direction the picture's corners are seen, in radians.
 double widest_angle(const Frame& frame);

@@ -19,6 +19,7 @@
 #include "scene/plan/light_structure.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
+#include "surroundings/clouds_in_blocks.h"
 
 namespace splotchcl {
 namespace {
@@ -274,12 +275,16 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   const FramePlan& plan = context_.plan;
   const LightPlan light = plan.light;
   const bool is_ordered = light == LightPlan::ordered;
+  constexpr double exact = 2e-11, part_of_promise = 1e-4;
+  const double wide_sigma =
+      sigma_of_means_by_values(plan.is_extended() ? exact : part_of_promise * plan.shares.promise);
+  const CloudsInBlocks in_blocks(clouds, layer.first, layer.end, frame);
   const auto add_all = [&](int x, int y, double* channels) {
     std::fill_n(channels, is_ordered ? 6 : 3, 0.0);
     const Vec3 direction = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
-    for (std::size_t k = layer.first; k < layer.end; ++k) {
+    for (const std::uint32_t k : in_blocks.at(x, y)) {
       const CloudAround& cloud = clouds[k];
-      const double column = column_around(cloud, x, y, direction, frame.kernel);
+      const double column = column_around(cloud, x, y, direction, frame.kernel, wide_sigma);
       if (column == 0) continue;
       for (std::size_t c = 0; c < 3; ++c) {
         if (!is_ordered) {

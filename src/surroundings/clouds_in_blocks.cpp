@@ -1,0 +1,116 @@
+#include "surroundings/clouds_in_blocks.h"
+
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "parallel/for_blocks.h"
+#include "scene/constants.h"
+#include "scene/projection.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int block_pixels = 32;
+// Of the nodes farther beside the picture (smooth_picture.cpp), which are few, each looks at all
+// clouds.
+constexpr int pixels_beside = 64;
+
+int block_of(int pixel) {
+  return pixel >= 0 ? pixel / block_pixels : -((-pixel + block_pixels - 1) / block_pixels);
+}
+
+// All directions that a block's pixels see lie within `half_angle` of its axis.
+struct BlockOfPixels {
+  int left, top;
+  Vec3 axis;
+  double half_angle;
+};
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  using namespace boost::qvm;
+  // Of small angles the cosine knows little.
+  return std::atan2(mag(cross(a, b)), dot(a, b));
+}
+
+// Directions are looked at every few pixels: those between are no farther off than neighbors are
+// from one another.
+BlockOfPixels make_block(int left, int top, const Frame& frame) {
+  constexpr int step = 4, samples = block_pixels / step + 1;
+  const auto direction = [&](int column, int row) {
+    return direction_at(left + column * step, top + row * step, frame.camera, frame.projection);
+  };
+  BlockOfPixels block = {left, top, direction(samples / 2, samples / 2), 0};
+  double farthest = 0, apart = 0;
+  for (int row = 0; row < samples; ++row) {
+    for (int column = 0; column < samples; ++column) {
+      const Vec3 here = direction(column, row);
+      farthest = std::max(farthest, angle_between(block.axis, here));
+      if (column > 0) apart = std::max(apart, angle_between(direction(column - 1, row), here));
+      if (row > 0) apart = std::max(apart, angle_between(direction(column, row - 1), here));
+    }
+  }
+  block.half_angle = farthest + apart;
+  return block;
+}
+
+// A ray that leads away from a cloud's center finds exp(-D^2) / 2 of it at most.
+bool is_found_by_rays(const CloudAround& cloud, const BlockOfPixels& block) {
+  if (cloud.ray == 0) return false;
+  const double distance2 = boost::qvm::mag_sqr(cloud.center);
+  if (distance2 <= cloud.farthest2) return true;
+  const double angle = angle_between(cloud.center, block.axis) - block.half_angle;
+  if (angle <= 0) return true;
+  if (angle >= 0.5 * pi) return false;
+  const double beside = std::sin(angle);
+  return distance2 * beside * beside <= cloud.farthest2;
+}
+
+// Of a range of a block's pixels.
+bool reaches(double place, double reach, int first) {
+  return place + reach >= first && place - reach <= first + block_pixels;
+}
+
+bool is_splat_in(const CloudAround& cloud, const BlockOfPixels& block) {
+  // The mean over a pixel reaches half a pixel farther.
+  const double farthest = std::sqrt(cloud.farthest2);
+  return std::any_of(cloud.splats.begin(), cloud.splats.end(), [&](const SplatAround& splat) {
+    return reaches(splat.x, farthest * splat.sigma_x + 1, block.left) &&
+           reaches(splat.y, farthest * splat.sigma_y + 1, block.top);
+  });
+}
+
+}  // namespace
+
+CloudsInBlocks::CloudsInBlocks(const std::vector<CloudAround>& clouds, std::size_t first,
+                               std::size_t end, const Frame& frame)
+    : first_x_(block_of(-pixels_beside)),
+      first_y_(first_x_),
+      columns_(block_of(frame.width + pixels_beside) + 1 - first_x_),
+      rows_(block_of(frame.height + pixels_beside) + 1 - first_y_),
+      of_blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
+      all_(end - first) {
+  std::iota(all_.begin(), all_.end(), static_cast<std::uint32_t>(first));
+  for_blocks(of_blocks_.size(), 4, [&](std::size_t from, std::size_t to) {
+    for (std::size_t b = from; b < to; ++b) {
+      const int column = first_x_ + static_cast<int>(b) % columns_;
+      const int row = first_y_ + static_cast<int>(b) / columns_;
+      const BlockOfPixels block = make_block(column * block_pixels, row * block_pixels, frame);
+      std::copy_if(all_.begin(), all_.end(), std::back_inserter(of_blocks_[b]),
+                   [&](std::uint32_t number) {
+                     const CloudAround& cloud = clouds[number];
+                     return is_found_by_rays(cloud, block) || is_splat_in(cloud, block);
+                   });
+    }
+  });
+}
+
+const std::vector<std::uint32_t>& CloudsInBlocks::at(int x, int y) const {
+  const int column = block_of(x) - first_x_, row = block_of(y) - first_y_;
+  if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return all_;
+  return of_blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)];
+}
+
+}  // namespace splotchcl
