@@ -1,6 +1,7 @@
 #include "device/frame/particle_store.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -31,11 +32,14 @@ void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
 }  // namespace
 
 compute::buffer ParticleStore::constant(float value) {
-  const auto found = constants_.find(value);
+  // By its bits: what is not a number is no key, as it is not less than any.
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  const auto found = constants_.find(bits);
   if (found != constants_.end()) return found->second;
   compute::buffer buffer(device_.context, sizeof(float));
   device_.queue.enqueue_write_buffer(buffer, 0, sizeof(float), &value);
-  constants_.emplace(value, buffer);
+  constants_.emplace(bits, buffer);
   return buffer;
 }
 
@@ -51,9 +55,16 @@ void ParticleStore::require_room(std::size_t bytes) const {
 const compute::buffer* ParticleStore::find(const Key& key) {
   const auto found = entries_.find(key);
   if (found == entries_.end()) return nullptr;
-  found->second.frame = frame_;
-  found->second.use = ++uses_;
-  return &found->second.buffer;
+  Entry& entry = found->second;
+  // Who draws arrays of its own may have changed them since the last frame.
+  const bool is_copy = entry.kind == Kind::given && entry.bytes > 0;
+  if (is_copy && !columns_stay_ && entry.frame != frame_) {
+    device_.queue.enqueue_write_buffer(entry.buffer, 0, static_cast<std::size_t>(entry.bytes),
+                                       std::get<0>(key));
+  }
+  entry.frame = frame_;
+  entry.use = ++uses_;
+  return &entry.buffer;
 }
 
 compute::buffer ParticleStore::keep(const Key& key, std::shared_ptr<const void> owner) {
@@ -113,6 +124,13 @@ compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t value
   const std::size_t end = piece.end * values_per_particle;
   const bool is_whole = first == 0 && end >= column.size();
   const auto source = column.source();
+  if (interpolated(column) && piece.end - piece.first < column.size() / values_per_particle) {
+    throw DeviceError("device " + device_.device.name() + ": found " +
+                      std::to_string(column.size() / values_per_particle) +
+                      " particles between two snapshots, expected at most " +
+                      std::to_string(piece.end - piece.first) +
+                      ": draw a part of them, or a moment that a snapshot has");
+  }
   if (!column.is_array() || (is_whole && !is_streamed(column)) || interpolated(column))
     return buffer_of(column, value_if_absent, stride);
   stride = 1;
@@ -240,7 +258,9 @@ bool ParticleStore::are_whole(const Particles& particles) const {
 ParticleStore::Piece ParticleStore::piece_of(const Particles& particles,
                                              const ParticleChunk& chunk) const {
   const std::uint64_t chunk_length = device_.traits.chunk_length();
-  const std::uint64_t largest = device_.traits.largest_buffer / (3 * sizeof(float));
+  // Kernels number the particles of a buffer by 32 bits.
+  constexpr std::uint64_t most = std::uint64_t{1} << 31;
+  const std::uint64_t largest = std::min(most, device_.traits.largest_buffer / (3 * sizeof(float)));
   const bool is_streamed = has_streamed_column(particles);
   if (!is_streamed && particles.count <= largest) return {0, particles.count};
   const std::uint64_t length =

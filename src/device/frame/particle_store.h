@@ -26,8 +26,9 @@ struct ParticleBuffers {
   const BlockBoxes::Boxes* boxes = nullptr;
 };
 
-// Keeps columns on the device from frame to frame: a second frame of the same data moves
-// nothing. A column is known by its memory, which it keeps alive. Columns between two snapshots are
+// Keeps columns on the device from frame to frame: a second frame of data that stay moves nothing,
+// one of arrays that may have changed writes them anew. A column is known by its memory, which it
+// keeps alive. Columns between two snapshots are
 // made on the device from theirs, which stay as long as frames between them are drawn. Columns that
 // one buffer of the device does not hold are there in pieces, and those whose values are made as
 // they are wanted in chunks, one at a time.
@@ -96,9 +97,9 @@ class ParticleStore {
   DeviceContext& device_;
   bool columns_stay_;
   std::map<Key, Entry> entries_;
-  std::map<float, compute::buffer> constants_;
-  std::vector<Buffer<float>> streamed_;  // of the last chunk
-  std::vector<Piece> seen_;              // stretches of it that are in view
+  std::map<std::uint32_t, compute::buffer> constants_;  // by the bits of their value
+  std::vector<Buffer<float>> streamed_;                 // of the last chunk
+  std::vector<Piece> seen_;                             // stretches of it that are in view
   BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;
