@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "device/frame/splat_capacity.h"
 #include "device/ranks/leaf_sums.h"
 #include "device/stages/carry_splats.h"
 #include "device/stages/project_parameters.h"
@@ -153,13 +154,11 @@ Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
 }
 
 bool Pipeline::has_room_for_all_splats() const {
-  std::uint64_t splats = 0;
   for (const DrawnComponent& component : context_.frame.components) {
     if (!particles_.are_whole(component.particles)) return false;
-    splats +=
-        component.particles.count * static_cast<std::uint64_t>(context_.plan.splats_per_particle);
   }
-  return splats <= splat_capacity(context_);
+  return splat_slots(context_.frame, context_.plan, context_.device.traits) <=
+         splat_capacity(context_);
 }
 
 // Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.

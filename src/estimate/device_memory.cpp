@@ -7,6 +7,7 @@
 #include "device/frame/chunks.h"
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
+#include "device/frame/splat_capacity.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -52,13 +53,12 @@ class FrameBuffers {
   // Where the splats of an ordered frame lie: on a processor each particle has room for its own,
   // block by block; groups count theirs first.
   std::uint64_t slots(std::uint64_t splats) const {
-    if (!traits_.rows) return splats;
-    const std::uint64_t block = traits_.project_block;
-    std::uint64_t blocks = 0;
-    for (const DrawnComponent& component : frame_.components)
-      blocks += ceil_divide<std::uint64_t>(component.particles.count, block);
-    return blocks * block * splats_per_particle();
+    return traits_.rows ? splat_slots(frame_, plan_, traits_) : splats;
   }
+
+  // The splats of a chunk of particles before they are put together (Projector::project_window);
+  // only by the shape for processors.
+  std::uint64_t splats_apart() const { return traits_.rows ? chunk_splats() : 0; }
 
   std::uint64_t splats(std::uint64_t count) const {
     return count * (specialization_.splat_bytes() + specialization_.extended_splat_bytes());
@@ -146,20 +146,42 @@ std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
          std::max(drawing, buffers.blurred_columns());
 }
 
+constexpr std::uint64_t key = sizeof(std::uint32_t), order = sizeof(std::uint32_t);
+
+std::uint64_t key_end_of(const Frame& frame) {
+  return frame.sort.by == SortOrder::By::depth ? sizeof(std::uint16_t) : 0;
+}
+
+// While sorted splats are drawn, without these.
+std::uint64_t bytes_of_drawing(const FrameBuffers& buffers, const DeviceTraits& traits,
+                               std::uint64_t count) {
+  const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
+  return count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks) +
+         buffers.slabs();
+}
+
 std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
                              const DeviceTraits& traits, double splats) {
   const auto count = static_cast<std::uint64_t>(std::llround(splats));
-  constexpr std::uint64_t key = sizeof(std::uint32_t), order = sizeof(std::uint32_t);
-  const bool by_depth = frame.sort.by == SortOrder::By::depth;
-  const std::uint64_t key_end = by_depth ? sizeof(std::uint16_t) : 0;
+  const std::uint64_t key_end = key_end_of(frame);
   // Keys and order have a second place each, where they are sorted to: of keys on a processor the
   // one that they were projected to.
   const std::uint64_t slots = buffers.slots(count);
   const std::uint64_t sorting = slots * (key + key_end) + count * (key + 2 * order);
-  const std::uint64_t chunk = std::min<std::uint64_t>(count, traits.sorted_chunk);
-  const std::uint64_t drawing =
-      count * order + buffers.splats_in_order(chunk) + buffers.lists(traits.bin_blocks);
-  return buffers.light() + buffers.splats(slots) + std::max(sorting, drawing + buffers.slabs());
+  return buffers.light() + buffers.splats(slots) +
+         std::max(sorting, bytes_of_drawing(buffers, traits, count));
+}
+
+// What the window before has left of a chunk comes on top of a window's own.
+std::uint64_t bytes_in_windows(const FrameBuffers& buffers, const Frame& frame,
+                               const DeviceTraits& traits, double splats) {
+  const auto own = static_cast<std::uint64_t>(std::llround(splats));
+  const std::uint64_t count = own + std::min<std::uint64_t>(own, traits.sorted_chunk);
+  const std::uint64_t keyed = key + key_end_of(frame) + order, apart = buffers.splats_apart();
+  const std::uint64_t projecting = count * keyed + buffers.splats(apart) + apart * keyed;
+  const std::uint64_t sorting = count * (keyed + key + order);
+  return buffers.light() + buffers.splats(count) +
+         std::max({projecting, sorting, bytes_of_drawing(buffers, traits, count)});
 }
 
 }  // namespace
@@ -183,6 +205,14 @@ std::uint64_t estimate_device_bytes(const Frame& frame, const FramePlan& plan,
   const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
   return uploaded + (plan.needs_sort() ? bytes_in_order(buffers, frame, traits, splats)
                                        : bytes_for_sums(buffers));
+}
+
+std::uint64_t estimate_device_bytes_of_windows(const Frame& frame, const FramePlan& plan,
+                                               const Specialization& specialization,
+                                               const DeviceTraits& traits, double splats) {
+  const FrameBuffers buffers(frame, plan, specialization, traits);
+  const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
+  return uploaded + bytes_in_windows(buffers, frame, traits, splats);
 }
 
 }  // namespace splotchcl

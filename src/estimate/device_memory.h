@@ -16,6 +16,11 @@ std::uint64_t estimate_device_bytes(const Frame& frame, const FramePlan& plan,
                                     const Specialization& specialization,
                                     const DeviceTraits& traits, double splats);
 
+// The same of an ordered frame that is drawn in windows of so many splats (docs/large.md).
+std::uint64_t estimate_device_bytes_of_windows(const Frame& frame, const FramePlan& plan,
+                                               const Specialization& specialization,
+                                               const DeviceTraits& traits, double splats);
+
 // Of all columns that are arrays.
 std::uint64_t particle_bytes(const Frame& frame);
 

@@ -9,10 +9,20 @@
 #include "estimate/device_memory.h"
 #include "estimate/drawing_time.h"
 #include "estimate/splat_work.h"
+#include "scene/streamed_column.h"
 
 namespace splotchcl {
 
 namespace {
+
+bool has_streamed_columns(const Frame& frame) {
+  return std::any_of(
+      frame.components.begin(), frame.components.end(), [](const DrawnComponent& component) {
+        const auto columns = component.particles.columns();
+        return std::any_of(columns.begin(), columns.end(),
+                           [](const Column* column) { return is_streamed(*column); });
+      });
+}
 
 // As Pipeline::draw_ordered decides, of which particles are drawn being an estimate.
 void choose_windows(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
@@ -20,13 +30,13 @@ void choose_windows(const Frame& frame, const FramePlan& plan, const Specializat
   const std::uint64_t capacity =
       splat_capacity(plan, specialization, make_picture_layout(frame, plan, specialization), traits,
                      estimate.memory_limit);
-  const std::uint64_t most =
-      particle_count(frame) * static_cast<std::uint64_t>(plan.splats_per_particle);
-  if (!plan.needs_sort() || most <= capacity) return;
-  estimate.windows =
-      static_cast<std::uint64_t>(std::ceil(estimate.splats / static_cast<double>(capacity)));
+  const bool fit = splat_slots(frame, plan, traits) <= capacity;
+  if (!plan.needs_sort() || (fit && !has_streamed_columns(frame))) return;
+  estimate.windows = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(std::ceil(estimate.splats / static_cast<double>(capacity))));
   const double in_window = std::min(estimate.splats, static_cast<double>(capacity));
-  estimate.device_bytes = estimate_device_bytes(frame, plan, specialization, traits, in_window);
+  estimate.device_bytes =
+      estimate_device_bytes_of_windows(frame, plan, specialization, traits, in_window);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "device/cloud_frames.h"
 #include "device/counted_column.h"
+#include "device/frame/splat_capacity.h"
 #include "device/pictures.h"
 #include "device/scene_maker.h"
 #include "device/stages.h"
@@ -215,6 +216,25 @@ TEST_P(Windows, DrawColumnsThatComeAndGoToTheSameBits) {
   device().traits.shares_host_memory = false;
   device().memory.columns = 5 * sizeof(float) * 512;
   EXPECT_EQ(draw(frame).pixels, whole.pixels);
+}
+
+// Blocks of particles have room for all of theirs, however few a component has.
+TEST_P(Windows, AreAskedForByTheRoomThatSplatsTake) {
+  const Frame frame = many_clouds(1000);
+  DeviceTraits traits = device().traits;
+  traits.project_block = 8192;
+  Frame of_many = frame;
+  of_many.components.assign(100, frame.components.front());
+  const std::uint64_t slots = splat_slots(of_many, make_plan(of_many), traits);
+  EXPECT_EQ(slots, traits.rows ? 100 * 8192 : 100 * frame.components.front().particles.count);
+}
+
+TEST_P(Windows, HaveNoMoreSplatsThanKernelsCount) {
+  const Frame frame = many_clouds(100);
+  const FramePlan plan = make_plan(frame);
+  device().memory.total = std::uint64_t{1} << 44;
+  device().traits.largest_buffer = std::uint64_t{1} << 43;
+  EXPECT_LE(splat_capacity(StageContext(device(), frame, plan)), std::uint64_t{1} << 31);
 }
 
 TEST_P(Windows, DrawColumnsThatAreReadChunkByChunkToTheSameBits) {

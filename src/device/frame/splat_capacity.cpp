@@ -2,7 +2,24 @@
 
 #include <algorithm>
 
+#include "scene/ceil_divide.h"
+
 namespace splotchcl {
+namespace {
+
+// Kernels number them by 32 bits.
+constexpr std::uint64_t most_splats = std::uint64_t{1} << 31;
+
+}  // namespace
+
+std::uint64_t splat_slots(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits) {
+  std::uint64_t particles = 0;
+  for (const DrawnComponent& component : frame.components) {
+    const std::uint64_t count = component.particles.count, block = traits.project_block;
+    particles += traits.rows ? ceil_divide(count, block) * block : count;
+  }
+  return particles * static_cast<std::uint64_t>(plan.splats_per_particle);
+}
 
 std::uint64_t splat_capacity(const FramePlan& plan, const Specialization& specialization,
                              const PictureLayout& layout, const DeviceTraits& traits,
@@ -23,7 +40,7 @@ std::uint64_t splat_capacity(const FramePlan& plan, const Specialization& specia
   const std::uint64_t in_room = room / (splat + key + place + sorted_into);
   // As many as a chunk has may be left over from the window before.
   const std::uint64_t in_window = in_room > traits.sorted_chunk ? in_room - traits.sorted_chunk : 0;
-  const std::uint64_t in_buffer = traits.largest_buffer / splat / 2;
+  const std::uint64_t in_buffer = std::min(most_splats, traits.largest_buffer / splat / 2);
   return std::max<std::uint64_t>(traits.sorted_chunk, std::min(in_window, in_buffer));
 }
 

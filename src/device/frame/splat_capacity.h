@@ -5,6 +5,7 @@
 #include "device/frame/picture_layout.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/device_traits.h"
+#include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
@@ -15,5 +16,10 @@ namespace splotchcl {
 std::uint64_t splat_capacity(const FramePlan& plan, const Specialization& specialization,
                              const PictureLayout& layout, const DeviceTraits& traits,
                              std::uint64_t memory);
+
+// The slots of an ordered frame's splats, drawn in one piece: on a processor each block of
+// particles has room for the splats of all of its particles (Projector), on a GPU no more is known
+// beforehand than how many there are at most.
+std::uint64_t splat_slots(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits);
 
 }  // namespace splotchcl
