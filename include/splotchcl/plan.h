@@ -132,6 +132,9 @@ struct GridPyramid {
   // How many times coarse_sigma a splat of this peak, above 1, needs to be as wide as, for the
   // grids of a level: its errors are as many times larger, and it is no stencil.
   double wider_for(double peak) const;
+  // How many times as wide a splat is, sigma in pixels of the picture, as one has to be for grids
+  // of level 1; less than 2^(first_level), or 0: it lies on the picture's own grid.
+  double over_least_width(double sigma, double peak) const;
 
   RefinementFilter refinement;
   float coarse_peak = 0;   // brighter splats stay on grid 0

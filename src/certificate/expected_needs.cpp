@@ -116,10 +116,8 @@ class OctaveSample {
 
 GridsOfSplats grids_of(const SampledCloud& cloud, double sigma, const FramePlan& plan) {
   const GridPyramid& pyramid = plan.pyramid;
-  const bool has_others = pyramid.grids.size() > 1;
-  if (!has_others || cloud.light > static_cast<double>(pyramid.coarse_peak)) return {};
   const double ratio =
-      std::ldexp(sigma / static_cast<double>(pyramid.coarse_sigma), -pyramid.first_level);
+      std::ldexp(pyramid.over_least_width(sigma, cloud.light), -pyramid.first_level);
   if (ratio < 1) return {};
   const int coarsest = static_cast<int>(pyramid.level_grids.size()) - 1;
   return {std::min(std::ilogb(ratio) + pyramid.first_level, coarsest), false};

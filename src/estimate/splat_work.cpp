@@ -19,10 +19,7 @@ double extent_of(const SampledCloud& cloud, const Frame& frame, const FramePlan&
 
 std::size_t grid_of(const SampledCloud& cloud, const FramePlan& plan) {
   const std::size_t grids = plan.pyramid.grids.size();
-  if (grids < 2 || cloud.light > static_cast<double>(plan.pyramid.coarse_peak)) return 0;
-  const double wider = cloud.light > 1 ? plan.pyramid.wider_for(cloud.light) : 1;
-  const double least = static_cast<double>(plan.pyramid.coarse_sigma) * wider;
-  const double octaves = std::log2(cloud.sigma / least);
+  const double octaves = std::log2(plan.pyramid.over_least_width(cloud.sigma, cloud.light));
   const auto of_level = static_cast<double>(plan.pyramid.grids_of_level());
   const double index = std::floor(of_level * (octaves - plan.pyramid.first_level)) + 1;
   return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(grids - 1)));

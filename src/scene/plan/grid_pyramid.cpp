@@ -165,6 +165,11 @@ double GridPyramid::wider_for(double peak) const {
   return std::max(std::pow(peak, 0.125), has_stencils() ? next_grid : 1.0);
 }
 
+double GridPyramid::over_least_width(double sigma, double peak) const {
+  if (grids.size() < 2 || peak > static_cast<double>(coarse_peak)) return 0;
+  return sigma / (static_cast<double>(coarse_sigma) * (peak > 1 ? wider_for(peak) : 1));
+}
+
 GridPyramid make_single_grid(const Frame& frame) {
   GridPyramid pyramid;
   pyramid.grids = {{0, frame.width, frame.height, 0}};
