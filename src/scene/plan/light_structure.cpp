@@ -21,8 +21,11 @@ std::optional<double> source_of_all(const DrawnComponent& component) {
   if (component.palette.has_own_absorption()) return std::nullopt;
   if (component.absorption.kind == Kind::as_emission) return 1;
   if (component.absorption.kind != Kind::factor) return std::nullopt;
+  // Sums are of A w, and E is as many times as much: of more single precision holds too little of
+  // one of them.
+  constexpr double largest = 1e18;
   const double source = component.brightness / component.absorption.factor;
-  return std::isfinite(source) ? std::optional(source) : std::nullopt;
+  return source >= 1 / largest && source <= largest ? std::optional(source) : std::nullopt;
 }
 
 // 0.6 / 0.2 is 3, whatever divisions round to: pictures err by as little.

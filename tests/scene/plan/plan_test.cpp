@@ -53,6 +53,14 @@ TEST(Plan, NeedsNoOrderWhereEverythingAbsorbsWhatItEmits) {
   EXPECT_EQ(plan.source, (std::array<double, 3>{1, 1, 1}));
 }
 
+// Sums are of A w, of which single precision holds nothing there, or of E w, which is as far beyond
+// it.
+TEST(Plan, NeedsAnOrderWhereSinglePrecisionDoesNotHoldBothEmissionAndAbsorption) {
+  EXPECT_EQ(light_of({component(Kind::factor, 1e-17)}), LightPlan::proportional);
+  EXPECT_EQ(light_of({component(Kind::factor, 1e-36)}), LightPlan::ordered);
+  EXPECT_EQ(light_of({component(Kind::factor, 1e36)}), LightPlan::ordered);
+}
+
 TEST(Plan, NeedsNoOrderWhereOneComponentAbsorbsAFactorOfWhatItEmits) {
   DrawnComponent gas = component(Kind::factor, 4);
   gas.brightness = 3;
