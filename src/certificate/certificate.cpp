@@ -221,7 +221,10 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
       certificate.error_of_promise = error;
       certificate.worst = blocks[b];
     }
-    if (error <= 1) continue;
+    if (error <= 1) {
+      if (error > certificate.worst_kept.sum()) certificate.worst_kept = blocks[b];
+      continue;
+    }
     const ErrorParts sums = errors.in_block(b, parts);
     errors.add_needs(parts, sums, certificate.needs);
   }

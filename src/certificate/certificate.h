@@ -14,6 +14,7 @@ namespace splotchcl {
 struct Certificate {
   double error_of_promise = 0;  // the largest of any block of pixels
   ErrorParts worst;             // of that block
+  ErrorParts worst_kept;        // of the block with the largest one up to 1
   BlockErrors blocks;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;

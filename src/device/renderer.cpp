@@ -52,6 +52,18 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
   check.blocks = certificate.blocks;
 }
 
+// The largest of these that the picture has: the worst block that kept the promise at first may
+// have been drawn again with others.
+ErrorParts worst_within(const std::vector<ErrorParts>& candidates, double error_of_promise) {
+  constexpr double rounding = 1e-6;
+  ErrorParts worst;
+  for (const ErrorParts& parts : candidates) {
+    if (parts.sum() <= error_of_promise * (1 + rounding) && parts.sum() > worst.sum())
+      worst = parts;
+  }
+  return worst;
+}
+
 // What is known of splats once they are drawn.
 struct DrawnSplats {
   CollectedSplats collected;
@@ -158,6 +170,8 @@ struct Renderer::State {
             double pixels_of_part, DrawnPicture& picture);
   // Draws, and what was drawn.
   Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
+  // What kernels still read belongs to the caller, who is told of what failed before.
+  void finish_quietly();
   void note(const DrawCounts& counts);
   void note_processes();
   // What the first of several ranks knows becomes known to all.
@@ -271,17 +285,19 @@ bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const Fram
     pixels += static_cast<double>(part.width) * part.height;
   if (parts.empty() || pixels > most_pixels * image.width * image.height) return false;
   FrameCheck check = std::move(stats.check);
+  std::vector<ErrorParts> worst = {certificate.worst_kept};
   for (const Rectangle& part : parts) {
     Frame frame_of_part = frame;
     frame_of_part.crop = {frame.crop.x + part.x, frame.crop.y + part.y, part.width, part.height};
     stats.check = {};
     paste(draw_until_kept(frame_of_part, of_parts), part, picture);
-    certificate.worst = stats.check.worst;
+    worst.push_back(stats.check.worst);
   }
   stats.check = std::move(check);
   const std::vector<float>& errors = certificate.blocks.errors;
   certificate.error_of_promise =
       static_cast<double>(*std::max_element(errors.begin(), errors.end())) / plan.shares.promise;
+  certificate.worst = worst_within(worst, certificate.error_of_promise);
   return true;
 }
 
@@ -297,6 +313,13 @@ Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSpla
   if (splats.counts.too_sharp == 0 && is_first()) splats.collected = pipeline.collected();
   check_seconds += thread_seconds() - before;
   return image;
+}
+
+void Renderer::State::finish_quietly() {
+  try {
+    device.queue.finish();
+  } catch (const compute::opencl_error&) {
+  }
 }
 
 void Renderer::State::note(const DrawCounts& counts) {
@@ -326,6 +349,7 @@ void Renderer::State::share(Certificate& certificate) const {
   if (!ranks) return;
   broadcast_value(*ranks, certificate.error_of_promise);
   broadcast_value(*ranks, certificate.worst);
+  broadcast_value(*ranks, certificate.worst_kept);
   broadcast_value(*ranks, certificate.needs);
   broadcast_value(*ranks, certificate.blocks.columns);
   broadcast_value(*ranks, certificate.blocks.rows);
@@ -375,12 +399,12 @@ Image Renderer::render(const Frame& frame, const FramePlan& plan) {
   try {
     return state_->render(frame, plan);
   } catch (const compute::opencl_error& error) {
+    state_->finish_quietly();
     throw DeviceError("device " + state_->device.device.name() +
                       " failed: " + error.error_string() +
                       "; draw fewer particles or a smaller picture, or choose another device");
   } catch (...) {
-    // What kernels still read belongs to the caller.
-    state_->device.queue.finish();
+    state_->finish_quietly();
     throw;
   }
 }

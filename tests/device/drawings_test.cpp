@@ -42,6 +42,22 @@ class Drawings : public PictureTest {
     return frame;
   }
 
+  // In the first and in the last corner, of clouds with these columns.
+  static Frame two_crowds(double first, double last) {
+    CloudSetup faint;
+    faint.width = 600;
+    faint.height = 450;
+    faint.count = 2000;
+    faint.sigma_high = 3;
+    faint.column_low = 1e-5;
+    faint.column_high = 2e-4;
+    const std::vector<Cloud> before(300, Cloud{-225, -175, 50, 4.5, first});
+    const std::vector<Cloud> behind(300, Cloud{225, 175, 50, 4.5, last});
+    return frame_of(faint.width, faint.height,
+                    {random_clouds(faint), component_of(before, one_color(1, 1, 1)),
+                     component_of(behind, one_color(1, 1, 1))});
+  }
+
   // Wide clouds in the middle, whose ends add up around them.
   static Frame cluster_in_the_dark(double tolerance) {
     CloudSetup setup;
@@ -82,6 +98,23 @@ TEST_F(Drawings, InOrderAreOneWhereAllEndsAreKnownBefore) {
     renderer().render(frame, make_plan(frame));
     EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U)
         << "a plan that does not know them, " << tolerance;
+  }
+}
+
+// Splats above white stay on the picture's own grid up to a larger width than others, or on finer
+// ones: that is where they are expected to lie upon one another.
+TEST_F(Drawings, OfBrightCrowdsAreOneWhereTheirGridIsKnownBefore) {
+  EXPECT_EQ(drawings_of(two_crowds(2, 2)), 1U);
+}
+
+// Whichever part is drawn last.
+TEST_F(Drawings, OfPartsTellOfTheWorstOfAllBlocks) {
+  for (const bool is_first_brighter : {false, true}) {
+    const Frame frame = is_first_brighter ? two_crowds(20, 2) : two_crowds(2, 20);
+    renderer().render(frame, make_plan(frame));
+    const FrameCheck& check = renderer().stats().check;
+    EXPECT_NEAR(check.worst.sum(), check.errors_of_promise.back(),
+                1e-5 * check.errors_of_promise.back());
   }
 }
 
