@@ -18,6 +18,12 @@ bool serves(const compute::buffer& memory, std::uint64_t wanted) {
   return memory.size() >= wanted && memory.size() <= 2 * wanted + 4096;
 }
 
+bool is_out_of_memory(const compute::opencl_error& error) {
+  const cl_int code = error.error_code();
+  return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
+         code == CL_OUT_OF_HOST_MEMORY;
+}
+
 bool is_smaller(const compute::buffer& a, const compute::buffer& b) {
   return a.size() < b.size();
 }
@@ -56,7 +62,21 @@ compute::buffer BufferPool::take(std::uint64_t bytes, const char* what, Filling 
   return memory;
 }
 
+// Where the device has no memory left what lies idle makes room.
 compute::buffer BufferPool::new_buffer(std::size_t bytes, Filling filling) {
+  try {
+    return buffer_of_device(bytes, filling);
+  } catch (const compute::opencl_error& error) {
+    if (!is_out_of_memory(error) || free_.empty()) throw;
+  }
+  queue_.finish();
+  for (const compute::buffer& idle : free_)
+    total_bytes_ -= idle.size();
+  free_.clear();
+  return buffer_of_device(bytes, filling);
+}
+
+compute::buffer BufferPool::buffer_of_device(std::size_t bytes, Filling filling) {
   if (large_pages_ && filling == Filling::whole) return large_pages_->buffer(context_, bytes);
   return compute::buffer(context_, bytes);
 }

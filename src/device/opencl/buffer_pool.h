@@ -173,6 +173,7 @@ class BufferPool {
   friend class PooledMemory;
   compute::buffer take(std::uint64_t bytes, const char* what, Filling filling);
   compute::buffer new_buffer(std::size_t bytes, Filling filling);
+  compute::buffer buffer_of_device(std::size_t bytes, Filling filling);
   std::array<PooledMemory, 2> take_two(std::uint64_t bytes, const char* what);
   void give_back(compute::buffer memory);
   void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
