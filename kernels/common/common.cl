@@ -1,5 +1,5 @@
 // Formulas that several stages share. The host puts a block of #defines and the headers of
-// the stage in front of this file (src/device/stages/specialization.cpp).
+// the stage in front of this file (src/device/frame/specialization.cpp).
 
 #pragma OPENCL FP_CONTRACT ON
 

@@ -1,6 +1,5 @@
-// Joins the layers of a tile that was cut into segments, nearest first, into the planes:
-// a work-item per tile, walking the segment list to its own stretch.
-// Work-item (x of tile row, segment): the first segment of a cut tile joins them all.
+// Joins the layers of a tile that was cut into segments, nearest first, into the planes.
+// Work-item (row of the tile, segment): those of the first segment of a cut tile join them all.
 __kernel void join(const CompositeParameters p, __global const Grid* grids,
                    __global const Segment* segments, __global float* planes,
                    __global const float* partials) {
