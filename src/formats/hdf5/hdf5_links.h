@@ -40,8 +40,12 @@ std::string virtual_source_name(ssize_t (*get)(hid_t, std::size_t, char*, std::s
 std::filesystem::path find_virtual_source(const std::filesystem::path& virtual_file,
                                           const std::filesystem::path& name);
 
+// The file that an open dataset lies in: another than the one that was opened where an external
+// link leads there.
+std::filesystem::path file_of_dataset(hid_t dataset);
+
 // Before HDF5 asks how large a virtual dataset is, for which it may open all its files. Throws
 // DataError for one that is no regular file.
-void check_virtual_sources(const std::filesystem::path& file, hid_t dataset, Hdf5Links& links);
+void check_virtual_sources(hid_t dataset, Hdf5Links& links);
 
 }  // namespace splotchcl
