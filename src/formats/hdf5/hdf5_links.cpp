@@ -60,6 +60,15 @@ void check_source(const fs::path& place, Hdf5Links& links) {
 
 }  // namespace
 
+void note_refused(const Hdf5Links& links, std::vector<std::string>& notes) {
+  for (const std::string& other : links.refused) {
+    notes.push_back(
+        fmt::format("what lies in {} is left out: links are followed to files in the snapshot's "
+                    "own folder only",
+                    other));
+  }
+}
+
 Hdf5LinkRules::Hdf5LinkRules(Hdf5Links& links)
     : of_links_(H5Pcreate(H5P_LINK_ACCESS)),
       of_groups_(H5Pcreate(H5P_GROUP_ACCESS)),

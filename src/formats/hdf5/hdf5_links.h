@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "formats/hdf5/hdf5_handle.h"
 
@@ -15,6 +16,9 @@ struct Hdf5Links {
   std::set<std::filesystem::path> followed;
   std::set<std::string> refused;  // as the file spells them
 };
+
+// Adds a note for each place that links were not followed to.
+void note_refused(const Hdf5Links& links, std::vector<std::string>& notes);
 
 // Properties with which HDF5 follows external links only to regular files in the folder of the file
 // that has them, or below it: a file from anywhere shall not have others opened, or wait for a

@@ -129,6 +129,8 @@ PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path
     info_.notes.push_back(fmt::format("sinks left out, as they have no smoothing length: {}",
                                       file_.dataset("/sinks/xyz").rows()));
   }
+  info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
+  note_refused(file_.links(), info_.notes);
   choose_origin();
 }
 

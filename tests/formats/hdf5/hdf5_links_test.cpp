@@ -126,6 +126,26 @@ TEST_F(Hdf5Leads, ToOtherFoldersAreNotFollowedAndSaid) {
   }
 }
 
+// In groups of other names than Gadget's.
+TEST_F(Hdf5Leads, OfFilesWithoutAHeaderAreFollowedAndSaidToo) {
+  for (const std::string group : {"", "particles/"}) {  // plain, and after sphNG
+    const std::string positions = group + (group.empty() ? "pos" : "xyz");
+    {
+      const Hdf5Output part = create_hdf5(folder_ / "part");
+      write_values(part, "pos", {1, 2, 3, 4, 5, 6}, 3, H5T_IEEE_F32LE);
+      const Hdf5Output file = create_hdf5(folder_ / "links");
+      write_values(file, group + "h", {1, 2});
+      H5Lcreate_external("part", "pos", file.id(), positions.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      H5Lcreate_external("/elsewhere", "u", file.id(), (group + "u").c_str(), H5P_DEFAULT,
+                         H5P_DEFAULT);
+    }
+    const auto snapshot = open_snapshot(folder_ / "links");
+    EXPECT_EQ(snapshot->read(0, "position").size(), 6U) << group;
+    EXPECT_THAT(snapshot->info().files_beside, Contains(folder_ / "part")) << group;
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("/elsewhere"))) << group;
+  }
+}
+
 TEST_F(Hdf5Leads, ToFifosAndDevicesAreNotWaitedFor) {
   for (const std::string file : {"fifo", "/dev/zero"}) {
     link_to(file);
