@@ -121,6 +121,12 @@ TEST(NumpyArray, HeadersThatAreNoPythonAreRefused) {
   }
 }
 
+TEST(NumpyArray, OfPythonsObjectsIsRefusedByTheirName) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("|O", "(2,)"), "a pickle"));
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("objects of Python"));
+}
+
 class NumpyArchive : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Packing, NumpyArchive, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "Packed" : "Stored"; });
@@ -175,6 +181,19 @@ TEST_P(NumpyArchive, TheOnlyRowsOfThreeThatAreNothingElseArePositions) {
     EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8)) << name;
     EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("taken for the positions"))) << name;
   }
+}
+
+TEST_P(NumpyArchive, ArraysOfPythonsObjectsAreLeftOutWithANote) {
+  const TemporaryFolder folder;
+  write_zip(folder / "a.npz",
+            {{"about.npy", numpy_bytes(numpy_header("|O", "()"), "a pickle")},
+             {"names.npy", numpy_bytes(numpy_header("|O", "(2,)"), "a pickle")},
+             {"pos.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}))}},
+            GetParam());
+  const auto snapshot = open_snapshot(folder / "a.npz");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("about, names")));
 }
 
 TEST_P(NumpyArchive, OfTwoArraysThatCouldBePositionsNoneIsTaken) {
