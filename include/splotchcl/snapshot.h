@@ -90,7 +90,7 @@ class Snapshot {
   // where the snapshot stands for no single one.
   virtual std::uint64_t place_in_file(int type, std::uint64_t i) const;
 
-  // Not zero only where the file holds double-precision positions.
+  // Zero where single precision holds all positions as they are stored; not for doubles and text.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 
   // Not null where the particles are spread over ranks (spread_snapshot.h).

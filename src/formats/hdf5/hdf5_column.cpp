@@ -135,7 +135,7 @@ std::optional<Column> in_place(const std::vector<Hdf5Values>& parts, const RowRe
 }
 
 bool is_double(const Hdf5Values& part) {
-  return part.dataset.kind == Hdf5Dataset::Kind::real && part.dataset.bytes_per_value > 4;
+  return part.dataset.is_double();
 }
 
 }  // namespace

@@ -38,6 +38,11 @@ struct Hdf5Dataset {
   std::string label() const { return path.substr(path.rfind('/') + 1); }
   std::uint64_t rows() const { return shape.empty() ? 1 : shape[0]; }
   std::uint64_t values_per_row() const;
+  bool is_double() const { return kind == Kind::real && bytes_per_value > 4; }
+  // Whether single precision has every value that it may hold.
+  bool is_single_precision() const {
+    return kind == Kind::real ? !is_double() : bytes_per_value <= 2;
+  }
 };
 
 // Where values lie on the disk.

@@ -140,6 +140,9 @@ void PhantomSnapshot::choose_origin() {
     origin_ = find_position_origin({{file_.path(), positions.sources.front()}});
     return;
   }
+  const bool has_doubles = std::any_of(positions.sources.begin(), positions.sources.end(),
+                                       [](const Hdf5Dataset& axis) { return axis.is_double(); });
+  if (!has_doubles) return;
   std::vector<std::array<double, 3>> sample;
   for (const SampleRange& range : sample_ranges({count_})) {
     const std::size_t first = sample.size();

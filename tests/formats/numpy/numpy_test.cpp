@@ -35,6 +35,24 @@ TEST(NumpyArray, RowsOfThreeArePositions) {
   EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
+TEST(NumpyArray, FloatsAreTakenAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::vector<float> stored = {1e-7F, 0, 0, 1000, 0, 0, 1001, 0, 0};
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(3, 3)"), bytes_of<float>(stored)));
+  const auto snapshot = open_snapshot(folder / "a.npy");
+  EXPECT_EQ(values_of(snapshot->read(0, "position")), stored);
+  EXPECT_EQ(snapshot->position_origin().a[0], 0);
+}
+
+TEST(NumpyArray, DoublesAreOffsetsFromAnOrigin) {
+  const TemporaryFolder folder;
+  const std::vector<double> stored = {1e6 + 1e-7, 0, 0, 1e6, 0, 0, 1e6, 0, 0};
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f8", "(3, 3)"), bytes_of<double>(stored)));
+  EXPECT_NEAR(positions(*open_snapshot(folder / "a.npy"))[0], stored[0], 1e-9);
+}
+
 TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
   const TemporaryFolder folder;
   write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f8", "(2, 5)"),
