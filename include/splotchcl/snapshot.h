@@ -27,6 +27,8 @@ struct ParticleTypeInfo {
   std::uint64_t count = 0;
   std::optional<double> table_mass;  // the same mass for all, in the snapshot's unit
   std::vector<FieldInfo> fields;
+  // How many particles of the file each stands for, where only a part of them is read.
+  double particles_per_drawn = 1;
 };
 
 // A run in an expanding universe, with positions in comoving coordinates (docs/time.md).
@@ -53,12 +55,12 @@ struct SnapshotInfo {
   std::optional<Cosmology> cosmology;      // none: velocities are dx/dt, with t the time above
   // Why velocities cannot be taken for changes of the positions in time; empty: they can.
   std::string velocity_doubt;
-  // How many particles of the file each stands for, where only a part of them is read.
-  double particles_per_drawn = 1;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
   // Null for a type without particles.
   const ParticleTypeInfo* find_type(int type) const;
+  // Whether all particles of the files are read.
+  bool is_whole() const;
 };
 
 class LoadMemory;
@@ -88,7 +90,7 @@ class Snapshot {
   // where the snapshot stands for no single one.
   virtual std::uint64_t place_in_file(int type, std::uint64_t i) const;
 
-  // Not zero only where the file holds double-precision positions.
+  // Zero where single precision holds all positions as they are stored; not for doubles and text.
   virtual Vec3 position_origin() const { return {{0, 0, 0}}; }
 
   // Not null where the particles are spread over ranks (spread_snapshot.h).

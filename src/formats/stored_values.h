@@ -47,6 +47,11 @@ constexpr std::size_t size_of(ValueKind kind) {
   return 8;
 }
 
+// Whether single precision has every value of the kind.
+constexpr bool holds_single_precision(ValueKind kind) {
+  return kind == ValueKind::float32 || size_of(kind) <= 2;
+}
+
 // One quantity of `particles` particles as it lies in a mapped file.
 struct StoredValues {
   std::shared_ptr<const MappedFile> file;

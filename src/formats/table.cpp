@@ -33,6 +33,7 @@ class FieldTable {
   template <class Use>
   void for_ranges(const TableField& positions, const std::vector<SampleRange>& ranges,
                   Use&& use) const;
+  bool is_single_precision(const TableField& field) const;
 
  private:
   std::optional<std::size_t> find_column(const std::string& name) const;
@@ -136,6 +137,12 @@ void FieldTable::for_ranges(const TableField& positions, const std::vector<Sampl
   });
 }
 
+bool FieldTable::is_single_precision(const TableField& field) const {
+  return std::all_of(field.values.begin(), field.values.end(), [this](const TableValue& value) {
+    return table_->is_single_precision(value.column);
+  });
+}
+
 class TableSnapshot : public Snapshot {
  public:
   TableSnapshot(TablesByType tables, SnapshotInfo info);
@@ -148,6 +155,9 @@ class TableSnapshot : public Snapshot {
 
  private:
   void check_positions(const ParticleTypeInfo& type) const;
+  const TableField& positions_of(int type) const;
+  bool are_positions_single() const;
+  Vec3 find_origin() const;
 
   std::map<int, FieldTable> tables_;
   SnapshotInfo info_;
@@ -177,26 +187,38 @@ void TableSnapshot::check_positions(const ParticleTypeInfo& type) const {
       info_.files.front().string(), fmt::join(names, ", ")));
 }
 
-// Text has to be read for it, so not before it is asked for.
+const TableField& TableSnapshot::positions_of(int type) const {
+  return tables_.at(type).field_of(require_field(info_, type, "position"));
+}
+
+bool TableSnapshot::are_positions_single() const {
+  return std::all_of(tables_.begin(), tables_.end(), [this](const auto& of_type) {
+    return of_type.second.is_single_precision(positions_of(of_type.first));
+  });
+}
+
+Vec3 TableSnapshot::find_origin() const {
+  std::vector<std::uint64_t> sizes;
+  for (const ParticleTypeInfo& type : info_.types)
+    sizes.push_back(type.count);
+  const std::vector<SampleRange> ranges = sample_ranges(sizes);
+  std::vector<std::array<double, 3>> sample;
+  for (std::size_t part = 0; part < sizes.size(); ++part) {
+    const int type = info_.types[part].type;
+    std::vector<SampleRange> of_part;
+    std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(of_part),
+                 [part](const SampleRange& range) { return range.part == part; });
+    tables_.at(type).for_ranges(positions_of(type), of_part, [&sample](const double* values) {
+      sample.push_back({values[0], values[1], values[2]});
+    });
+  }
+  return choose_position_origin(sample);
+}
+
+// Text has to be read for it, so not before it is asked for. Stored floats are taken as they are.
 Vec3 TableSnapshot::position_origin() const {
   std::call_once(origin_is_known_, [this] {
-    std::vector<std::uint64_t> sizes;
-    for (const ParticleTypeInfo& type : info_.types)
-      sizes.push_back(type.count);
-    const std::vector<SampleRange> ranges = sample_ranges(sizes);
-    std::vector<std::array<double, 3>> sample;
-    for (std::size_t part = 0; part < sizes.size(); ++part) {
-      const int type = info_.types[part].type;
-      std::vector<SampleRange> of_part;
-      std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(of_part),
-                   [part](const SampleRange& range) { return range.part == part; });
-      const FieldTable& table = tables_.at(type);
-      table.for_ranges(table.field_of(require_field(info_, type, "position")), of_part,
-                       [&sample](const double* values) {
-                         sample.push_back({values[0], values[1], values[2]});
-                       });
-    }
-    origin_ = choose_position_origin(sample);
+    if (!are_positions_single()) origin_ = find_origin();
   });
   return origin_;
 }

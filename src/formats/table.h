@@ -34,6 +34,8 @@ class Table {
   virtual std::uint64_t rows() const = 0;
   // Calls `use` with the wanted values of each row, in order. Throws DataError.
   virtual void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const = 0;
+  // Whether single precision holds every value of the column. Text may have any digits.
+  virtual bool is_single_precision(std::size_t column) const = 0;
   // A column of one value per row as whole numbers, exact; none where it has others.
   virtual std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const = 0;
 };

@@ -230,15 +230,42 @@ Column ComponentFields::masses() const {
   return collected("mass", [](const TypeFields& type) { return type.masses(); });
 }
 
-Column ComponentFields::fade() const {
+bool ComponentFields::stand_for_the_same() const {
+  const double first = types_.front().info().particles_per_drawn;
+  return std::all_of(types_.begin(), types_.end(), [first](const TypeFields& type) {
+    return type.info().particles_per_drawn == first;
+  });
+}
+
+double ComponentFields::particles_per_drawn() const {
+  if (stand_for_the_same()) return types_.front().info().particles_per_drawn;
+  double all = 0, drawn = 0;
+  for (const TypeFields& type : types_) {
+    const auto count = static_cast<double>(type.count());
+    all += count * type.info().particles_per_drawn;
+    drawn += count;
+  }
+  return drawn > 0 ? all / drawn : 1;
+}
+
+// Of particles that are there as a whole.
+float ComponentFields::factor_of(const TypeFields& type) const {
+  return static_cast<float>(type.info().particles_per_drawn / particles_per_drawn());
+}
+
+Column ComponentFields::weight_factors() const {
   const auto fades = [](const TypeFields& type) {
     const FieldInfo* const field = find_field(type.info(), fade_field);
     // A file may have a field of that name, which means something else.
     return field != nullptr && field->file_name.empty();
   };
-  if (std::none_of(types_.begin(), types_.end(), fades)) return {};
-  return collected("fade", [&fades](const TypeFields& type) {
-    return fades(type) ? type.scalars(fade_field, "fade") : Column::uniform(1);
+  const bool some_fade = std::any_of(types_.begin(), types_.end(), fades);
+  if (!some_fade && stand_for_the_same()) return {};
+  return collected("weight factors", [&](const TypeFields& type) {
+    const float factor = factor_of(type);
+    if (!fades(type)) return Column::uniform(factor);
+    const Column fade = type.scalars(fade_field, "fade");
+    return factor == 1 ? fade : faded(Column::uniform(factor), fade, type.count());
   });
 }
 

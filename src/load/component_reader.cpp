@@ -9,11 +9,12 @@
 namespace splotchcl {
 namespace {
 
-// Particles that vanish or appear between two snapshots are there only in part.
-void apply_fade(const ComponentFields& fields, Particles& particles) {
-  const Column fade = fields.fade();
-  if (fade.is_absent()) return;
-  particles.weight = faded(particles.weight, fade, particles.count);
+// Particles that vanish or appear between two snapshots are there only in part, and those of
+// different types may stand for different numbers of particles.
+void apply_factors(const ComponentFields& fields, Particles& particles) {
+  const Column factors = fields.weight_factors();
+  if (factors.is_absent()) return;
+  particles.weight = faded(particles.weight, factors, particles.count);
 }
 
 // Lengths of the snapshot are scaled with it; a fixed size is a length of the scene.
@@ -78,7 +79,7 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   drawn.absorption = component_.absorption;
   drawn.palette = choose_palette(component_);
   drawn.weight = weight;
-  drawn.particles_per_drawn = fields_.snapshot_info().particles_per_drawn;
+  drawn.particles_per_drawn = fields_.particles_per_drawn();
 
   Particles& particles = drawn.particles;
   particles.count = fields_.count();
@@ -87,7 +88,7 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   particles.smoothing_length = fields_.smoothing_lengths();
   particles.weight = weights(weight);
   particles.boxes = fields_.boxes();
-  apply_fade(fields_, particles);
+  apply_factors(fields_, particles);
   particles.color = color();
   if (!component_.color_vector.empty()) {
     particles.color_vector = fields_.vectors(component_.color_vector, "color.vector");

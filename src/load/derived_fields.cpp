@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/physical_constants.h"
 #include "common/words.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
@@ -10,7 +11,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr double proton_mass_g = 1.67262192369e-24;
 constexpr double boltzmann_erg_per_kelvin = 1.380649e-16;
 constexpr double adiabatic_index = 5.0 / 3;
 
@@ -63,7 +63,7 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
                     double energy_unit, std::size_t count, bool streams) {
   constexpr double x = hydrogen_mass_fraction;
   const double per_energy_and_weight =
-      (adiabatic_index - 1) * energy_unit * proton_mass_g / boltzmann_erg_per_kelvin;
+      (adiabatic_index - 1) * energy_unit * proton_mass_in_g / boltzmann_erg_per_kelvin;
   const auto make = [=](std::size_t begin, std::size_t end, float* out) {
     const ColumnStretch energies(internal_energy, begin, end);
     const ColumnStretch abundances(electron_abundance, begin, end);

@@ -142,7 +142,7 @@ DecidedComponent FrameLoader::decide_component(Part& part, const Camera& camera,
   const Component& component = reader.component();
   DecidedComponent decided;
   decided.weight = reader.weight();
-  decided.particles_per_drawn = reader.fields().snapshot_info().particles_per_drawn;
+  decided.particles_per_drawn = reader.fields().particles_per_drawn();
   // The reference needs all that ranges do.
   if (!component.reference_column) read(part, decided.weight, camera.look_at);
   decided.color = decide_map(

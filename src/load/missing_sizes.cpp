@@ -73,7 +73,7 @@ Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column&
   Communicator* const ranks = snapshot.memory().ranks().get();
   const auto find = [&] { return search(type, position, periodic_box, how, ranks); };
   if (!how.is_cached) return find();
-  if (info.particles_per_drawn != 1) {
+  if (!info.is_whole()) {
     say(
         fmt::format("the smoothing lengths of type {} are not kept: they are those of a part of "
                     "the particles",

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
 
+#include "formats/snapshot_format.h"
 #include "load/choose_palette.h"
 #include "load/passes.h"
 #include "load/periodic_wrap.h"
@@ -44,6 +48,17 @@ void check(const Component& component, const SortOrder& sort, const ComponentFie
   choose_palette(component);
 }
 
+// As the scene's own is. Names of columns are for tables: other files have names of their own.
+std::shared_ptr<const Snapshot> open_companion(const std::string& path, ReadSettings read) {
+  if (!read.columns.empty()) {
+    std::error_code ignored;
+    const SnapshotFormat* const format =
+        std::filesystem::is_regular_file(path, ignored) ? find_format(path) : nullptr;
+    if (format == nullptr || !format->has_columns()) read.columns.clear();
+  }
+  return open_snapshot_for(path, read);
+}
+
 }  // namespace
 
 OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
@@ -53,7 +68,8 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
     const Snapshot* source = &snapshot;
     if (!component.snapshot.empty()) {
       companions_.push_back(snapshot.memory().companion(
-          component.snapshot, [](const std::string& path) { return open_snapshot(path); }));
+          component.snapshot,
+          [&scene](const std::string& path) { return open_companion(path, scene.read); }));
       source = companions_.back().get();
       share_passes(*source, snapshot.memory().ranks());
     }

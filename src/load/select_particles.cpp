@@ -169,7 +169,7 @@ class Membership {
 
   // A snapshot of which only a part is read does not say how many there are.
   void check_places(const HaloMembers& members, const std::filesystem::path& catalog) const {
-    const bool is_whole = snapshot_.info().particles_per_drawn == 1;
+    const bool is_whole = fields_.info().particles_per_drawn == 1;
     for (const PlaceRange& range : members.places) {
       const bool fits =
           range.first <= fields_.count() && range.count <= fields_.count() - range.first;

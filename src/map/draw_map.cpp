@@ -68,7 +68,9 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   matter.origin = fields.origin();
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
-  if (fields.masses_are_known()) matter.mass = fields.masses();
+  if (fields.masses_are_known()) {
+    matter.mass = with_weight_factors(fields.masses(), fields, matter.count);
+  }
   if (center == MapCenter::densest && has_densities(component, fields.snapshot_info())) {
     matter.density = fields.scalars("density", "map.center_at");
   }
@@ -152,8 +154,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);
-  WeightedValues weighted(placed, quantity, settings.floor, geometry,
-                          fields.snapshot_info().particles_per_drawn);
+  WeightedValues weighted(placed, quantity, settings.floor, geometry, fields.particles_per_drawn());
   const SumPicture picture = {geometry.width, geometry.height, one.kernel.width, one.tolerance};
 
   Map map;

@@ -64,8 +64,8 @@ MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields
   return {MapQuantity::Kind::column, fields.masses(), {}, what};
 }
 
-MapQuantity read_unfaded(const MapSettings& settings, const MapGeometry& geometry,
-                         const ComponentFields& fields, std::size_t count) {
+MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geometry,
+                            const ComponentFields& fields, std::size_t count) {
   if (is_column(settings)) return column_of(settings, fields);
   const Column value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
@@ -111,16 +111,19 @@ void check_quantity(const MapSettings& settings) {
   }
 }
 
+Column with_weight_factors(const Column& column, const ComponentFields& fields, std::size_t count) {
+  const Column factors = fields.weight_factors();
+  if (factors.is_absent()) return column;
+  std::vector<float> product(count);
+  for (std::size_t i = 0; i < count; ++i)
+    product[i] = column[i] * factors[i];
+  return Column::owning(std::move(product));
+}
+
 MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
                           const ComponentFields& fields, std::size_t count) {
-  MapQuantity quantity = read_unfaded(settings, geometry, fields, count);
-  const Column fade = fields.fade();
-  if (fade.is_absent()) return quantity;
-  // Between two snapshots of a run, some particles are there in part.
-  std::vector<float> weight(count);
-  for (std::size_t i = 0; i < count; ++i)
-    weight[i] = quantity.weight[i] * fade[i];
-  quantity.weight = Column::owning(std::move(weight));
+  MapQuantity quantity = read_unweighted(settings, geometry, fields, count);
+  quantity.weight = with_weight_factors(quantity.weight, fields, count);
   return quantity;
 }
 

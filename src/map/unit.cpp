@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/nearest_name.h"
+#include "common/physical_constants.h"
 #include "common/words.h"
 #include "splotchcl/error.h"
 
@@ -32,10 +33,10 @@ const std::vector<NamedUnit>& known_units() {
       {"km", {1e5, length}},
       {"au", {1.495978707e13, length}},
       {"AU", {1.495978707e13, length}},
-      {"pc", {3.0856775814913673e18, length}},
-      {"kpc", {3.0856775814913673e21, length}},
-      {"Mpc", {3.0856775814913673e24, length}},
-      {"Gpc", {3.0856775814913673e27, length}},
+      {"pc", {1e-3 * kpc_in_cm, length}},
+      {"kpc", {kpc_in_cm, length}},
+      {"Mpc", {1e3 * kpc_in_cm, length}},
+      {"Gpc", {1e6 * kpc_in_cm, length}},
       {"R_sun", {6.957e10, length}},
       {"Rsun", {6.957e10, length}},
       {"g", {1, mass}},
@@ -43,7 +44,7 @@ const std::vector<NamedUnit>& known_units() {
       {"Msun", {1.988409870698051e33, mass}},
       {"M_sun", {1.988409870698051e33, mass}},
       {"solMass", {1.988409870698051e33, mass}},
-      {"m_p", {1.67262192369e-24, mass}},
+      {"m_p", {proton_mass_in_g, mass}},
       {"s", {1, duration}},
       {"yr", {3.15576e7, duration}},
       {"Myr", {3.15576e13, duration}},

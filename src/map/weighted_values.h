@@ -15,7 +15,7 @@ namespace splotchcl {
 class WeightedValues {
  public:
   // `floor` is a part of the mean of the weights' column. Each particle that was read stands for
-  // `particles_per_drawn` of the snapshot.
+  // `particles_per_drawn` of the snapshot; the weights of those that stand for more are larger.
   WeightedValues(const PlacedParticles& placed, const MapQuantity& quantity, double floor,
                  const MapGeometry& geometry, double particles_per_drawn);
 

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "common/physical_constants.h"
 #include "common/text_file.h"
 #include "film/path/path_words.h"
 #include "par/translate.h"
@@ -34,7 +35,7 @@ void translate_velocities(Translation& t) {
   if (omega) t.scene.set_number("time.omega_matter", *omega);
   if (lambda) t.scene.set_number("time.omega_lambda", *lambda);
   if (!length && !velocity) return;
-  constexpr double kpc_in_cm = 3.0856775814913673e21, km_in_cm = 1e5;
+  constexpr double km_in_cm = 1e5;
   const double hubble_rate =
       0.1 * (length.value_or(kpc_in_cm) / kpc_in_cm) / (velocity.value_or(km_in_cm) / km_in_cm);
   if (!(hubble_rate > 0) || !std::isfinite(hubble_rate)) t.par.refuse("l_unit", "a unit > 0 in cm");

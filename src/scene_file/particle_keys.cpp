@@ -164,8 +164,8 @@ Keys particle_keys() {
             return component.snapshot.empty() ? std::nullopt : std::optional(component.snapshot);
           },
           [](Component& component, const std::string& value) { component.snapshot = value; },
-          {"A snapshot of its own, from which the component's particles are taken. A relative path "
-           "starts at the scene file's folder.",
+          {"A snapshot of its own, from which the component's particles are taken, as `[read]` "
+           "says. A relative path starts at the scene file's folder.",
            "", "the scene's"}),
       key("component.types", particle_types(), &Component::types,
           {"The particle types that are drawn as this component."}),

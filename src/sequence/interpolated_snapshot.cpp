@@ -76,6 +76,7 @@ void InterpolatedSnapshot::describe_type(int type, const IdMatch& match) {
   described.count = match.place_in_second.size() + match.appearing.size();
   described.fields = fields_in_common(first, second);
   const ParticleTypeInfo& known = first != nullptr ? *first : *second;
+  described.particles_per_drawn = known.particles_per_drawn;
   const bool has_one_mass = second == nullptr || known.table_mass == second->table_mass;
   if (has_one_mass) described.table_mass = known.table_mass;
   const bool some_fade = !match.appearing.empty() || match.in_common < match.place_in_second.size();

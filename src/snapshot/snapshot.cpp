@@ -16,6 +16,11 @@ const ParticleTypeInfo* SnapshotInfo::find_type(int type) const {
   return found == types.end() ? nullptr : &*found;
 }
 
+bool SnapshotInfo::is_whole() const {
+  return std::all_of(types.begin(), types.end(),
+                     [](const ParticleTypeInfo& type) { return type.particles_per_drawn == 1; });
+}
+
 std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
   throw DataError(
       fmt::format("{}: its format ({}) has no ids for particles of type {}; expected ids, by which "

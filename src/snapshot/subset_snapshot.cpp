@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "scene/hash.h"
 #include "scene/streamed_column.h"
@@ -23,18 +25,34 @@ std::uint64_t total_count(const SnapshotInfo& info) {
   return total;
 }
 
+// "3", or "3.33333 of type 0 and 2.5 of type 4".
+std::string tell_what_each_stands_for(const SnapshotInfo& info) {
+  const double first = info.types.front().particles_per_drawn;
+  std::vector<std::string> of_types;
+  bool is_same = true;
+  for (const ParticleTypeInfo& type : info.types) {
+    is_same = is_same && type.particles_per_drawn == first;
+    of_types.push_back(fmt::format("{:.6g} of type {}", type.particles_per_drawn, type.type));
+  }
+  return is_same ? fmt::format("{:.6g}", first) : fmt::format("{}", fmt::join(of_types, ", "));
+}
+
 }  // namespace
 
 SubsetSnapshot::SubsetSnapshot(std::shared_ptr<const Snapshot> whole, const ReadSettings& read)
     : whole_(std::move(whole)), read_(read), info_(whole_->info()) {
   const std::uint64_t total = total_count(info_);
-  for (ParticleTypeInfo& type : info_.types)
-    type.count = count_of(type.count, total);
+  for (ParticleTypeInfo& type : info_.types) {
+    const std::uint64_t all = type.count;
+    type.count = count_of(all, total);
+    if (all > 0) {
+      type.particles_per_drawn *= static_cast<double>(all) / static_cast<double>(type.count);
+    }
+  }
   const std::uint64_t drawn = total_count(info_);
-  info_.particles_per_drawn *= static_cast<double>(total) / static_cast<double>(drawn);
   if (drawn < total) {
-    info_.notes.push_back(fmt::format("only {} of {} particles are read; each stands for {:.6g}",
-                                      drawn, total, info_.particles_per_drawn));
+    info_.notes.push_back(fmt::format("only {} of {} particles are read; each stands for {}", drawn,
+                                      total, tell_what_each_stands_for(info_)));
   }
 }
 

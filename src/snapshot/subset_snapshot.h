@@ -13,7 +13,8 @@ namespace splotchcl {
 
 // A part of a snapshot's particles: every N-th of each type, or at most so many, one chosen at
 // random from each of as many equal runs of the file. The same settings choose the same
-// particles. SnapshotInfo::particles_per_drawn says how many each stands for.
+// particles. ParticleTypeInfo::particles_per_drawn says how many each of a type stands for: numbers
+// are rounded, so that it is another one for types of few particles.
 class SubsetSnapshot : public Snapshot {
  public:
   SubsetSnapshot(std::shared_ptr<const Snapshot> whole, const ReadSettings& read);

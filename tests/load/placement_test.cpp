@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include "device/pictures.h"
@@ -159,6 +160,32 @@ TEST_F(OwnSnapshot, IsOpenedOnceForAllFramesAndComponents) {
   std::filesystem::remove(planted.snapshot);
   EXPECT_EQ(load(scene_of({planted}), snapshot).components[0].particles.position.data(),
             position.data());
+}
+
+TEST_F(OwnSnapshot, IsReadAsTheScenesIs) {
+  Component planted = gas();
+  planted.snapshot = generated(1);
+  const std::size_t all = load(scene_of({planted}), gas_row()).components[0].particles.count;
+  Scene scene = scene_of({planted});
+  scene.read.every = 10;
+  const Frame frame = load(scene, gas_row());
+  EXPECT_EQ(frame.components[0].particles.count, (all + 9) / 10);
+  EXPECT_NEAR(frame.components[0].particles_per_drawn, 10, 0.1);
+}
+
+TEST_F(OwnSnapshot, MayBeATableWhoseColumnsAreNamedOrNone) {
+  Component table = gas(), planted = gas();
+  table.name = "table";
+  table.snapshot = (folder_ / "table.txt").string();
+  std::ofstream(table.snapshot) << "7 0 0 0\n8 1 1 1\n";
+  planted.snapshot = generated(1);
+  Scene scene = scene_of({table, planted});
+  for (Component& component : scene.components)
+    component.size_fixed = 1;
+  scene.read.columns = {"mass", "x", "y", "z"};
+  const Frame frame = load(scene, gas_row());
+  EXPECT_EQ(frame.components[0].particles.weight[1], 8);
+  EXPECT_GT(frame.components[1].particles.count, 2u);
 }
 
 TEST_F(OwnSnapshot, ThatIsMissingIsRefusedBeforeAnythingIsRead) {

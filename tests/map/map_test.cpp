@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numeric>
 
 #include "map/gas.h"
+#include "snapshot/subset_snapshot.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -75,6 +77,23 @@ TEST(Map, HasTheSurfaceDensityOfAllParticles) {
             .weight;
     EXPECT_NEAR(static_cast<double>(at(map, x, y)), expected, 1e-6 * expected + 1e-9);
   }
+}
+
+// Of seven stars every tenth is one.
+TEST(Map, OfAPartOfTheParticlesCountsAllOfEachType) {
+  const auto whole = std::make_shared<test::MemorySnapshot>(random_gas(300, 5, 1, 2).snapshot());
+  const Gas stars = random_gas(7, 5, 1, 2, 2);
+  whole->add(4, "position", stars.position, 3);
+  whole->add(4, "smoothing_length", stars.h);
+  ReadSettings read;
+  read.every = 10;
+  const SubsetSnapshot part(whole, read);
+  Scene scene = map_scene();
+  scene.map.quantity = "counts";
+  scene.components.front().types = {4};
+  EXPECT_NEAR(total_of(map_of(scene, part).values), 7, 1e-4);
+  scene.components.front().types = {0, 4};
+  EXPECT_NEAR(total_of(map_of(scene, part).values), 307, 1e-3);
 }
 
 TEST(Map, DoesNotDependOnTheSizeOfAPixelButForItsArea) {

@@ -57,7 +57,8 @@ TEST(Subset, EveryNthOfEachTypeIsRead) {
   EXPECT_THAT(values_of(subset.read(0, "mass")), ElementsAre(0, 4, 8));
   EXPECT_THAT(values_of(subset.read(4, "position")), ElementsAre(0, 0.25F, 0.5F, 4, 4.25F, 4.5F));
   EXPECT_EQ(subset.info().find_type(0)->count, 3U);
-  EXPECT_EQ(subset.info().particles_per_drawn, 3);  // 15 of which 5 are read
+  EXPECT_DOUBLE_EQ(subset.info().find_type(0)->particles_per_drawn, 10.0 / 3);
+  EXPECT_DOUBLE_EQ(subset.info().find_type(4)->particles_per_drawn, 5.0 / 2);
   EXPECT_THAT(subset.info().notes, Contains(HasSubstr("only 5 of 15 particles")));
 }
 
@@ -65,7 +66,8 @@ TEST(Subset, AtMostSoManyAreReadInTheShareOfTheirTypes) {
   const SubsetSnapshot subset(numbered(3000, 1000), at_most(400));
   EXPECT_EQ(subset.info().find_type(0)->count, 300U);
   EXPECT_EQ(subset.info().find_type(4)->count, 100U);
-  EXPECT_EQ(subset.info().particles_per_drawn, 10);
+  for (const int type : {0, 4})
+    EXPECT_EQ(subset.info().find_type(type)->particles_per_drawn, 10);
 }
 
 TEST(Subset, TheSameSeedChoosesTheSameParticlesForEveryField) {
@@ -87,21 +89,25 @@ TEST(Subset, TheSameSeedChoosesTheSameParticlesForEveryField) {
 TEST(Subset, AsManyAsThereAreIsAll) {
   const SubsetSnapshot subset(numbered(30, 10), at_most(1000));
   EXPECT_EQ(subset.read(0, "mass").size(), 30U);
-  EXPECT_EQ(subset.info().particles_per_drawn, 1);
+  EXPECT_TRUE(subset.info().is_whole());
   EXPECT_THAT(subset.info().notes, ::testing::IsEmpty());
 }
 
 // Clouds of equal mass, all of their light within the picture.
-std::shared_ptr<const Snapshot> cloud() {
-  const auto snapshot = std::make_shared<MemorySnapshot>();
+void add_cloud(MemorySnapshot& snapshot, int type, std::size_t count) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(-1, 1);
-  std::vector<float> positions(3 * 3000);
+  std::vector<float> positions(3 * count);
   for (float& x : positions)
     x = uniform(random);
-  snapshot->add(0, "position", positions, 3);
-  snapshot->add(0, "smoothing_length", std::vector<float>(3000, 0.25F));
-  snapshot->add(0, "mass", std::vector<float>(3000, 1));
+  snapshot.add(type, "position", positions, 3);
+  snapshot.add(type, "smoothing_length", std::vector<float>(count, 0.25F));
+  snapshot.add(type, "mass", std::vector<float>(count, 1));
+}
+
+std::shared_ptr<const Snapshot> cloud() {
+  const auto snapshot = std::make_shared<MemorySnapshot>();
+  add_cloud(*snapshot, 0, 3000);
   return snapshot;
 }
 
@@ -116,15 +122,38 @@ double light(const Scene& scene, const Snapshot& snapshot) {
   return sum;
 }
 
+// A picture without absorption, whose light is a sum.
+Scene scene_of_light() {
+  Scene scene = parse_scene(
+      "[image]\nsize = [32, 32]\n[camera]\nprojection = 'orthographic'\nposition = [0, 0, -9]\n"
+      "look_at = [0, 0, 0]\nfield_of_view = 30\n[[component]]\nabsorption = 'none'\n"
+      "palette = 'white'\nreference_column = 40\n",
+      "scene");
+  scene.snapshot = "memory";
+  return scene;
+}
+
+// Of 7 stars every tenth is one.
+TEST(SubsetPictures, GiveRareTypesTheLightThatTheyHave) {
+  const auto whole = std::make_shared<MemorySnapshot>();
+  add_cloud(*whole, 0, 3000);
+  add_cloud(*whole, 4, 7);
+  Scene scene = scene_of_light();
+  for (const std::vector<int>& types : {std::vector<int>{4}, std::vector<int>{0, 4}}) {
+    scene.components.front().types = types;
+    for (const WeightModel weight : {WeightModel::mass, WeightModel::constant}) {
+      scene.components.front().weight = weight;
+      const double all = light(scene, *whole);
+      EXPECT_NEAR(light(scene, SubsetSnapshot(whole, every(10))) / all, 1, 1e-5);
+      EXPECT_NEAR(light(scene, SubsetSnapshot(whole, at_most(100))) / all, 1, 1e-5);
+    }
+  }
+}
+
 TEST(SubsetPictures, AreAsBrightAsThoseOfAllParticles) {
   for (const char* weight : {"mass", "constant"}) {
-    Scene scene = parse_scene(
-        "[image]\nsize = [32, 32]\n[camera]\nprojection = 'orthographic'\nposition = [0, 0, -9]\n"
-        "look_at = [0, 0, 0]\nfield_of_view = 30\n[[component]]\nabsorption = 'none'\n"
-        "palette = 'white'\nreference_column = 40\n",
-        "scene");
-    scene.snapshot = "memory";
-    scene = apply_settings(scene, {std::string("component.0.weight=") + weight});
+    const Scene scene =
+        apply_settings(scene_of_light(), {std::string("component.0.weight=") + weight});
     const auto whole = cloud();
     const double all = light(scene, *whole);
     EXPECT_GT(all, 1);

@@ -48,12 +48,7 @@ Member read_member(const std::filesystem::path& path, std::vector<std::string>& 
     member.fields[number] = find_hdf5_fields(file, member.header(), number, notes);
   }
   member.links = file.links();
-  for (const std::string& other : member.links.refused) {
-    notes.push_back(
-        fmt::format("what lies in {} is left out: links are followed to files in the snapshot's "
-                    "own folder only",
-                    other));
-  }
+  note_refused(member.links, notes);
   return member;
 }
 

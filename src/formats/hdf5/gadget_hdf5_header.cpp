@@ -6,13 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "common/physical_constants.h"
 #include "formats/hdf5/gizmo_units.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-constexpr double kpc_in_cm = 3.0856775814913673e21;
 
 struct AttributeLocation {
   const char* object;

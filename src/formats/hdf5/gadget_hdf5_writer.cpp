@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/physical_constants.h"
 #include "common/unfinished_file.h"
 #include "formats/hdf5/hdf5_writer.h"
 
@@ -9,7 +10,6 @@ namespace splotchcl {
 namespace {
 
 constexpr std::size_t type_count = 6;
-constexpr double kpc_in_cm = 3.0856775814913673e21;
 constexpr double km_s_in_cm_s = 1e5;
 
 void write_header(const Hdf5Writer& writer, const WrittenSnapshot& snapshot) {

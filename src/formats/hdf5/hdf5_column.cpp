@@ -19,15 +19,15 @@ std::size_t number_of_values(const Hdf5Values& part) {
   return part.dataset.rows() * part.dataset.values_per_row();
 }
 
-// Empty unless the values lie in the file as they are needed.
+// Empty unless the values lie in a file as they are needed.
 Column map_column(const Hdf5Values& part, const Hdf5File& file) {
-  const auto offset = file.native_float_offset(part.dataset);
-  if (!offset) return {};
-  auto mapped = MappedFile::open(part.file);
+  const auto place = file.find_native_floats(part.dataset);
+  if (!place) return {};
+  auto mapped = MappedFile::open(place->file);
   const std::size_t values = number_of_values(part);
   const bool is_inside =
-      *offset <= mapped->size() && values <= (mapped->size() - *offset) / sizeof(float);
-  const std::byte* const first = mapped->data() + *offset;
+      place->offset <= mapped->size() && values <= (mapped->size() - place->offset) / sizeof(float);
+  const std::byte* const first = mapped->data() + place->offset;
   if (!is_inside || reinterpret_cast<std::uintptr_t>(first) % alignof(float) != 0) return {};
   return Column(mapped, reinterpret_cast<const float*>(first), values);
 }
@@ -135,7 +135,7 @@ std::optional<Column> in_place(const std::vector<Hdf5Values>& parts, const RowRe
 }
 
 bool is_double(const Hdf5Values& part) {
-  return part.dataset.kind == Hdf5Dataset::Kind::real && part.dataset.bytes_per_value > 4;
+  return part.dataset.is_double();
 }
 
 }  // namespace

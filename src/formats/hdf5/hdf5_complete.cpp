@@ -57,27 +57,15 @@ std::uint64_t packing_of(const std::vector<Filter>& filters) {
   return std::all_of(filters.begin(), filters.end(), is_known) ? best_packing : 0;
 }
 
-}  // namespace
-
-void Hdf5File::check_filters(const std::string& dataset, hid_t properties) const {
-  for (const Filter& filter : filters_of(properties)) {
-    if (H5Zfilter_avail(filter.id) > 0) continue;
-    throw DataError(fmt::format(
-        "{}: dataset {} is packed with {} (HDF5's filter {}), which cannot be unpacked here; "
-        "install its plugin for HDF5, or unpack the file with h5repack -f NONE where it can be",
-        path_.string(), dataset, filter.name.empty() ? "an unnamed filter" : filter.name,
-        filter.id));
-  }
-}
-
-bool Hdf5File::has_all_bytes(const Hdf5Dataset& dataset, hid_t handle) const {
+bool has_all_bytes(const Hdf5Dataset& dataset, hid_t handle) {
+  const Hdf5Handle<H5Fclose> file(H5Iget_file_id(handle));  // that which the dataset lies in
   hsize_t size = 0;
-  H5Fget_filesize(file_.id(), &size);
+  H5Fget_filesize(file.id(), &size);
   const auto bytes = bytes_of(dataset);
   return bytes && *bytes <= size && H5Dget_storage_size(handle) == *bytes;
 }
 
-bool Hdf5File::has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t properties) const {
+bool has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t properties) {
   const auto bytes = bytes_of(dataset);
   if (!bytes) return false;
   const std::uint64_t packing = packing_of(filters_of(properties));
@@ -94,11 +82,25 @@ bool Hdf5File::has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t pr
   return needed <= stored;
 }
 
-void Hdf5File::check_source(const std::string& dataset, const std::filesystem::path& file,
-                            const std::string& source, int depth) const {
+}  // namespace
+
+void Hdf5File::check_filters(const std::string& dataset, hid_t properties) const {
+  for (const Filter& filter : filters_of(properties)) {
+    if (H5Zfilter_avail(filter.id) > 0) continue;
+    throw DataError(fmt::format(
+        "{}: dataset {} is packed with {} (HDF5's filter {}), which cannot be unpacked here; "
+        "install its plugin for HDF5, or unpack the file with h5repack -f NONE where it can be",
+        path_.string(), dataset, filter.name.empty() ? "an unnamed filter" : filter.name,
+        filter.id));
+  }
+}
+
+void Hdf5File::check_source(const std::string& dataset, const std::filesystem::path& owner,
+                            const std::filesystem::path& file, const std::string& source,
+                            int depth) const {
   constexpr int deepest = 8;
-  const bool is_self = file == "." || file == path_.filename();
-  const std::filesystem::path place = is_self ? path_ : find_virtual_source(path_, file);
+  const bool is_self = file == "." || file == owner.filename();
+  const std::filesystem::path place = is_self ? owner : find_virtual_source(owner, file);
   std::error_code ignored;
   if (depth < deepest && std::filesystem::exists(place, ignored)) {
     const Hdf5File parts(place);
@@ -112,7 +114,9 @@ void Hdf5File::check_source(const std::string& dataset, const std::filesystem::p
 
 // HDF5 reads zeros where what a virtual dataset points to is missing. False where its parts are
 // less than the whole.
-bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t properties, int depth) const {
+bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t handle, hid_t properties,
+                             int depth) const {
+  const std::filesystem::path owner = file_of_dataset(handle);
   std::size_t sources = 0;
   H5Pget_virtual_count(properties, &sources);
   const auto bytes = bytes_of(dataset);
@@ -129,8 +133,8 @@ bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t properties, int d
       is_open = true;
       continue;
     }
-    check_source(dataset.path, file, virtual_source_name(H5Pget_virtual_dsetname, properties, i),
-                 depth);
+    check_source(dataset.path, owner, file,
+                 virtual_source_name(H5Pget_virtual_dsetname, properties, i), depth);
   }
   return is_open || (bytes && *bytes <= mapped);
 }
@@ -151,7 +155,8 @@ void Hdf5File::check_complete(const Hdf5Dataset& dataset, int depth) const {
   if (bytes_of(dataset) == std::uint64_t{0}) return;
   if (layout == H5D_CONTIGUOUS) is_complete = has_all_bytes(dataset, handle.id());
   if (layout == H5D_CHUNKED) is_complete = has_all_chunks(dataset, handle.id(), properties.id());
-  if (layout == H5D_VIRTUAL) is_complete = check_sources(dataset, properties.id(), depth);
+  if (layout == H5D_VIRTUAL)
+    is_complete = check_sources(dataset, handle.id(), properties.id(), depth);
   if (is_complete) return;
   throw DataError(
       fmt::format("{}: dataset {} should hold {} rows, but they are not all in the file; it was "

@@ -150,7 +150,7 @@ std::vector<Hdf5Dataset> Hdf5File::datasets(const std::string& group) const {
 Hdf5File::Dataset Hdf5File::open_dataset(const std::string& path) const {
   Dataset handle(H5Dopen2(file_.id(), path.c_str(), rules_.of_datasets()));
   if (!handle.is_valid()) fail(fmt::format("dataset {} cannot be opened", path));
-  check_virtual_sources(path_, handle.id(), *links_);
+  check_virtual_sources(handle.id(), *links_);
   return handle;
 }
 
@@ -273,14 +273,14 @@ std::uint64_t Hdf5File::rows_per_piece(const Hdf5Dataset& dataset) const {
   return std::max<std::uint64_t>(1, piece / chunk[0]) * chunk[0];
 }
 
-std::optional<std::uint64_t> Hdf5File::native_float_offset(const Hdf5Dataset& dataset) const {
+std::optional<Hdf5Place> Hdf5File::find_native_floats(const Hdf5Dataset& dataset) const {
   const Hdf5Silence silence;
   const Dataset handle = open_dataset(dataset.path);
   const Type type(H5Dget_type(handle.id()));
   if (H5Tequal(type.id(), H5T_NATIVE_FLOAT) <= 0) return std::nullopt;
   const haddr_t offset = H5Dget_offset(handle.id());  // undefined for chunks
   if (offset == HADDR_UNDEF) return std::nullopt;
-  return offset;
+  return Hdf5Place{file_of_dataset(handle.id()), offset};
 }
 
 }  // namespace splotchcl

@@ -38,6 +38,17 @@ struct Hdf5Dataset {
   std::string label() const { return path.substr(path.rfind('/') + 1); }
   std::uint64_t rows() const { return shape.empty() ? 1 : shape[0]; }
   std::uint64_t values_per_row() const;
+  bool is_double() const { return kind == Kind::real && bytes_per_value > 4; }
+  // Whether single precision has every value that it may hold.
+  bool is_single_precision() const {
+    return kind == Kind::real ? !is_double() : bytes_per_value <= 2;
+  }
+};
+
+// Where values lie on the disk.
+struct Hdf5Place {
+  std::filesystem::path file;  // another than the one that was opened where a link leads there
+  std::uint64_t offset = 0;
 };
 
 // An HDF5 file opened for reading. Every member throws DataError when HDF5 fails, with
@@ -78,9 +89,8 @@ class Hdf5File {
   // Rows to read at a time: a large piece of whole chunks.
   std::uint64_t rows_per_piece(const Hdf5Dataset& dataset) const;
 
-  // Where the values lie in the file, when they lie there in one piece as this machine's
-  // own floats.
-  std::optional<std::uint64_t> native_float_offset(const Hdf5Dataset& dataset) const;
+  // Where the values lie, when they lie there in one piece as this machine's own floats.
+  std::optional<Hdf5Place> find_native_floats(const Hdf5Dataset& dataset) const;
 
  private:
   using Attribute = Hdf5Handle<H5Aclose>;
@@ -90,11 +100,10 @@ class Hdf5File {
   Dataset open_dataset(const std::string& path) const;
   // `depth`: how many virtual datasets it is a source of.
   void check_complete(const Hdf5Dataset& dataset, int depth) const;
-  bool has_all_bytes(const Hdf5Dataset& dataset, hid_t handle) const;
-  bool has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t properties) const;
-  bool check_sources(const Hdf5Dataset& dataset, hid_t properties, int depth) const;
-  void check_source(const std::string& dataset, const std::filesystem::path& file,
-                    const std::string& source, int depth) const;
+  bool check_sources(const Hdf5Dataset& dataset, hid_t handle, hid_t properties, int depth) const;
+  // `owner`: the file that the virtual dataset lies in.
+  void check_source(const std::string& dataset, const std::filesystem::path& owner,
+                    const std::filesystem::path& file, const std::string& source, int depth) const;
   void check_filters(const std::string& dataset, hid_t properties) const;
   void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
             void* out) const;

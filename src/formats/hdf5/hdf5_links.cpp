@@ -60,6 +60,15 @@ void check_source(const fs::path& place, Hdf5Links& links) {
 
 }  // namespace
 
+void note_refused(const Hdf5Links& links, std::vector<std::string>& notes) {
+  for (const std::string& other : links.refused) {
+    notes.push_back(
+        fmt::format("what lies in {} is left out: links are followed to files in the snapshot's "
+                    "own folder only",
+                    other));
+  }
+}
+
 Hdf5LinkRules::Hdf5LinkRules(Hdf5Links& links)
     : of_links_(H5Pcreate(H5P_LINK_ACCESS)),
       of_groups_(H5Pcreate(H5P_GROUP_ACCESS)),
@@ -85,9 +94,17 @@ fs::path find_virtual_source(const fs::path& virtual_file, const fs::path& name)
   return folder / name;
 }
 
-void check_virtual_sources(const fs::path& file, hid_t dataset, Hdf5Links& links) {
+fs::path file_of_dataset(hid_t dataset) {
+  const ssize_t length = H5Fget_name(dataset, nullptr, 0);
+  std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
+  H5Fget_name(dataset, name.data(), name.size() + 1);
+  return name;
+}
+
+void check_virtual_sources(hid_t dataset, Hdf5Links& links) {
   const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties.id()) != H5D_VIRTUAL) return;
+  const fs::path file = file_of_dataset(dataset);
   std::size_t sources = 0;
   H5Pget_virtual_count(properties.id(), &sources);
   std::error_code ignored;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "formats/hdf5/hdf5_handle.h"
 
@@ -15,6 +16,9 @@ struct Hdf5Links {
   std::set<std::filesystem::path> followed;
   std::set<std::string> refused;  // as the file spells them
 };
+
+// Adds a note for each place that links were not followed to.
+void note_refused(const Hdf5Links& links, std::vector<std::string>& notes);
 
 // Properties with which HDF5 follows external links only to regular files in the folder of the file
 // that has them, or below it: a file from anywhere shall not have others opened, or wait for a
@@ -40,8 +44,12 @@ std::string virtual_source_name(ssize_t (*get)(hid_t, std::size_t, char*, std::s
 std::filesystem::path find_virtual_source(const std::filesystem::path& virtual_file,
                                           const std::filesystem::path& name);
 
+// The file that an open dataset lies in: another than the one that was opened where an external
+// link leads there.
+std::filesystem::path file_of_dataset(hid_t dataset);
+
 // Before HDF5 asks how large a virtual dataset is, for which it may open all its files. Throws
 // DataError for one that is no regular file.
-void check_virtual_sources(const std::filesystem::path& file, hid_t dataset, Hdf5Links& links);
+void check_virtual_sources(hid_t dataset, Hdf5Links& links);
 
 }  // namespace splotchcl

@@ -129,6 +129,8 @@ PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path
     info_.notes.push_back(fmt::format("sinks left out, as they have no smoothing length: {}",
                                       file_.dataset("/sinks/xyz").rows()));
   }
+  info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
+  note_refused(file_.links(), info_.notes);
   choose_origin();
 }
 
@@ -138,6 +140,9 @@ void PhantomSnapshot::choose_origin() {
     origin_ = find_position_origin({{file_.path(), positions.sources.front()}});
     return;
   }
+  const bool has_doubles = std::any_of(positions.sources.begin(), positions.sources.end(),
+                                       [](const Hdf5Dataset& axis) { return axis.is_double(); });
+  if (!has_doubles) return;
   std::vector<std::array<double, 3>> sample;
   for (const SampleRange& range : sample_ranges({count_})) {
     const std::size_t first = sample.size();

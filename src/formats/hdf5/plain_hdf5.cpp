@@ -78,6 +78,9 @@ class Hdf5Table : public Table {
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  bool is_single_precision(std::size_t column) const override {
+    return datasets_[column].is_single_precision();
+  }
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
 
  private:
@@ -272,6 +275,9 @@ std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path) {
   for (const auto& [type, group] : choose_types(particle_groups(file), info.notes)) {
     tables.emplace(type, std::make_unique<Hdf5Table>(path, group, info.notes));
   }
+  // By now it has been asked for all groups.
+  info.files_beside.assign(file.links().followed.begin(), file.links().followed.end());
+  note_refused(file.links(), info.notes);
   const std::vector<TableColumn>& columns = tables.begin()->second->columns();
   const auto positions = find_positions(columns);
   if (!info.box_size && positions) {

@@ -68,10 +68,14 @@ class NumpyTable : public Table {
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  bool is_single_precision(std::size_t column) const override {
+    return holds_single_precision(places_[column].values.kind);
+  }
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
 
  private:
   void open_archive(std::vector<std::string>& notes);
+  void refuse_objects() const;
   void read_numbers(SnapshotInfo& info);
   std::vector<TableColumn> arrays_as_columns() const;
   void name_positions(std::vector<std::string>& notes);
@@ -101,9 +105,11 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
     info.format = "NumPy array";
     arrays_.push_back(
         {"", read_numpy_header(file_->data(), file_->size(), file_->size(), path.string())});
+    refuse_objects();
   } else {
     info.format = "NumPy archive";
     open_archive(info.notes);
+    refuse_objects();
     read_numbers(info);
     name_positions(info.notes);
   }
@@ -149,6 +155,19 @@ void NumpyTable::open_archive(std::vector<std::string>& notes) {
   }
 }
 
+// Where there is nothing else.
+void NumpyTable::refuse_objects() const {
+  const bool has_values = std::any_of(arrays_.begin(), arrays_.end(), [](const NumpyArray& array) {
+    return !array.header.is_pickled;
+  });
+  if (has_values) return;
+  throw DataError(
+      path_.string() +
+      ": holds objects of Python (NumPy's type '|O'), which are not read, expected numbers: save "
+      "it again as such, with numpy.save(FILE, array.astype(float)) where they are numbers, or as "
+      "an array of records or a numpy.savez archive of an array for each field");
+}
+
 // Single numbers that say something about the whole.
 void NumpyTable::read_numbers(SnapshotInfo& info) {
   for (std::size_t array = 0; array < arrays_.size(); ++array) {
@@ -186,7 +205,7 @@ std::vector<TableColumn> NumpyTable::arrays_as_columns() const {
 // Where no array has the name of positions, the only one that can be them is taken.
 void NumpyTable::name_positions(std::vector<std::string>& notes) {
   const bool has_records = std::any_of(arrays_.begin(), arrays_.end(), [](const NumpyArray& array) {
-    return array.header.is_structured;
+    return array.header.is_structured && !array.header.is_pickled;
   });
   const auto guessed = has_records ? std::nullopt : guess_positions(arrays_as_columns());
   if (!guessed) return;
@@ -201,7 +220,7 @@ void NumpyTable::choose_rows() {
     return;
   }
   const auto first = std::find_if(arrays_.begin(), arrays_.end(), [](const NumpyArray& array) {
-    return !array.header.shape.empty();
+    return !array.header.shape.empty() && !array.header.is_pickled;
   });
   if (first != arrays_.end()) rows_ = first->header.rows();
 }
@@ -218,6 +237,10 @@ void NumpyTable::add(const std::string& name, NumpyColumn column) {
 
 void NumpyTable::add_array(std::size_t array, const std::vector<std::string>& names) {
   const NumpyHeader& header = arrays_[array].header;
+  if (header.is_pickled) {
+    left_out_.push_back(arrays_[array].name);
+    return;
+  }
   if (header.shape.empty()) return;  // a single number
   const bool fits = header.rows() == rows_ && header.shape.size() <= (header.is_structured ? 1 : 2);
   if (!fits) {

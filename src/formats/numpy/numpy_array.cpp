@@ -34,6 +34,11 @@ constexpr KindName kind_names[] = {
 // "<f4": endianness, kind, bytes. Kinds that are not read still have a length.
 NumpyMember parse_type(const std::string& text, const std::string& name) {
   NumpyMember member;
+  if (text == "|O") {
+    member.is_object = true;
+    member.bytes = 8;  // in memory
+    return member;
+  }
   if (text.size() < 3) fail(name, fmt::format("the type '{}' is not one of NumPy's", text));
   const bool is_big = text[0] == '>';
   const std::string_view code = std::string_view(text).substr(1);
@@ -106,6 +111,7 @@ void read_types(const PythonLiteral& literal, const std::string& name, NumpyHead
   }
   for (NumpyMember& member : header.members) {
     member.offset = header.record_bytes;
+    header.is_pickled = header.is_pickled || member.is_object;
     const std::uint64_t bytes = multiply(member.bytes, member.values, name);
     if (__builtin_add_overflow(header.record_bytes, bytes, &header.record_bytes)) {
       fail(name, "the length of its records overflows");
@@ -153,7 +159,7 @@ NumpyHeader read_numpy_header(const std::byte* data, std::uint64_t size, std::ui
   std::uint64_t bytes = header.record_bytes;
   for (const std::uint64_t side : header.shape)
     bytes = multiply(bytes, side, name);
-  if (file_size - header.data_offset != bytes) {
+  if (!header.is_pickled && file_size - header.data_offset != bytes) {
     fail(name, fmt::format("{} bytes of values, expected {} for an array of shape ({})",
                            file_size - header.data_offset, bytes, fmt::join(header.shape, ", ")));
   }

@@ -17,6 +17,7 @@ struct NumpyMember {
   ValueKind kind = ValueKind::float32;
   bool is_swapped = false;
   bool is_usable = false;    // a number of a kind that is read
+  bool is_object = false;    // of Python, whatever it is
   std::uint64_t offset = 0;  // in the record
   std::uint64_t values = 1;  // more for members that are arrays
   std::uint64_t bytes = 0;   // of one value
@@ -27,6 +28,8 @@ struct NumpyHeader {
   std::vector<NumpyMember> members;
   bool is_structured = false;
   bool is_fortran_order = false;
+  // Whether values are objects of Python: what lies in the file is then their pickle.
+  bool is_pickled = false;
   std::vector<std::uint64_t> shape;  // empty: a single value
   std::uint64_t record_bytes = 0;
   std::uint64_t data_offset = 0;
@@ -37,7 +40,7 @@ struct NumpyHeader {
 bool is_numpy_array(const std::byte* data, std::uint64_t size);
 
 // Reads a header from the first bytes of an array; `name` is for messages. `file_size` is that
-// of the whole array, which must be what its shape needs. Throws DataError.
+// of the whole array, which must be what its shape needs (a pickle has any). Throws DataError.
 NumpyHeader read_numpy_header(const std::byte* data, std::uint64_t size, std::uint64_t file_size,
                               const std::string& name);
 

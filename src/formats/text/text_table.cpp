@@ -247,6 +247,7 @@ class TextTable : public Table {
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  bool is_single_precision(std::size_t) const override { return false; }
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
 
  private:

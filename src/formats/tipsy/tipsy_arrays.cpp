@@ -38,6 +38,14 @@ bool begins_with_number(std::string_view text, std::uint64_t wanted) {
   return error == std::errc() && end == word.data() + word.size() && number == wanted;
 }
 
+// Whether the text goes on after its first number and a word for each particle.
+bool has_more_words(std::string_view text, std::uint64_t particles) {
+  for (std::uint64_t i = 0; i < particles + 1; ++i) {
+    if (take_word(text).empty()) return false;
+  }
+  return !take_word(text).empty();
+}
+
 // Codes write identifiers as integers and all else as floats, and do not say which.
 ValueKind kind_of(const TipsyArray& array) {
   return canonical_field_name(array.name) == "id" ? ValueKind::uint32 : ValueKind::float32;
@@ -99,6 +107,12 @@ std::vector<TipsyArray> find_tipsy_arrays(const fs::path& path, std::uint64_t pa
       notes.push_back(
           fmt::format("array {} left out: it has {} bytes, expected {} of one number per particle",
                       name, size, 4 + 4 * particles));
+      continue;
+    }
+    if (array.is_text && has_more_words(content(*array.file), particles)) {
+      notes.push_back(
+          fmt::format("array {} left out: it has more than {} numbers, expected one per particle",
+                      name, particles));
       continue;
     }
     if (array.is_text || is_binary) arrays.push_back(std::move(array));

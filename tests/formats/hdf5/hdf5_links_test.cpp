@@ -14,6 +14,7 @@ namespace {
 
 using namespace splotchcl::testing;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class Hdf5Leads : public ::testing::Test {
@@ -51,6 +52,12 @@ class Hdf5Leads : public ::testing::Test {
                                                   H5P_DEFAULT));
     ASSERT_TRUE(dataset.is_valid());
   }
+  // A file whose densities lie elsewhere than in the snapshot.
+  void write_other_part(const std::filesystem::path& path) const {
+    const Hdf5Output file = create_hdf5(path);
+    write_values(file, "before", std::vector<double>(1000, 1), 1, H5T_IEEE_F32LE);
+    write_values(file, "PartType0/Density", {5, 6, 7, 8}, 1, H5T_IEEE_F32LE);
+  }
   bool has_densities() const {
     const auto snapshot = open();
     for (const FieldInfo& field : snapshot->info().types.front().fields) {
@@ -85,12 +92,57 @@ TEST_F(Hdf5Leads, AreFilesThatTheSnapshotIsReadFrom) {
   EXPECT_THAT(open()->info().files_beside, Contains(folder_ / "part"));
 }
 
+TEST_F(Hdf5Leads, AreReadFromTheFileThatTheyLeadTo) {
+  write_other_part(folder_ / "other_part");
+  link_to("other_part");
+  EXPECT_THAT(values_of(open()->read(0, "density")), ElementsAre(5, 6, 7, 8));
+}
+
+TEST_F(Hdf5Leads, MayLeadToVirtualDatasetsWithFilesBesideThese) {
+  write_other_part(folder_ / "below" / "source");
+  make_virtual("source");
+  std::filesystem::rename(folder_ / "snap.hdf5", folder_ / "below" / "virtual");
+  write_hdf5(folder_ / "snap.hdf5", snapshot_);
+  link_to("below/virtual");
+  EXPECT_THAT(values_of(open()->read(0, "density")), ElementsAre(5, 6, 7, 8));
+}
+
+TEST_F(Hdf5Leads, MayLeadToMoreThanTheirOwnFileHolds) {
+  {
+    const Hdf5Output part = create_hdf5(folder_ / "many");
+    write_values(part, "pos", std::vector<double>(30000, 1), 3, H5T_IEEE_F32LE);
+    const Hdf5Output file = create_hdf5(folder_ / "links");
+    H5Lcreate_external("many", "pos", file.id(), "pos", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  EXPECT_EQ(open_snapshot(folder_ / "links")->read(0, "position").size(), 30000U);
+}
+
 TEST_F(Hdf5Leads, ToOtherFoldersAreNotFollowedAndSaid) {
   const std::string up = "../" + other_.path().filename().string() + "/part";
   for (const std::string& file : {(other_ / "part").string(), up, "below/../" + up}) {
     link_to(file);
     EXPECT_FALSE(has_densities()) << file;
     EXPECT_THAT(open()->info().notes, Contains(HasSubstr(file)));
+  }
+}
+
+// In groups of other names than Gadget's.
+TEST_F(Hdf5Leads, OfFilesWithoutAHeaderAreFollowedAndSaidToo) {
+  for (const std::string group : {"", "particles/"}) {  // plain, and after sphNG
+    const std::string positions = group + (group.empty() ? "pos" : "xyz");
+    {
+      const Hdf5Output part = create_hdf5(folder_ / "part");
+      write_values(part, "pos", {1, 2, 3, 4, 5, 6}, 3, H5T_IEEE_F32LE);
+      const Hdf5Output file = create_hdf5(folder_ / "links");
+      write_values(file, group + "h", {1, 2});
+      H5Lcreate_external("part", "pos", file.id(), positions.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      H5Lcreate_external("/elsewhere", "u", file.id(), (group + "u").c_str(), H5P_DEFAULT,
+                         H5P_DEFAULT);
+    }
+    const auto snapshot = open_snapshot(folder_ / "links");
+    EXPECT_EQ(snapshot->read(0, "position").size(), 6U) << group;
+    EXPECT_THAT(snapshot->info().files_beside, Contains(folder_ / "part")) << group;
+    EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("/elsewhere"))) << group;
   }
 }
 

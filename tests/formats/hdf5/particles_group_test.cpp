@@ -47,6 +47,17 @@ TEST(ParticlesGroup, AxesOfTheirOwnAreJoined) {
   EXPECT_FALSE(has_field(*snapshot, 0, "mass"));
 }
 
+TEST(ParticlesGroup, FloatsOfAxesOfTheirOwnAreTakenAsTheyAre) {
+  const TemporaryFolder folder;
+  {
+    const Hdf5Output file = create_hdf5(folder / "dump.h5");
+    write_values(file, "particles/x", {1e-7, 1000}, 1, H5T_IEEE_F32LE);
+    write_values(file, "particles/y", {0, 0}, 1, H5T_IEEE_F32LE);
+    write_values(file, "particles/z", {0, 0}, 1, H5T_IEEE_F32LE);
+  }
+  EXPECT_EQ(open_snapshot(folder / "dump.h5")->read(0, "position")[0], 1e-7F);
+}
+
 TEST(ParticlesGroup, PhasesTellTheTypes) {
   const TemporaryFolder folder;
   {

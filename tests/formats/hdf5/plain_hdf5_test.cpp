@@ -59,6 +59,24 @@ TEST_F(PlainHdf5, AxesOfTheirOwnAreJoined) {
   EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(7, 8));
 }
 
+TEST_F(PlainHdf5, FloatsAreTakenAsTheyAre) {
+  for (const bool has_vector : {true, false}) {
+    {
+      const Hdf5Output file = create_hdf5(path_);
+      if (has_vector) {
+        write_values(file, "pos", {1e-7, 0, 0, 1000, 0, 0}, 3, H5T_IEEE_F32LE);
+      } else {
+        write_values(file, "x", {1e-7, 1000}, 1, H5T_IEEE_F32LE);
+        write_values(file, "y", {0, 0}, 1, H5T_IEEE_F32LE);
+        write_values(file, "z", {0, 0}, 1, H5T_IEEE_F32LE);
+      }
+    }
+    const auto snapshot = open_snapshot(path_);
+    EXPECT_EQ(snapshot->read(0, "position")[0], 1e-7F);
+    EXPECT_EQ(snapshot->position_origin().a[0], 0);
+  }
+}
+
 TEST_F(PlainHdf5, TheOnlyRowsOfThreeArePositionsWhateverTheirName) {
   {
     const Hdf5Output file = create_hdf5(path_);

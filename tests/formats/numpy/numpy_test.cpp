@@ -35,6 +35,24 @@ TEST(NumpyArray, RowsOfThreeArePositions) {
   EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
+TEST(NumpyArray, FloatsAreTakenAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::vector<float> stored = {1e-7F, 0, 0, 1000, 0, 0, 1001, 0, 0};
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(3, 3)"), bytes_of<float>(stored)));
+  const auto snapshot = open_snapshot(folder / "a.npy");
+  EXPECT_EQ(values_of(snapshot->read(0, "position")), stored);
+  EXPECT_EQ(snapshot->position_origin().a[0], 0);
+}
+
+TEST(NumpyArray, DoublesAreOffsetsFromAnOrigin) {
+  const TemporaryFolder folder;
+  const std::vector<double> stored = {1e6 + 1e-7, 0, 0, 1e6, 0, 0, 1e6, 0, 0};
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f8", "(3, 3)"), bytes_of<double>(stored)));
+  EXPECT_NEAR(positions(*open_snapshot(folder / "a.npy"))[0], stored[0], 1e-9);
+}
+
 TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
   const TemporaryFolder folder;
   write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f8", "(2, 5)"),
@@ -121,6 +139,12 @@ TEST(NumpyArray, HeadersThatAreNoPythonAreRefused) {
   }
 }
 
+TEST(NumpyArray, OfPythonsObjectsIsRefusedByTheirName) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("|O", "(2,)"), "a pickle"));
+  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("objects of Python"));
+}
+
 class NumpyArchive : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Packing, NumpyArchive, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "Packed" : "Stored"; });
@@ -175,6 +199,19 @@ TEST_P(NumpyArchive, TheOnlyRowsOfThreeThatAreNothingElseArePositions) {
     EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8)) << name;
     EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("taken for the positions"))) << name;
   }
+}
+
+TEST_P(NumpyArchive, ArraysOfPythonsObjectsAreLeftOutWithANote) {
+  const TemporaryFolder folder;
+  write_zip(folder / "a.npz",
+            {{"about.npy", numpy_bytes(numpy_header("|O", "()"), "a pickle")},
+             {"names.npy", numpy_bytes(numpy_header("|O", "(2,)"), "a pickle")},
+             {"pos.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}))}},
+            GetParam());
+  const auto snapshot = open_snapshot(folder / "a.npz");
+  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("about, names")));
 }
 
 TEST_P(NumpyArchive, OfTwoArraysThatCouldBePositionsNoneIsTaken) {

@@ -79,6 +79,15 @@ TEST(TipsyArrays, OtherFilesBesideItAreNoArrays) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("snap.vector left out")));
 }
 
+TEST(TipsyArrays, OfThreeValuesPerParticleAreLeftOutOfTextToo) {
+  const TemporaryFolder folder;
+  write_tipsy(folder / "snap");
+  write_bytes(folder / "snap.acc", "4\n1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n");
+  const auto snapshot = open_snapshot(folder / "snap");
+  EXPECT_FALSE(has_field(*snapshot, 0, "acc"));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("snap.acc left out")));
+}
+
 TEST(TipsyArrays, ATruncatedArrayIsRefused) {
   const TemporaryFolder folder;
   write_tipsy(folder / "snap");
