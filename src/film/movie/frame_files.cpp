@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/folder_of.h"
 #include "common/text_file.h"
 #include "common/unfinished_file.h"
 #include "film/movie/encoder.h"
@@ -21,10 +22,6 @@
 
 namespace splotchcl {
 namespace {
-
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : ".";
-}
 
 NumberedFiles numbered_images(const std::filesystem::path& output) {
   if (std::optional<NumberedFiles> images = NumberedFiles::find(output)) return *images;
