@@ -55,6 +55,9 @@ struct SnapshotInfo {
   std::string velocity_doubt;
   // How many particles of the file each stands for, where only a part of them is read.
   double particles_per_drawn = 1;
+  // False where particles are elsewhere than the files say, as those of a galaxy that has turned:
+  // what is kept beside the files does not tell where they are.
+  bool has_positions_of_files = true;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
   // Null for a type without particles.
