@@ -60,8 +60,8 @@ void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot);
 
 // By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a
-// color bar, by the scene's [map] and [finish]. The metadata is kept by the first two. Throws
-// DataError.
+// color bar, by the scene's [map] and [finish]. The metadata is kept by .fits, .hdf5 and .exr.
+// Throws DataError.
 void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
                const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata);
 

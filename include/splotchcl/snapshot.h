@@ -55,6 +55,9 @@ struct SnapshotInfo {
   std::optional<Cosmology> cosmology;      // none: velocities are dx/dt, with t the time above
   // Why velocities cannot be taken for changes of the positions in time; empty: they can.
   std::string velocity_doubt;
+  // False where particles are elsewhere than the files say, as those of a galaxy that has turned:
+  // what is kept beside the files does not tell where they are.
+  bool has_positions_of_files = true;
   std::vector<ParticleTypeInfo> types;  // those with particles, in increasing type
   std::vector<std::string> notes;       // oddities worth telling the user
   // Null for a type without particles.

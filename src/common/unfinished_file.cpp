@@ -16,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "common/folder_of.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -23,11 +24,6 @@ namespace {
 
 std::string reason(int error_number) {
   return std::generic_category().message(error_number);
-}
-
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.parent_path();
-  return folder.empty() ? "." : folder;
 }
 
 // There is something, but neither a file nor a folder.

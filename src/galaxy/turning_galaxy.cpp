@@ -31,6 +31,7 @@ class TurnedSnapshot : public Snapshot {
         info_(galaxy_->info()),
         myr_(myr) {
     info_.time = myr;
+    info_.has_positions_of_files = false;
     share_lasting_memory_of(*galaxy_);
   }
 

@@ -204,7 +204,7 @@ std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
 }
 
 bool SnapshotIndex::is_of_use(const SnapshotInfo& info) {
-  return info.is_whole() && has_parts(info);
+  return info.has_positions_of_files && info.is_whole() && has_parts(info);
 }
 
 bool SnapshotIndex::is_there(const SnapshotInfo& info) {

@@ -37,7 +37,8 @@ class SnapshotIndex {
   // That beside the snapshot; none where there is no such file, or it is damaged or of other files.
   static std::optional<SnapshotIndex> read(const SnapshotInfo& info);
 
-  // Whether a snapshot's files are read in parts, so that an index saves something.
+  // Whether a snapshot's files are read in parts, so that an index saves something, and its
+  // particles are where the files have them.
   static bool is_of_use(const SnapshotInfo& info);
   // Whether there is one beside the snapshot: stale, where read() does not take it.
   static bool is_there(const SnapshotInfo& info);

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "between/interpolated_column.h"
 #include "load/component_boxes.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
@@ -278,7 +277,6 @@ Column ComponentFields::smoothing_lengths() const {
   return scalars(component_.size_field, "size.field");
 }
 
-// Of a moment between two snapshots the files of neither tell.
 std::shared_ptr<const ParticleBoxes> ComponentFields::boxes() const {
   const std::string stale = tell_stale_index(snapshot_);
   if (!stale.empty()) note(stale);
@@ -287,13 +285,7 @@ std::shared_ptr<const ParticleBoxes> ComponentFields::boxes() const {
     if (selected_[t]) return nullptr;
     types.push_back(types_[t].info().type);
   }
-  auto boxes = component_boxes(component_, snapshot_, types);
-  const auto is_between = [](const TypeFields& type) {
-    return interpolated(type.positions()) != nullptr;
-  };
-  // Asked last: it may read positions.
-  if (boxes && std::any_of(types_.begin(), types_.end(), is_between)) return nullptr;
-  return boxes;
+  return component_boxes(component_, snapshot_, types);
 }
 
 void ComponentFields::note(const std::string& text) const {

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <vector>
 
 #include "load/smoothing_length_cache.h"
 #include "ranks/agreement.h"
 #include "ranks/values.h"
 #include "snapshot/load_memory.h"
+#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl {
@@ -49,6 +51,16 @@ std::uint64_t count_ranks(Communicator* ranks, bool own) {
     ranks->add_up(count);
   }
   return count.front();
+}
+
+// Says whether they are. A full disk must not cost the search, which may have taken long.
+std::string keep(const Column& lengths, const SmoothingLengthCache& cache) {
+  try {
+    cache.write(lengths);
+  } catch (const Error& error) {
+    return fmt::format("not kept: {}", error.what());
+  }
+  return "kept in " + cache.path().string();
 }
 
 }  // namespace
@@ -95,8 +107,8 @@ Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column&
     return *kept;
   }
   const Column found = find();
-  if (is_first(ranks)) cache.write(found);
-  say(fmt::format("the smoothing lengths of type {} are kept in {}", type, cache.path().string()));
+  if (is_first(ranks))
+    say(fmt::format("the smoothing lengths of type {} are {}", type, keep(found, cache)));
   return found;
 }
 

@@ -18,8 +18,6 @@ namespace {
 
 using namespace boost::qvm;
 
-constexpr double most_boxes = 64;  // that a map may show side by side
-
 const Camera& camera_of(const Scene& scene) {
   if (scene.camera) return *scene.camera;
   throw UsageError("key map.view: found \"camera\", but the scene has none; add a [camera]");

@@ -23,6 +23,9 @@ struct MapMatter {
   bool is_good(std::size_t i) const;
 };
 
+// Boxes side by side that a map may show, and one kernel may reach over.
+constexpr double most_boxes = 64;
+
 // The map's place in the data.
 struct MapGeometry {
   int width = 0, height = 0;  // pixels

@@ -1,5 +1,8 @@
 #include "map/placed_particles.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -30,6 +33,7 @@ class Placer {
     if (matter_.count > std::numeric_limits<std::uint32_t>::max()) {
       throw DataError("found more than 4294967295 particles, expected fewer in one map");
     }
+    check_reach();
     for (std::size_t i = 0; i < matter_.count; ++i) {
       if (matter_.is_good(i)) {
         place_images(static_cast<std::uint32_t>(i));
@@ -41,6 +45,34 @@ class Placer {
   }
 
  private:
+  // Each box that a kernel reaches has an image of it.
+  void check_reach() const {
+    if (geometry_.box == 0) return;
+    double largest = 0;
+    for (std::size_t i = 0; i < matter_.count; ++i) {
+      if (matter_.is_good(i)) largest = std::max(largest, matter_.size_of(i));
+    }
+    const double boxes = 2 * reach_sigmas * sigma_ * largest / geometry_.box;
+    if (boxes <= most_boxes) return;
+    throw UsageError(fmt::format(
+        "key map.periodic: found a smoothing length of {:.6g} in a box of {:.6g}, so that a cloud "
+        "reaches over {:.6g} boxes, expected at most {:.0f}; check size.fixed, size.factor and the "
+        "lengths' unit, or set map.periodic to false",
+        largest, geometry_.box, boxes, most_boxes));
+  }
+
+  // Of a particle from the map's middle; of one that is very far away, of its image in the box
+  // there, since an int holds no more boxes.
+  Vec3 offset_of(std::uint32_t i) const {
+    constexpr double farthest = 1 << 30;
+    Vec3 offset = matter_.position_of(i) - geometry_.center;
+    for (double& along : offset.a) {
+      if (geometry_.box > 0 && std::abs(along) > farthest * geometry_.box)
+        along = std::remainder(along, geometry_.box);
+    }
+    return offset;
+  }
+
   // Half of the picture and the depth, with the reach of a kernel where it counts.
   std::array<double, 3> half_extents(double reach) const {
     const double depth = is_slice_         ? reach
@@ -53,7 +85,7 @@ class Placer {
   void place_images(std::uint32_t i) {
     const double h = matter_.size_of(i);
     const std::array<double, 3> half = half_extents(reach_sigmas * sigma_ * h);
-    const Vec3 offset = matter_.position_of(i) - geometry_.center;
+    const Vec3 offset = offset_of(i);
     if (geometry_.box == 0) {
       place_one(i, h, offset, half);
       return;

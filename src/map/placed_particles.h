@@ -20,7 +20,8 @@ struct PlacedParticles {
 };
 
 // Whatever has its center within the depth, or for a slice its kernel in the plane, and reaches the
-// picture. `sigma` is the width of the kernel for h = 1.
+// picture. `sigma` is the width of the kernel for h = 1. Throws UsageError where a kernel reaches
+// over more than most_boxes.
 PlacedParticles place_particles(const MapMatter& matter, const MapGeometry& geometry, double sigma,
                                 bool is_slice);
 

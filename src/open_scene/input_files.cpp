@@ -39,7 +39,7 @@ void InputFiles::add_named_files(const Scene& scene) {
   add_named_files(fades_to);
 }
 
-std::set<std::filesystem::path> InputFiles::all() const {
+std::set<std::filesystem::path> InputFiles::with_sets() const {
   std::set<std::filesystem::path> files = named_;
   ExistingFiles existing;
   std::error_code ignored;
@@ -51,6 +51,11 @@ std::set<std::filesystem::path> InputFiles::all() const {
       files.insert(in_folder.begin(), in_folder.end());
     }
   }
+  return files;
+}
+
+std::set<std::filesystem::path> InputFiles::all() const {
+  std::set<std::filesystem::path> files = with_sets();
   for (const PaletteInfo& palette : list_palettes()) {
     if (!palette.file.empty()) files.insert(palette.file);
   }

@@ -23,9 +23,10 @@ class InputFiles {
   // What the scene's keys name.
   void add_named_files(const Scene& scene);
 
-  // As they are named, of snapshots in a sequence the base name of several files, too.
-  const std::set<std::filesystem::path>& named() const { return named_; }
-  // With the files of every set, and the user's own palettes.
+  // As they are named, of snapshots the base name of several files, too, with the files that are
+  // there of every set.
+  std::set<std::filesystem::path> with_sets() const;
+  // Those, and the user's own palettes.
   std::set<std::filesystem::path> all() const;
 
  private:

@@ -56,6 +56,17 @@ void translate_periodic(Translation& t, const std::filesystem::path& snapshot) {
   t.scene.set("periodic.wrap", "true");
 }
 
+// Where the film begins in the sequence, within what `time.last` may be.
+double snapshot_index(Translation& t) {
+  constexpr double largest = 999999999;
+  const double index = t.number_at_start("fidx").value_or(0);
+  if (index >= 0 && index <= largest) return index;
+  const std::string expected = fmt::format("a number from 0 to {:.0f}", largest);
+  if (t.par.has("fidx")) t.par.refuse("fidx", expected);
+  throw UsageError(fmt::format("the path's column fidx: found {} in its first row, expected {}",
+                               index, expected));
+}
+
 void note_simtype(Translation& t) {
   const auto simtype = t.par.integer("simtype", 0, 1000);
   const bool is_gadget_or_tipsy = !simtype || *simtype == 2 || *simtype == 8 || *simtype == 11;
@@ -77,7 +88,7 @@ void translate_snapshot(Translation& t) {
     t.scene.set_text("path.file", t.file(*path).string());
     t.path_row = first_row_of(t.file(*path));
   }
-  const double index = t.number_at_start("fidx").value_or(0);
+  const double index = snapshot_index(t);
 
   const std::string numbered = fill_pattern(as_pattern(*infile) + "%03d", static_cast<int>(index));
   const bool is_numbered = ExistingFiles().have(find(t, numbered));

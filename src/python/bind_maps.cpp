@@ -54,10 +54,11 @@ DrawFrame drawing(const std::string& device, bool by_reference, const Progress& 
 py::tuple draw(const Scene& scene, const Source& source, const std::string& device,
                bool by_reference, py::object report) {
   const Progress progress(std::move(report));
-  std::vector<std::string> notes = source.snapshot().info().notes;
+  std::vector<std::string> notes;
   auto map = std::make_shared<Map>(without_python([&] {
     const std::lock_guard<Turn> mine(source.turn());
     source.refresh();
+    notes = source.snapshot().info().notes;
     std::optional<Renderer> renderer;
     return draw_map(scene, source.snapshot(), drawing(device, by_reference, progress, renderer),
                     notes, progress.function());
@@ -68,7 +69,7 @@ py::tuple draw(const Scene& scene, const Source& source, const std::string& devi
 void write(const Map& map, const std::filesystem::path& path, const Scene& scene,
            const Source& source) {
   without_python([&] {
-    const SnapshotInfo& info = source.snapshot().info();
+    const SnapshotInfo info = source.in_turn([](const Snapshot& s) { return s.info(); });
     check_map_path(path);
     check_map_output(path, scene, info);
     write_map(path, map, scene, info,

@@ -137,14 +137,19 @@ void bind_sources(py::module_& module) {
            })
       .def("position_origin",
            [](const Source& source) {
-             const Vec3 origin = source.snapshot().position_origin();
+             const Vec3 origin = without_python([&] {
+               return source.in_turn([](const Snapshot& s) { return s.position_origin(); });
+             });
              return std::array<double, 3>{origin.a[0], origin.a[1], origin.a[2]};
            })
       .def("canonical_name",
            [](const Source& source, int type, const std::string& name) -> std::string {
-             const FieldInfo* const field =
-                 find_field(require_type(source.snapshot().info(), type), name);
-             return field == nullptr ? name : field->name;
+             return without_python([&] {
+               return source.in_turn([&](const Snapshot& s) {
+                 const FieldInfo* const field = find_field(require_type(s.info(), type), name);
+                 return field == nullptr ? name : field->name;
+               });
+             });
            })
       .def("read", [](const Source& source, int type, const std::string& name) {
         return without_python([&] {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,13 @@ class Source {
   // To be called before the snapshot is used, with the turn taken.
   virtual void refresh() const {}
   Turn& turn() const { return turn_; }
+  // What `look` finds in the snapshot, while nobody sets its arrays. To be called without Python's
+  // lock.
+  template <typename Look>
+  auto in_turn(Look&& look) const {
+    const std::lock_guard<Turn> mine(turn_);
+    return look(*snapshot_);
+  }
 
  private:
   std::shared_ptr<const Snapshot> snapshot_;

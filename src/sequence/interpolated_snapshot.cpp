@@ -55,6 +55,7 @@ void InterpolatedSnapshot::describe_moment() {
   const SnapshotInfo& first = pair_->first->info();
   const SnapshotInfo& second = pair_->second->info();
   info_ = first;
+  info_.has_positions_of_files = false;
   info_.types.clear();
   info_.notes.insert(info_.notes.end(), pair_->notes.begin(), pair_->notes.end());
   info_.time = between(first.time, second.time, fraction_);

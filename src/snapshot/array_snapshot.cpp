@@ -66,6 +66,7 @@ ParticleTypeInfo empty_type(int type) {
 ArraySnapshot::ArraySnapshot(const std::string& name_for_messages) {
   info_.format = "arrays in memory";
   info_.files = {name_for_messages};
+  info_.has_positions_of_files = false;  // a file may have that name
 }
 
 // In the order of types.

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "common/folder_of.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -12,10 +13,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<const char*, 3> endings = {"", ".hdf5", ".h5"};
-
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : ".";
-}
 
 fs::path with_suffix(fs::path path, const std::string& suffix) {
   return path += suffix;

@@ -35,9 +35,10 @@ class ExistingFiles {
   // file itself.
   std::vector<std::filesystem::path> files_of(const std::filesystem::path& path);
 
- private:
+  // What is in a folder; nothing where there is none.
   const std::set<std::string>& names_in(const std::filesystem::path& folder);
 
+ private:
   std::map<std::filesystem::path, std::set<std::string>> names_;  // by folder
 };
 

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <set>
 
+#include "common/folder_of.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
@@ -40,12 +44,57 @@ std::optional<Conversion> read_conversion(const std::string& pattern, std::size_
   return conversion;
 }
 
+// What a pattern is before its first number: the folder, and how names in it begin.
+struct PatternStart {
+  fs::path folder;
+  std::string name;
+};
+
+PatternStart start_of(const std::string& pattern) {
+  std::size_t end = pattern.find('%');
+  while (pattern[end + 1] == '%')
+    end = pattern.find('%', end + 2);
+  const fs::path start = fill_pattern(pattern.substr(0, end), 0);
+  return {folder_of(start), start.filename().string()};
+}
+
+// Which number a name has where it is to be is not always plain: of s_120 12, where the pattern is
+// s_%d0. So all that its digits may be are looked up.
+void add_numbers(const std::string& name, std::size_t begin, std::set<int>& numbers) {
+  constexpr int most_digits = 10;
+  while (begin < name.size() && name[begin] == ' ')
+    ++begin;
+  std::size_t zeros_end = begin;
+  while (zeros_end < name.size() && name[zeros_end] == '0')
+    ++zeros_end;
+  if (zeros_end > begin) numbers.insert(0);
+  std::int64_t number = 0;
+  for (std::size_t i = zeros_end; i < name.size() && i < zeros_end + most_digits; ++i) {
+    if (std::isdigit(static_cast<unsigned char>(name[i])) == 0) return;
+    number = 10 * number + (name[i] - '0');
+    if (number > std::numeric_limits<int>::max()) return;
+    numbers.insert(static_cast<int>(number));
+  }
+}
+
+// Those that snapshots of a pattern can have, from the names that there are.
+std::set<int> possible_numbers(const std::string& pattern, ExistingFiles& existing) {
+  const PatternStart start = start_of(pattern);
+  std::set<int> numbers;
+  for (const std::string& name : existing.names_in(start.folder)) {
+    if (name.compare(0, start.name.size(), start.name) == 0)
+      add_numbers(name, start.name.size(), numbers);
+  }
+  return numbers;
+}
+
 std::vector<ListedSnapshot> numbered_snapshots(const SequenceSettings& settings) {
   const int first = settings.first.value_or(0);
   const int last = settings.last.value_or(std::max(first, largest_number));
   ExistingFiles existing;
   std::vector<ListedSnapshot> list;
-  for (int number = first; number <= last; ++number) {
+  for (const int number : possible_numbers(settings.pattern, existing)) {
+    if (number < first || number > last) continue;
     const fs::path path = fill_pattern(settings.pattern, number);
     if (existing.have(path)) list.push_back({static_cast<double>(number), path});
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "galaxy/galaxy_picture.h"
+#include "index/snapshot_index.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -102,6 +103,16 @@ TEST(TurningGalaxy, MovesEveryKindOnItsCircle) {
     EXPECT_GT(moved / static_cast<double>(radius.size()), 0.1) << "type " << type;
     EXPECT_EQ(later->read(type, "Color").data()[0], start->read(type, "Color").data()[0]);
   }
+}
+
+// The boxes of an index are those of a galaxy that has not turned.
+TEST(TurningGalaxy, DoesWithoutTheIndexOfItsFile) {
+  const TemporaryFolder folder;
+  write_galaxy(folder / "galaxy.hdf5", make_galaxy(DiskPicture().draw(), small_settings()));
+  const std::shared_ptr<const Snapshot> start = open_snapshot(folder / "galaxy.hdf5");
+  SnapshotIndex::make(*start, {}).write(start->info());
+  EXPECT_TRUE(SnapshotIndex::read(start->info()));
+  EXPECT_FALSE(SnapshotIndex::read(TurningGalaxy(start, {}).at(100)->info()));
 }
 
 TEST(TurningGalaxy, ACurveReplacesTheVelocitiesSpeeds) {

@@ -1,4 +1,7 @@
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <random>
 
 #include "formats/snapshot_checks.h"
@@ -16,6 +19,24 @@ using namespace splotchcl::testing;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+// As long as it lives no file of this process gets a byte.
+class FullDisk {
+ public:
+  FullDisk() {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none = {0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int) = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before_ = {};
+};
 
 // Positions of dark matter in a file, without smoothing lengths.
 class MissingSizes : public ::testing::Test {
@@ -91,6 +112,19 @@ TEST_F(MissingSizes, AreNotKeptInAFileOfSomethingElse) {
   lengths({keep_});
   EXPECT_THAT(notes_, Contains(HasSubstr("is another file")));
   EXPECT_EQ(read_text(folder_ / "snap.type1.smoothing_lengths"), mine);
+}
+
+TEST_F(MissingSizes, AreDrawnWhereTheyCannotBeKept) {
+  write(1);
+  const std::vector<float> found = lengths();
+  std::vector<float> unkept;
+  {
+    const FullDisk full;
+    unkept = lengths({keep_});
+  }
+  EXPECT_EQ(unkept, found);
+  EXPECT_THAT(notes_, Contains(HasSubstr("are not kept")));
+  EXPECT_EQ(folder_.count_files(), 1U);
 }
 
 TEST_F(MissingSizes, OfAPartOfTheParticlesAreNotKept) {

@@ -1,6 +1,8 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <string>
 
 #include "map/gas.h"
 #include "map/geometry.h"
@@ -14,6 +16,7 @@ using test::Gas;
 using test::map_of;
 using test::map_scene;
 using test::one_particle;
+using ::testing::HasSubstr;
 
 // Which pixel holds most.
 std::pair<int, int> brightest(const Map& map) {
@@ -82,6 +85,28 @@ TEST(MapGeometry, RepeatsTheBoxWhereTheMapIsWider) {
   snapshot.set_box_size(16);
   scene.map.depth = 32;
   EXPECT_NEAR(sum(map_of(scene, snapshot)), 4 * 4 * 2, 1e-4);
+}
+
+TEST(MapGeometry, RefusesAKernelThatReachesOverManyBoxes) {
+  Scene scene = map_scene();
+  scene.map.width = 1;
+  auto snapshot = one_particle({{0, 0, 0}}, 3000).snapshot();
+  snapshot.set_box_size(1);
+  std::string message;
+  try {
+    map_of(scene, snapshot);
+  } catch (const UsageError& error) {
+    message = error.what();
+  }
+  EXPECT_THAT(message, HasSubstr("a smoothing length of 3000 in a box of 1,"));
+}
+
+TEST(MapGeometry, FindsAParticleThatLiesVeryManyBoxesAway) {
+  Scene scene = map_scene();
+  scene.image.height = 64;
+  auto snapshot = one_particle({{1e30, 0, 0}}).snapshot();
+  snapshot.set_box_size(64);
+  EXPECT_NEAR(sum(map_of(scene, snapshot)), 1, 1e-6);
 }
 
 TEST(MapGeometry, HasTheWholeBoxOnceFromAnyAxis) {

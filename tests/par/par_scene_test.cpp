@@ -62,6 +62,11 @@ TEST_F(ParScenes, LookForTheNumberedSnapshotBesideTheFile) {
   EXPECT_EQ(read("fidx=7\n").snapshot, path("snap_007"));
 }
 
+TEST_F(ParScenes, AreRefusedWithIndicesThatNoSnapshotHas) {
+  for (const std::string index : {"1e10", "-1"})
+    EXPECT_THAT(error("fidx=" + index + "\n"), HasSubstr("expected a number from 0 to 999999999"));
+}
+
 TEST_F(ParScenes, TakeAWholeNameWhereOnlyThatExists) {
   std::ofstream(folder_ / "snap_") << "a snapshot";
   EXPECT_EQ(read().snapshot, path("snap_"));

@@ -20,6 +20,7 @@ namespace splotchcl {
 namespace {
 
 using namespace splotchcl::testing;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // snap_002, snap_004, snap_005 and snap_006 of one run; 003 is missing.
@@ -188,6 +189,40 @@ TEST_F(Sequence, IsReadFromASceneFile) {
   EXPECT_EQ(scene.time.index, 5.5);
   EXPECT_EQ(scene.time.interpolation, Interpolation::hermite);
   EXPECT_EQ(scene.time.pattern, (folder_ / "snap_%03d").string());
+}
+
+std::vector<double> numbers_of(const std::string& pattern, int first, int last) {
+  SequenceSettings settings;
+  settings.pattern = pattern;
+  settings.first = first;
+  settings.last = last;
+  std::vector<double> numbers;
+  for (const ListedSnapshot& listed : list_snapshots(settings))
+    numbers.push_back(listed.index);
+  return numbers;
+}
+
+TEST_F(Sequence, MayHaveNumbersUpToTheLargestThatATimeHas) {
+  EXPECT_THAT(numbers_of((folder_ / "snap_%03d").string(), 3, 999999999), ElementsAre(4, 5, 6));
+}
+
+TEST(SnapshotPatterns, FindTheNumbersOfTheNamesThatAreThere) {
+  const TemporaryFolder folder;
+  const auto find = [&folder](const std::string& pattern) {
+    return numbers_of((folder / pattern).string(), 0, 999999999);
+  };
+  for (const std::string name : {"dir_7", "dir_12", "dir_x"})
+    std::filesystem::create_directory(folder / name);
+  for (const std::string name :
+       {"dir_7/a_0007", "dir_12/a_0012.hdf5", "s_0", "s_120", "s_999999999", "t_000.1.hdf5",
+        "t_000.0.hdf5", "t_010.h5", "t_10", "u_  3", "100%_5"})
+    write_bytes(folder / name, "data");
+  EXPECT_THAT(find("dir_%d/a_%04d"), ElementsAre(7, 12));
+  EXPECT_THAT(find("s_%d"), ElementsAre(0, 120, 999999999));
+  EXPECT_THAT(find("s_%d0"), ElementsAre(12));
+  EXPECT_THAT(find("t_%03d"), ElementsAre(0, 10));
+  EXPECT_THAT(find("u_%3d"), ElementsAre(3));
+  EXPECT_THAT(find("100%%_%d"), ElementsAre(5));
 }
 
 TEST(SnapshotPatterns, HaveANumberAndNothingElse) {

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 std::string describe(const fs::path& file) {
   std::error_code error;
   const auto size = fs::file_size(file, error);
-  // The base name of several files.
+  // A base name, whose files have lines of their own.
   if (error) return file.string();
   const auto time = fs::last_write_time(file, error).time_since_epoch();
   return fmt::format("{}, {} bytes, time {}", fs::absolute(file, error).string(), size,
@@ -26,7 +26,7 @@ std::string describe(const fs::path& file) {
 
 std::vector<std::string> lines_of(const InputFiles& inputs) {
   std::vector<std::string> lines;
-  for (const fs::path& file : inputs.named())
+  for (const fs::path& file : inputs.with_sets())
     lines.push_back(describe(file));
   return lines;
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/folder_of.h"
 #include "common/text_file.h"
 #include "common/unfinished_file.h"
 #include "film/movie/encoder.h"
@@ -22,8 +24,11 @@
 namespace splotchcl {
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : ".";
+// Whether the open file still has this name.
+bool is_file_at(const std::filesystem::path& path, int descriptor) {
+  struct stat open = {}, named = {};
+  return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 NumberedFiles numbered_images(const std::filesystem::path& output) {
@@ -196,7 +201,8 @@ void FrameFiles::remove_frames() const {
 FrameFiles::Lock::Lock(const FrameFiles& files) {
   const int descriptor = ::open(files.manifest_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+  // Who held it before may have ended the film, and removed the file that was opened here.
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_file_at(files.manifest_, descriptor)) {
     descriptor_ = descriptor;
   } else {
     ::close(descriptor);

@@ -45,7 +45,7 @@ class FrameFiles {
   // frames, and, of a film, all frames and their folder.
   void close(const std::vector<int>& frames);
 
-  // Only one process at a time holds it; false: another one does.
+  // Only one process at a time holds it; false: another one does, or has ended the film.
   class Lock {
    public:
     explicit Lock(const FrameFiles& files);

@@ -177,13 +177,6 @@ std::function<std::string(double)> look_track(const Knots& knots,
   };
 }
 
-void check_may_change(const std::string& key, const Scene& scene) {
-  const std::string where = "path.keyframes";
-  if (may_change_in_film(scene_file::locate(key, scene, where).path)) return;
-  throw UsageError(
-      fmt::format("{}: found {}, expected keys that may change within a film", where, key));
-}
-
 std::map<std::string, Knots> knots_by_key(const std::vector<Keyframe>& keyframes) {
   std::map<std::string, Knots> knots;
   for (const Keyframe& keyframe : keyframes) {
@@ -198,10 +191,11 @@ std::map<std::string, Knots> knots_by_key(const std::vector<Keyframe>& keyframes
 }  // namespace
 
 KeyframeTracks::KeyframeTracks(const Scene& scene) {
+  const std::string in_keyframes = "path.keyframes";
   const PathSettings& path = scene.path;
   std::map<std::string, Knots> knots = knots_by_key(path.keyframes);
   for (const auto& [key, of_key] : knots) {
-    check_may_change(key, scene);
+    check_may_change(scene_file::locate(key, scene, in_keyframes).path, key, in_keyframes);
     if (key == sky_key) {
       tracks_[key] = sky_track(of_key, path.is_smooth);
     } else if (const auto numbers = all_numbers(key, of_key)) {

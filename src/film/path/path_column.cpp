@@ -118,8 +118,17 @@ std::optional<Scaling> scaling_to_undo(const scene_file::KeyAddress& address, co
 
 bool may_change_in_film(const std::string& path) {
   const std::string table = path.substr(0, path.find('.'));
-  return table != "path" && table != "movie" && table != "map" && path != "image.size" &&
-         path != "image.width" && path != "image.height" && path != "component.name";
+  return table != "path" && table != "movie" && table != "map" && table != "read" &&
+         path != "image.size" && path != "image.width" && path != "image.height" &&
+         path != "component.name";
+}
+
+void check_may_change(const std::string& path, const std::string& name, const std::string& where) {
+  if (may_change_in_film(path)) return;
+  const bool is_of_reading = path.rfind("read.", 0) == 0;
+  throw UsageError(fmt::format(
+      "{}: found {}, expected keys that may change within a film{}", where, one_line(name),
+      is_of_reading ? "; its data is read once: set the key for the whole film" : ""));
 }
 
 PathColumn find_path_column(const std::string& name, const Scene& scene, const std::string& where) {
@@ -137,10 +146,7 @@ PathColumn find_path_column(const std::string& name, const Scene& scene, const s
     }
   }
   if (!address) refuse_column(name, where);
-  if (!may_change_in_film(address->path)) {
-    throw UsageError(fmt::format("{}: found {}, expected a key that may change within a film",
-                                 where, scene_file::write_text(name)));
-  }
+  check_may_change(address->path, name, where);
   column.path = address->path;
   column.label = address->label;
   // The original's is of r = 2 h.

@@ -24,6 +24,9 @@ struct PathColumn {
 
 // Whether a key, by its path in the list of keys, may have another value in each frame.
 bool may_change_in_film(const std::string& path);
+// Throws UsageError, beginning with `where`, for one that may not. `name` is the key as it was
+// found.
+void check_may_change(const std::string& path, const std::string& name, const std::string& where);
 
 // Finds a column by the name of a key ("camera.field_of_view"), of a value of a vector
 // ("camera.position.x" or ".0") or by the original program's name ("camera_x", "fov",

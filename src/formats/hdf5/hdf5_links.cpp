@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/folder_of.h"
 #include "common/mapped_file.h"
 #include "splotchcl/error.h"
 
@@ -11,10 +12,6 @@ namespace splotchcl {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
-}
 
 // In a folder or below it, and a regular file.
 bool may_be_followed(const fs::path& folder, const fs::path& file) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "splotchcl/error.h"
@@ -37,6 +39,14 @@ class Films : public ::testing::Test {
     options_.by_reference = true;
     report_.note = [this](const std::string& text) { notes_.push_back(text); };
     report_.frame = [this](int frame, std::size_t, std::size_t) { frames_.push_back(frame); };
+  }
+  std::string refusal() const {
+    try {
+      make_film(options_, report_);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "was not refused";
   }
   bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
@@ -88,6 +98,46 @@ TEST_F(Films, AreMadeInParts) {
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
   options_.only_join = true;
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete_before);
+}
+
+// A film of two snapshots whose pattern leaves out the number of their files.
+class FilmsOfASequence : public Films {
+ protected:
+  FilmsOfASequence() {
+    write_gadget2(folder_ / "s_000.0", halo_);
+    write_gadget2(folder_ / "s_001.0", halo_);
+    std::ofstream(folder_ / "film.toml") << "[image]\nsize = [16, 12]\n"
+                                            "[camera]\nposition = [0, 0, 400]\n"
+                                            "look_at = [0, 0, 0]\n"
+                                            "[time]\nsnapshots = 's_%03d'\n"
+                                            "interpolation = 'none'\n"
+                                            "[[path.keyframes]]\nframe = 0\n'time.index' = 0\n"
+                                            "[[path.keyframes]]\nframe = 1\n'time.index' = 1\n"
+                                            "[[component]]\nname = 'gas'\n";
+  }
+};
+
+TEST_F(FilmsOfASequence, HaveNoFramesOfOtherData) {
+  options_.part = "1/2";
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
+  const auto file = folder_ / "s_000.0";
+  std::filesystem::last_write_time(
+      file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
+  options_.part = "2/2";
+  EXPECT_THAT(refusal(), HasSubstr("s_000.0"));
+}
+
+TEST_F(Films, HaveNoFramesOfOtherDataOfASingleComponent) {
+  write_gadget2(folder_ / "other.0", halo_);
+  std::ofstream(folder_ / "film.toml", std::ios::app)
+      << "[[component]]\nname = 'other'\ntypes = ['gas']\nsnapshot = 'other'\n";
+  options_.part = "1/2";
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
+  const auto file = folder_ / "other.0";
+  std::filesystem::last_write_time(
+      file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
+  options_.part = "2/2";
+  EXPECT_THAT(refusal(), HasSubstr("other.0"));
 }
 
 // A film whose light fades to an eighth, which a new exposure for each frame would make up for.

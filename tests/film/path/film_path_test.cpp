@@ -168,6 +168,13 @@ TEST(Keyframes, AreRefusedWhereTheSizeOfThePictureWouldChange) {
               HasSubstr("image.size, expected keys that may change"));
 }
 
+TEST(Keyframes, AreRefusedWhereOtherDataWouldBeRead) {
+  EXPECT_THAT(message("[[path.keyframes]]\nframe = 0\nread.every = 8\n"
+                      "[[path.keyframes]]\nframe = 4\nread.every = 1\n"),
+              HasSubstr("read.every, expected keys that may change within a film; its data is read "
+                        "once"));
+}
+
 TEST(FilmPath, NamesTheFrameThatCannotBeDrawn) {
   EXPECT_THAT(message("[[path.keyframes]]\nframe = 0\nlook_at = [0, 0, 0]\n"
                       "[[path.keyframes]]\nframe = 4\nlook_at = [20, 0, 0]\n"),

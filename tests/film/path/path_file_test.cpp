@@ -147,6 +147,10 @@ TEST_F(PathFile, IsRefusedWhereTheSizeOfThePictureWouldChange) {
   EXPECT_THAT(message("image.width\n100\n"), HasSubstr("may change within a film"));
 }
 
+TEST_F(PathFile, IsRefusedWhereOtherDataWouldBeRead) {
+  EXPECT_THAT(message("read.every\n8\n"), HasSubstr("column 1: found read.every, expected keys"));
+}
+
 TEST_F(PathFile, IsRefusedWithValuesThatAreNotFinite) {
   const std::string header = "camera_x camera_y camera_z\n";
   for (const std::string word : {"nan", "inf", "-inf", "1e999", "0x10", "one"}) {

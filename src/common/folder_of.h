@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+namespace splotchcl {
+
+// Where a file lies, as a path that can be opened: of a name alone ".".
+inline std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+}  // namespace splotchcl
