@@ -9,6 +9,7 @@
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
 #include "ranks/agreement.h"
+#include "scene_file/suggested.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
@@ -84,7 +85,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     share_passes(*result.snapshot, ranks);
     const Scene suggested =
         with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
-    result.scene = apply_settings(suggested, settings);
+    result.scene = scene_file::apply_settings_to_suggested(suggested, suggested, settings);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }

@@ -10,6 +10,7 @@
 
 #include "common/nearest_name.h"
 #include "scene/constants.h"
+#include "scene_file/give_way.h"
 #include "scene_file/key_depth.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
@@ -122,12 +123,16 @@ void SceneBuilder::read_text(const std::string& text) {
   center_camera();
 }
 
-void SceneBuilder::apply_settings(const std::vector<std::string>& settings) {
+void SceneBuilder::apply_settings(const std::vector<std::string>& settings,
+                                  const Scene* suggested) {
   is_reading_file_ = false;
   assigned_.clear();
+  const Scene before = scene_;
   for (const std::string& setting : settings)
     apply_setting(setting);
   refuse_exclusions();
+  const IsGiven is_given = [this](const std::string& label) { return is_assigned(label); };
+  if (suggested != nullptr) give_way(before, *suggested, is_given, scene_);
   center_camera();
 }
 
@@ -163,8 +168,7 @@ void SceneBuilder::assign(const KeyAddress& address, const Value& value) {
 }
 
 void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const Value& value) {
-  for (const Assignment& earlier : assigned_) {
-    if (earlier.address.label != address.label) continue;
+  if (is_assigned(address.label)) {
     refuse(value.where, address.label, "it for the second time", "each key once");
   }
   need_camera(address, value.where);
@@ -176,6 +180,12 @@ void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const V
   if (!is_set) refuse(value.where, address.label, describe(value.node), key.expected);
   origins_.where[address.label] = value.where;
   assigned_.push_back({&key, address});
+}
+
+bool SceneBuilder::is_assigned(const std::string& label) const {
+  return std::any_of(assigned_.begin(), assigned_.end(), [&label](const Assignment& assignment) {
+    return assignment.address.label == label;
+  });
 }
 
 void SceneBuilder::assign_table(const KeyAddress& address, const Value& value) {

@@ -6,6 +6,7 @@
 
 #include "scene_file/scene_file_equality.h"
 #include "scene_file/scene_file_messages.h"
+#include "scene_file/suggested.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 
@@ -142,6 +143,61 @@ TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
   EXPECT_EQ(changed.components[1].brightness, 2);
   EXPECT_EQ(changed.image.gamma, 2.2);
   EXPECT_EQ(scene.components[1].brightness, 1);
+}
+
+// As it is chosen for a snapshot: the range was found in the data of the field.
+Scene suggested() {
+  Scene scene;
+  scene.components.resize(1);
+  scene.components[0].color = {"internal_energy", Scaling::log, 0.5, 2e5};
+  return scene;
+}
+
+FieldMap color_with(const std::vector<std::string>& settings) {
+  return scene_file::apply_settings_to_suggested(suggested(), suggested(), settings)
+      .components[0]
+      .color;
+}
+
+TEST(SettingsOfASuggestedScene, LeaveTheRangeOfAnotherFieldToTheData) {
+  for (const char* setting :
+       {"component.0.color.field=density", "component.0.color={field=\"density\"}"}) {
+    const FieldMap color = color_with({setting});
+    EXPECT_EQ(color.field, "density");
+    EXPECT_EQ(color.scaling, Scaling::log);
+    EXPECT_FALSE(color.minimum);
+    EXPECT_FALSE(color.maximum);
+  }
+}
+
+TEST(SettingsOfASuggestedScene, KeepALimitThatIsGivenWithTheField) {
+  const FieldMap color =
+      color_with({"component.0.color.field=density", "component.0.color.min=1e-9"});
+  EXPECT_EQ(color.minimum, 1e-9);
+  EXPECT_FALSE(color.maximum);
+}
+
+TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
+  const Scene before = apply_settings(suggested(), {"component.0.color.min=3"});
+  const Scene after = scene_file::apply_settings_to_suggested(before, suggested(),
+                                                              {"component.0.color.field=density"});
+  EXPECT_EQ(after.components[0].color.minimum, 3);
+  EXPECT_FALSE(after.components[0].color.maximum);
+}
+
+TEST(SettingsOfASuggestedScene, KeepTheRangeOfTheSameField) {
+  const FieldMap color =
+      color_with({"component.0.color.field=internal_energy", "component.0.color.scaling=linear"});
+  EXPECT_EQ(color.minimum, 0.5);
+  EXPECT_EQ(color.maximum, 2e5);
+}
+
+TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
+  const Scene scene =
+      parse_scene("[[component]]\ncolor = { field = 'U', min = 1, max = 2 }\n", "scene.toml",
+                  {"component.0.color.field=density"});
+  EXPECT_EQ(scene.components[0].color.minimum, 1);
+  EXPECT_EQ(scene.components[0].color.maximum, 2);
 }
 
 struct Refused {
