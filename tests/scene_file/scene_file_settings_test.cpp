@@ -192,10 +192,33 @@ TEST(SettingsOfASuggestedScene, KeepTheRangeOfTheSameField) {
   EXPECT_EQ(color.maximum, 2e5);
 }
 
+Camera camera_with(const std::vector<std::string>& settings) {
+  Scene scene;
+  scene.camera.emplace();
+  scene.camera->field_of_view_degrees = 40;
+  return *scene_file::apply_settings_to_suggested(scene, scene, settings).camera;
+}
+
+TEST(SettingsOfASuggestedScene, LeaveTheFieldOfViewToAProjectionOfWideAngles) {
+  EXPECT_EQ(field_of_view_degrees(camera_with({"camera.projection=fisheye"})), 180);
+  EXPECT_EQ(field_of_view_degrees(
+                camera_with({"camera.projection=equirectangular", "image.size=[64,32]"})),
+            360);
+  EXPECT_EQ(field_of_view_degrees(camera_with({"camera={projection=\"cube\"}"})), 90);
+}
+
+TEST(SettingsOfASuggestedScene, KeepAFieldOfViewThatIsGivenWithTheProjection) {
+  const Camera camera = camera_with({"camera.field_of_view=120", "camera.projection=fisheye"});
+  EXPECT_EQ(camera.field_of_view_degrees, 120);
+}
+
+TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
+  EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
+}
+
 TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
-  const Scene scene =
-      parse_scene("[[component]]\ncolor = { field = 'U', min = 1, max = 2 }\n", "scene.toml",
-                  {"component.0.color.field=density"});
+  const Scene scene = parse_scene("[[component]]\ncolor = { field = 'U', min = 1, max = 2 }\n",
+                                  "scene.toml", {"component.0.color.field=density"});
   EXPECT_EQ(scene.components[0].color.minimum, 1);
   EXPECT_EQ(scene.components[0].color.maximum, 2);
 }
