@@ -12,6 +12,7 @@
 #include "scene/constants.h"
 #include "scene_file/give_way.h"
 #include "scene_file/key_depth.h"
+#include "scene_file/replace_excluded.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 
@@ -133,6 +134,7 @@ void SceneBuilder::apply_settings(const std::vector<std::string>& settings,
   refuse_exclusions();
   const IsGiven is_given = [this](const std::string& label) { return is_assigned(label); };
   if (suggested != nullptr) give_way(before, *suggested, is_given, scene_);
+  replace_excluded(is_given, scene_);
   center_camera();
 }
 

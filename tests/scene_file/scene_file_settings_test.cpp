@@ -145,6 +145,42 @@ TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
   EXPECT_EQ(scene.components[1].brightness, 1);
 }
 
+FieldMap color_of(const std::string& color, const std::vector<std::string>& settings) {
+  return parse_scene("[[component]]\ncolor = { field = 'U', " + color + " }\n", "scene.toml",
+                     settings)
+      .components[0]
+      .color;
+}
+
+TEST(SettingsOfPercentiles, ReplaceARangeOfTwoLimits) {
+  const FieldMap color = color_of("min = 1, max = 2", {"component.0.color.percentiles=[20,80]"});
+  EXPECT_FALSE(color.minimum);
+  EXPECT_FALSE(color.maximum);
+  EXPECT_EQ(color.percentiles, (std::array<double, 2>{20, 80}));
+}
+
+TEST(SettingsOfPercentiles, KeepALimitBesideAMissingOne) {
+  EXPECT_EQ(color_of("min = 1", {"component.0.color.percentiles=[20,80]"}).minimum, 1);
+  const FieldMap color = color_of(
+      "min = 1, max = 2", {"component.0.color.percentiles=[20,80]", "component.0.color.max=3"});
+  EXPECT_FALSE(color.minimum);
+  EXPECT_EQ(color.maximum, 3);
+}
+
+TEST(SettingsOfARange, ReplacePercentiles) {
+  const FieldMap color =
+      color_of("percentiles = [20, 80]", {"component.0.color.min=1", "component.0.color.max=2"});
+  EXPECT_EQ(color.minimum, 1);
+  EXPECT_EQ(color.maximum, 2);
+  EXPECT_FALSE(color.percentiles);
+}
+
+TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
+  const std::string message =
+      message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
+  EXPECT_THAT(message, HasSubstr("key component.0.color.percentiles: found it beside min and max"));
+}
+
 // As it is chosen for a snapshot: the range was found in the data of the field.
 Scene suggested() {
   Scene scene;
