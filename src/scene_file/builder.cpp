@@ -134,7 +134,7 @@ void SceneBuilder::apply_settings(const std::vector<std::string>& settings,
   refuse_exclusions();
   const IsGiven is_given = [this](const std::string& label) { return is_assigned(label); };
   if (suggested != nullptr) give_way(before, *suggested, is_given, scene_);
-  replace_excluded(is_given, scene_);
+  replace_excluded(is_given, scene_, origins_);
   center_camera();
 }
 

@@ -181,6 +181,39 @@ TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
   EXPECT_THAT(message, HasSubstr("key component.0.color.percentiles: found it beside min and max"));
 }
 
+TEST(SettingsOfColors, OfTheParticlesReplaceAField) {
+  const Component component =
+      parse_scene("[[component]]\ncolor = { field = 'U', scaling = 'log', min = 1, max = 2 }\n",
+                  "scene.toml", {"component.0.color.vector=velocity"})
+          .components[0];
+  EXPECT_EQ(component.color_vector, "velocity");
+  EXPECT_EQ(component.color.field, "");
+}
+
+TEST(SettingsOfColors, OfAFieldReplaceThoseOfTheParticles) {
+  const Component component = parse_scene("[[component]]\ncolor.vector = 'Color'\n", "scene.toml",
+                                          {"component.0.color.field=density"})
+                                  .components[0];
+  EXPECT_EQ(component.color_vector, "");
+  EXPECT_EQ(component.color.field, "density");
+}
+
+TEST(SettingsOfColors, KeepAFieldThatIsLookedUpInAnAbsorptionPalette) {
+  const Component component =
+      parse_scene("[[component]]\nabsorption_palette = 'gray'\ncolor.field = 'U'\n", "scene.toml",
+                  {"component.0.color.vector=Color"})
+          .components[0];
+  EXPECT_EQ(component.color_vector, "Color");
+  EXPECT_EQ(component.color.field, "U");
+}
+
+TEST(SettingsOfColors, AreRefusedWhereTheyExcludeEachOther) {
+  EXPECT_THAT(message_for(text, {"component.gas.color={vector='Color', field='U'}"}),
+              HasSubstr("only one of the two"));
+  EXPECT_THAT(message_for(text, {"component.gas.color.vector=C", "component.gas.color.min=1"}),
+              HasSubstr("found a value without a field"));
+}
+
 // As it is chosen for a snapshot: the range was found in the data of the field.
 Scene suggested() {
   Scene scene;
