@@ -110,9 +110,10 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
-    const Scene suggested =
+    result.suggested =
         with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
-    result.scene = scene_file::apply_settings_to_suggested(suggested, suggested, settings);
+    result.scene =
+        scene_file::apply_settings_to_suggested(*result.suggested, *result.suggested, settings);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }
