@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct SceneWithSnapshot {
   Scene scene;
   std::shared_ptr<const Snapshot> snapshot;  // opened; no particle has been read
   std::vector<std::string> notes;            // on the scene, a line each
+  std::optional<Scene> suggested;            // of a snapshot: the scene before the settings
 };
 
 // Whether `path` is a parameter file of the original program, by its ending.

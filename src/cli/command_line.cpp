@@ -33,6 +33,14 @@ const CLI::Validator refuse_minus(
     },
     "");
 
+// Without it -1 is read as the largest number that there is.
+const CLI::Validator not_negative(
+    [](const std::string& number) {
+      return number.rfind('-', 0) == 0 ? "found " + number + ", expected a whole number >= 0"
+                                       : std::string();
+    },
+    "");
+
 // What render and movie take alike.
 void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option(
@@ -246,6 +254,7 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE");
   sub->add_option("--particles", options->settings.particles, wrapped("Gas and stars together"))
       ->type_name("N")
+      ->check(not_negative)
       ->capture_default_str();
   sub->add_option("--stars", options->settings.star_fraction,
                   wrapped("The part of them that are stars"))
@@ -254,6 +263,7 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
   sub->add_option("--seed", options->settings.seed,
                   wrapped("The same seed makes the same particles"))
       ->type_name("N")
+      ->check(not_negative)
       ->capture_default_str();
   sub->footer(
       "Units are Gadget's: kpc/h, 1e10 solar masses/h, km/s.\n"

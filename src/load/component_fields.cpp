@@ -57,10 +57,11 @@ Column joined(const std::vector<Part>& parts, std::size_t width, bool is_shared)
 
 }  // namespace
 
-ComponentFields::ComponentFields(const Component& component, const Snapshot& snapshot,
-                                 const MissingSizes& sizes, std::vector<std::string>& notes,
-                                 double periodic_box)
+ComponentFields::ComponentFields(const Component& component, std::size_t number,
+                                 const Snapshot& snapshot, const MissingSizes& sizes,
+                                 std::vector<std::string>& notes, double periodic_box)
     : component_(component),
+      number_(number),
       snapshot_(snapshot),
       notes_(notes),
       periodic_box_(periodic_box),
@@ -294,8 +295,12 @@ void ComponentFields::note(const std::string& text) const {
   if (std::find(notes_.begin(), notes_.end(), line) == notes_.end()) notes_.push_back(line);
 }
 
+std::string ComponentFields::name() const {
+  return component_.name.empty() ? std::to_string(number_) : component_.name;
+}
+
 std::string ComponentFields::label() const {
-  return "component " + component_.name;
+  return "component " + name();
 }
 
 }  // namespace splotchcl

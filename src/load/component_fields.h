@@ -22,8 +22,10 @@ class ComponentFields {
   // the component's types. Reads nothing yet. Where particles are spread over ranks, each derives
   // and selects of its own; what is asked for here is of all ranks.
   // `periodic_box` is the side of the box across whose faces it selects; 0: none.
-  ComponentFields(const Component& component, const Snapshot& snapshot, const MissingSizes& sizes,
-                  std::vector<std::string>& notes, double periodic_box = 0);
+  // `number` is the component's in the scene, from 0.
+  ComponentFields(const Component& component, std::size_t number, const Snapshot& snapshot,
+                  const MissingSizes& sizes, std::vector<std::string>& notes,
+                  double periodic_box = 0);
   ComponentFields(const ComponentFields&) = delete;
   ComponentFields& operator=(const ComponentFields&) = delete;
 
@@ -61,7 +63,9 @@ class ComponentFields {
 
   // Adds "component NAME: text" to the notes.
   void note(const std::string& text) const;
-  std::string label() const;  // "component NAME" for messages
+  // For messages: the component's name, or its number where it has none.
+  std::string name() const;
+  std::string label() const;  // "component NAME"
 
  private:
   bool stand_for_the_same() const;
@@ -76,6 +80,7 @@ class ComponentFields {
   [[noreturn]] void refuse_types() const;
 
   const Component& component_;
+  std::size_t number_;
   const Snapshot& snapshot_;
   std::vector<std::string>& notes_;
   double periodic_box_;

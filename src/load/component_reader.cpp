@@ -73,7 +73,7 @@ Column ComponentReader::weights(WeightModel weight) const {
 DrawnComponent ComponentReader::drawn(WeightModel weight) {
   select();
   DrawnComponent drawn;
-  drawn.name = component_.name;
+  drawn.name = fields_.name();
   drawn.size_factor = drawn_size_factor(component_);
   drawn.brightness = component_.brightness;
   drawn.absorption = component_.absorption;

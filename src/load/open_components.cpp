@@ -74,7 +74,7 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
       share_passes(*source, snapshot.memory().ranks());
     }
     sources_.insert(source);
-    fields_.emplace_back(component, *source, sizes, notes,
+    fields_.emplace_back(component, fields_.size(), *source, sizes, notes,
                          is_in_the_box(component) ? periodic_box : 0);
   }
   auto fields = fields_.begin();

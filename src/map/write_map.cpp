@@ -15,6 +15,20 @@ bool is_hdf5(const std::string& ending) {
   return ending == ".hdf5" || ending == ".h5";
 }
 
+constexpr const char* endings_of_maps =
+    "expected .fits, .hdf5, .npy or .exr for the numbers, .pdf, .png or another picture of 8 bits "
+    "for a figure";
+
+void check_picture_ending(const std::filesystem::path& path, const std::string& ending) {
+  try {
+    check_image_bits(path, 8);  // knows the ending, and looks at nothing else
+  } catch (const UsageError&) {
+    throw UsageError(path.string() + ": found " +
+                     (ending.empty() ? "no ending" : "the ending " + ending) +
+                     ", which names no file of a map; " + endings_of_maps);
+  }
+}
+
 void write_bytes(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
   UnfinishedFile file(path);
   file.write(bytes.data(), bytes.size());
@@ -46,10 +60,9 @@ void check_map_path(const std::filesystem::path& path) {
   if (is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".pdf") {
     check_output_path(path);
   } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
-    throw UsageError(path.string() +
-                     ": holds light, not a map; expected .fits, .hdf5, .npy or .exr for the "
-                     "numbers, .pdf, .png or another picture of 8 bits for a figure");
+    throw UsageError(path.string() + ": holds light, not a map; " + endings_of_maps);
   } else {
+    check_picture_ending(path, ending);
     check_image_path(path);
   }
 }

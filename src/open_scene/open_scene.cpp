@@ -9,6 +9,8 @@
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
 #include "ranks/agreement.h"
+#include "scene_file/suggested.h"
+#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
@@ -68,6 +70,33 @@ bool begins_like_text(const std::filesystem::path& path) {
          });
 }
 
+bool is_text_without_format(const std::filesystem::path& path) {
+  return begins_like_text(path) && find_format(path) == nullptr;
+}
+
+// A scene file says its snapshot by a key, and so has a line with '=' that is no comment; a table
+// that cannot be read, or prose, has none.
+bool has_keys(const std::filesystem::path& path) {
+  constexpr int most_lines = 1000;
+  std::ifstream file(path);
+  std::string line;
+  for (int i = 0; i < most_lines && std::getline(file, line); ++i) {
+    if (line.find('=') < line.find('#')) return true;
+  }
+  return false;
+}
+
+std::shared_ptr<const Snapshot> open_given_snapshot(const std::filesystem::path& path,
+                                                    const ReadSettings& read) {
+  try {
+    return open_snapshot_for(path, read);
+  } catch (const DataError& error) {
+    if (!is_text_without_format(path)) throw;
+    throw DataError(std::string(error.what()) +
+                    ", or a scene file, which has lines such as snapshot = \"snapshot_006\"");
+  }
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings,
                                 const std::shared_ptr<Communicator>& ranks) {
@@ -75,16 +104,16 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     result.snapshot = SnapshotSource().at(result.scene);
-  } else if (lower_ending(path) == ".toml" ||
-             (begins_like_text(path) && find_format(path) == nullptr)) {
+  } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
     result.scene = read_scene_file(path, settings);
     result.snapshot = SnapshotSource().at(result.scene);
   } else {
-    result.snapshot = open_snapshot_for(path, read_settings_in(settings));
+    result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
-    const Scene suggested =
+    result.suggested =
         with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
-    result.scene = apply_settings(suggested, settings);
+    result.scene =
+        scene_file::apply_settings_to_suggested(*result.suggested, *result.suggested, settings);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }

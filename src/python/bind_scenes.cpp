@@ -8,6 +8,7 @@
 #include "python/scene.h"
 #include "python/source.h"
 #include "scene_file/file_names.h"
+#include "scene_file/suggested.h"
 #include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/scene.h"
@@ -32,7 +33,14 @@ Scene with_absolute_names(Scene scene) {
 py::tuple open(const std::filesystem::path& path, const Settings& settings) {
   SceneWithSnapshot opened = without_python([&] { return open_scene(path, settings); });
   return py::make_tuple(std::move(opened.scene), std::make_shared<Source>(opened.snapshot),
-                        std::move(opened.notes));
+                        std::move(opened.notes), std::move(opened.suggested));
+}
+
+// `suggested` is the scene as which this one began; null where it began otherwise.
+Scene with_settings(const Scene& scene, const Settings& settings, const Scene* suggested) {
+  return suggested == nullptr
+             ? apply_settings(scene, settings)
+             : scene_file::apply_settings_to_suggested(scene, *suggested, settings);
 }
 
 template <typename Work>
@@ -65,7 +73,7 @@ std::vector<Scene> scenes_of_path(const Scene& scene) {
 
 void bind_scene(py::module_& module) {
   py::class_<Scene>(module, "Scene")
-      .def("with_settings", &apply_settings)
+      .def("with_settings", &with_settings, py::arg("settings"), py::arg("suggested") = nullptr)
       .def("to_toml", &format_scene)
       .def("with_absolute_names", &with_absolute_names)
       .def("frames",

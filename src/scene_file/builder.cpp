@@ -5,47 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
-#include "common/nearest_name.h"
 #include "scene/constants.h"
+#include "scene_file/give_way.h"
 #include "scene_file/key_depth.h"
+#include "scene_file/replace_excluded.h"
+#include "scene_file/unknown_key.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::scene_file {
 namespace {
-
-std::string join(const std::string& table, const std::string& name) {
-  return table.empty() ? name : table + "." + name;
-}
-
-std::string last_name(const std::string& path) {
-  return path.substr(path.rfind('.') + 1);
-}
-
-// A key in another table that has this name, or nearly.
-std::optional<std::string> nearest_key_anywhere(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Key& key : all_keys())
-    names.push_back(last_name(key.path));
-  const std::optional<std::string> nearest = nearest_name(name, names);
-  if (!nearest) return std::nullopt;
-  for (const Key& key : all_keys()) {
-    if (last_name(key.path) == *nearest) return key.path;
-  }
-  return std::nullopt;
-}
-
-[[noreturn]] void refuse_unknown(const KeyAddress& table, const std::string& name,
-                                 const std::string& where) {
-  const std::vector<std::string> known = names_in_table(table.path);
-  std::optional<std::string> nearest = nearest_name(name, known);
-  nearest = nearest ? join(table.label, *nearest) : nearest_key_anywhere(name);
-  refuse(where, one_line(join(table.label, name)), "an unknown key",
-         fmt::format("one of {}", fmt::join(known, ", ")), did_you_mean(nearest));
-}
 
 // The innermost known table of a path: {"camera", "fov"} of "camera.fov".
 [[noreturn]] void refuse_unknown_path(const KeyAddress& address, const std::string& where) {
@@ -58,7 +29,7 @@ std::optional<std::string> nearest_key_anywhere(const std::string& name) {
   KeyAddress parent = address;
   parent.path = table;
   parent.label = table.empty() ? "" : address.label.substr(0, address.label.size() - rest);
-  refuse_unknown(parent, address.path.substr(table.empty() ? 0 : table.size() + 1), where);
+  refuse_unknown_key(parent, address.path.substr(table.empty() ? 0 : table.size() + 1), where);
 }
 
 bool is_known(const std::string& path) {
@@ -122,12 +93,17 @@ void SceneBuilder::read_text(const std::string& text) {
   center_camera();
 }
 
-void SceneBuilder::apply_settings(const std::vector<std::string>& settings) {
+void SceneBuilder::apply_settings(const std::vector<std::string>& settings,
+                                  const Scene* suggested) {
   is_reading_file_ = false;
   assigned_.clear();
+  const Scene before = scene_;
   for (const std::string& setting : settings)
     apply_setting(setting);
   refuse_exclusions();
+  const IsGiven is_given = [this](const std::string& label) { return is_assigned(label); };
+  if (suggested != nullptr) give_way(before, *suggested, is_given, scene_);
+  replace_excluded(is_given, scene_, origins_);
   center_camera();
 }
 
@@ -163,8 +139,7 @@ void SceneBuilder::assign(const KeyAddress& address, const Value& value) {
 }
 
 void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const Value& value) {
-  for (const Assignment& earlier : assigned_) {
-    if (earlier.address.label != address.label) continue;
+  if (is_assigned(address.label)) {
     refuse(value.where, address.label, "it for the second time", "each key once");
   }
   need_camera(address, value.where);
@@ -176,6 +151,12 @@ void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const V
   if (!is_set) refuse(value.where, address.label, describe(value.node), key.expected);
   origins_.where[address.label] = value.where;
   assigned_.push_back({&key, address});
+}
+
+bool SceneBuilder::is_assigned(const std::string& label) const {
+  return std::any_of(assigned_.begin(), assigned_.end(), [&label](const Assignment& assignment) {
+    return assignment.address.label == label;
+  });
 }
 
 void SceneBuilder::assign_table(const KeyAddress& address, const Value& value) {
@@ -193,7 +174,7 @@ void SceneBuilder::assign_table(const KeyAddress& address, const Value& value) {
     const KeyAddress child = {join(address.path, name), join(address.label, name),
                               address.component};
     const bool is_one_name = name.find('.') == std::string::npos && !name.empty();
-    if (!is_one_name || !is_known(child.path)) refuse_unknown(address, name, where);
+    if (!is_one_name || !is_known(child.path)) refuse_unknown_key(address, name, where);
     assign(child, {*node, where});
   }
 }

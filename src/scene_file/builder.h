@@ -20,7 +20,8 @@ class SceneBuilder {
 
   Scene& scene() { return scene_; }
   void read_text(const std::string& text);
-  void apply_settings(const std::vector<std::string>& settings);
+  // What is as in the suggested scene was given by nobody (suggested.h).
+  void apply_settings(const std::vector<std::string>& settings, const Scene* suggested = nullptr);
   Scene finish() const;  // checks the scene as a whole
 
  private:
@@ -38,6 +39,7 @@ class SceneBuilder {
   void apply_setting(const std::string& setting);
   void assign(const KeyAddress& address, const Value& value);
   void assign_key(const Key& key, const KeyAddress& address, const Value& value);
+  bool is_assigned(const std::string& label) const;
   void assign_table(const KeyAddress& address, const Value& value);
   void assign_components(const Value& value);
   void need_camera(const KeyAddress& address, const std::string& where);

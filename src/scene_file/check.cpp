@@ -130,6 +130,11 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
     }
     return;
   }
+  if (map.minimum && map.maximum && map.percentiles) {
+    refuse(origins.at(label + ".percentiles"), label + ".percentiles",
+           "it beside min and max, for neither of which it can stand",
+           "percentiles, or min and max, or percentiles and one of the two");
+  }
   if (map.minimum && map.maximum && *map.minimum > *map.maximum) {
     refuse(origins.at(label + ".min"), label + ".min", write_number(*map.minimum),
            fmt::format("at most {}.max, which is {}", label, write_number(*map.maximum)));

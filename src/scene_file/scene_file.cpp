@@ -7,6 +7,7 @@
 #include "common/text_file.h"
 #include "scene_file/builder.h"
 #include "scene_file/file_names.h"
+#include "scene_file/suggested.h"
 #include "snapshot/snapshot_list.h"
 
 namespace splotchcl {
@@ -52,6 +53,13 @@ Scene parse_scene(const std::string& text, const std::string& name_for_messages,
 Scene apply_settings(const Scene& scene, const std::vector<std::string>& settings) {
   SceneBuilder builder(scene, "the scene");
   builder.apply_settings(settings);
+  return builder.finish();
+}
+
+Scene scene_file::apply_settings_to_suggested(const Scene& scene, const Scene& suggested,
+                                              const std::vector<std::string>& settings) {
+  SceneBuilder builder(scene, "the scene");
+  builder.apply_settings(settings, &suggested);
   return builder.finish();
 }
 

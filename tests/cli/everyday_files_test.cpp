@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class EverydayFiles : public ::testing::Test {
  protected:
@@ -92,6 +93,17 @@ TEST_F(EverydayFiles, OfAWrappedBoxAreSelectedAcrossItsFaces) {
   const ProgramResult result = run("render s.toml --reference -o a.png --stats s.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(read_text(folder_ / "s.json"), HasSubstr("\"drawn\": 2"));
+}
+
+TEST_F(EverydayFiles, ThatAreTablesWithoutRowsAreNotCalledScenes) {
+  std::ofstream(folder_ / "empty.csv") << "x,y,z\n";
+  for (const char* arguments : {"render empty.csv -o a.png", "map empty.csv -o a.npy"}) {
+    const ProgramResult result = run(arguments);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("text, but no table with three or more numbers"),
+                                  HasSubstr("or a scene file"), Not(HasSubstr("TOML"))));
+  }
 }
 
 class LargeScenes : public EverydayFiles {

@@ -37,6 +37,17 @@ TEST(Generate, RefusesWhatItCannotMake) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("galaxy"), HasSubstr("universe"), HasSubstr("halo")));
 }
 
+TEST(Generate, RefusesNumbersBelowZeroAsTheyWereWritten) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--particles", "--seed"}) {
+    const ProgramResult result =
+        splotchcl_in(folder, std::string("generate universe -o z ") + option + " -1");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(option), HasSubstr("found -1")));
+  }
+}
+
 TEST(Generate, LeavesNothingBehindWhenTheDiskIsFull) {
   const TemporaryFolder folder;
   // 20 blocks of 512 or 1024 bytes; 3000 particles take more than 100 kB.

@@ -144,6 +144,17 @@ TEST(LoadFrame, NamesATypeThatTheSnapshotLacks) {
   EXPECT_THAT(notes_of(component, gas_row()), Contains(HasSubstr("no particles of type 4")));
 }
 
+TEST(LoadFrame, TellsOfAComponentWithoutANameByItsNumber) {
+  Component component = gas();
+  component.types = {0, 4};
+  component.name.clear();
+  std::vector<std::string> notes;
+  const Frame frame = load_frame(scene_of({gas(), component}), gas_row(), notes);
+  EXPECT_THAT(notes, Contains(HasSubstr("component 1: ")));
+  EXPECT_EQ(frame.components[0].name, "gas");
+  EXPECT_EQ(frame.components[1].name, "1");
+}
+
 TEST(LoadFrame, RefusesASceneWithoutComponents) {
   EXPECT_THROW(load(scene_of({}), gas_row()), UsageError);
 }

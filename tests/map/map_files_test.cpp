@@ -97,7 +97,19 @@ TEST(MapFiles, HoldHdf5AndPicturesToo) {
 TEST(MapFiles, RefuseEndingsThatHoldLight) {
   const testing::TemporaryFolder folder;
   EXPECT_THROW(check_map_path(folder / "a.tif"), UsageError);
-  EXPECT_THROW(check_map_path(folder / "a.unknown"), UsageError);
+}
+
+TEST(MapFiles, NameTheEndingsOfMapsWhereOneIsUnknown) {
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"a.txt", "a"}) {
+    try {
+      check_map_path(folder / name);
+      ADD_FAILURE() << name;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(".fits, .hdf5, .npy or .exr"));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(".pdf"));
+    }
+  }
 }
 
 // The program of FITS' own support office looks at every card and sum.

@@ -149,3 +149,28 @@ def test_an_unknown_device_is_a_usage_error(renderer):
     with pytest.raises(UsageError, match="no such thing"):
         splotchcl.Renderer("no such thing")
 
+
+
+@pytest.fixture(params=["a snapshot", "its path"])
+def suggested(request, universe) -> Scene:
+    what = splotchcl.Snapshot(universe) if request.param == "a snapshot" else universe
+    return splotchcl.suggest(what, size=(32, 32))
+
+
+def test_another_field_of_a_suggested_scene_has_a_range_of_its_own(suggested):
+    assert suggested["component.gas.color.max"] is not None
+    suggested["component.gas.color.field"] = "mass"
+    assert suggested["component.gas.color.min"] is None
+    assert suggested["component.gas.color.max"] is None
+
+
+def test_another_field_of_a_suggested_scene_keeps_limits_that_were_set(suggested):
+    suggested["component.gas.color.min"] = 3.0
+    suggested["component.gas.color.field"] = "mass"
+    assert suggested["component.gas.color.min"] == 3.0
+    assert suggested["component.gas.color.max"] is None
+
+
+def test_a_suggested_scene_takes_the_field_of_view_of_a_projection_of_wide_angles(suggested):
+    suggested["camera.projection"] = "cube"
+    assert suggested["camera.field_of_view"] is None

@@ -257,7 +257,8 @@ class RandomScenes {
     const double low = map.scaling == Scaling::log ? positive(1e-290, 1) : any();
     map.minimum = maybe(low);
     map.maximum = maybe(low + positive(1, 1e280));
-    if (coin()) map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
+    const bool has_both_limits = map.minimum && map.maximum;
+    if (!has_both_limits && coin()) map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
     return map;
   }
 

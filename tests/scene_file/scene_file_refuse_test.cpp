@@ -158,6 +158,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{std::string("\0\0\0", 3), "scene.toml:1: found no valid TOML"},
                       Refused{"a = " + std::string(100000, '['), "scene.toml:1: found no valid"}));
 
+TEST(SceneFileRange, IsOfLimitsOrOfPercentiles) {
+  EXPECT_THAT(message_for(component + "color = { field = 'U', min = 1, max = 2, "
+                                      "percentiles = [20, 80] }"),
+              HasSubstr("key component.0.color.percentiles: found it beside min and max"));
+}
+
 TEST(SceneFileAdvice, NamesTheNearestKeyOfTheTable) {
   EXPECT_THAT(message_for(camera + "feild_of_view = 3"),
               HasSubstr("; did you mean camera.field_of_view?"));

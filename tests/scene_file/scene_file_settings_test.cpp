@@ -6,6 +6,7 @@
 
 #include "scene_file/scene_file_equality.h"
 #include "scene_file/scene_file_messages.h"
+#include "scene_file/suggested.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 
@@ -144,6 +145,153 @@ TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
   EXPECT_EQ(scene.components[1].brightness, 1);
 }
 
+FieldMap color_of(const std::string& color, const std::vector<std::string>& settings) {
+  return parse_scene("[[component]]\ncolor = { field = 'U', " + color + " }\n", "scene.toml",
+                     settings)
+      .components[0]
+      .color;
+}
+
+TEST(SettingsOfPercentiles, ReplaceARangeOfTwoLimits) {
+  const FieldMap color = color_of("min = 1, max = 2", {"component.0.color.percentiles=[20,80]"});
+  EXPECT_FALSE(color.minimum);
+  EXPECT_FALSE(color.maximum);
+  EXPECT_EQ(color.percentiles, (std::array<double, 2>{20, 80}));
+}
+
+TEST(SettingsOfPercentiles, KeepALimitBesideAMissingOne) {
+  EXPECT_EQ(color_of("min = 1", {"component.0.color.percentiles=[20,80]"}).minimum, 1);
+  const FieldMap color = color_of(
+      "min = 1, max = 2", {"component.0.color.percentiles=[20,80]", "component.0.color.max=3"});
+  EXPECT_FALSE(color.minimum);
+  EXPECT_EQ(color.maximum, 3);
+}
+
+TEST(SettingsOfARange, ReplacePercentiles) {
+  const FieldMap color =
+      color_of("percentiles = [20, 80]", {"component.0.color.min=1", "component.0.color.max=2"});
+  EXPECT_EQ(color.minimum, 1);
+  EXPECT_EQ(color.maximum, 2);
+  EXPECT_FALSE(color.percentiles);
+}
+
+TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
+  const std::string message =
+      message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
+  EXPECT_THAT(message, HasSubstr("key component.0.color.percentiles: found it beside min and max"));
+}
+
+TEST(SettingsOfColors, OfTheParticlesReplaceAField) {
+  const Component component =
+      parse_scene("[[component]]\ncolor = { field = 'U', scaling = 'log', min = 1, max = 2 }\n",
+                  "scene.toml", {"component.0.color.vector=velocity"})
+          .components[0];
+  EXPECT_EQ(component.color_vector, "velocity");
+  EXPECT_EQ(component.color.field, "");
+}
+
+TEST(SettingsOfColors, OfAFieldReplaceThoseOfTheParticles) {
+  const Component component = parse_scene("[[component]]\ncolor.vector = 'Color'\n", "scene.toml",
+                                          {"component.0.color.field=density"})
+                                  .components[0];
+  EXPECT_EQ(component.color_vector, "");
+  EXPECT_EQ(component.color.field, "density");
+}
+
+TEST(SettingsOfColors, KeepAFieldThatIsLookedUpInAnAbsorptionPalette) {
+  const Component component =
+      parse_scene("[[component]]\nabsorption_palette = 'gray'\ncolor.field = 'U'\n", "scene.toml",
+                  {"component.0.color.vector=Color"})
+          .components[0];
+  EXPECT_EQ(component.color_vector, "Color");
+  EXPECT_EQ(component.color.field, "U");
+}
+
+TEST(SettingsOfColors, AreRefusedWhereTheyExcludeEachOther) {
+  EXPECT_THAT(message_for(text, {"component.gas.color={vector='Color', field='U'}"}),
+              HasSubstr("only one of the two"));
+  EXPECT_THAT(message_for(text, {"component.gas.color.vector=C", "component.gas.color.min=1"}),
+              HasSubstr("found a value without a field"));
+}
+
+// As it is chosen for a snapshot: the range was found in the data of the field.
+Scene suggested() {
+  Scene scene;
+  scene.components.resize(1);
+  scene.components[0].color = {"internal_energy", Scaling::log, 0.5, 2e5};
+  return scene;
+}
+
+FieldMap color_with(const std::vector<std::string>& settings) {
+  return scene_file::apply_settings_to_suggested(suggested(), suggested(), settings)
+      .components[0]
+      .color;
+}
+
+TEST(SettingsOfASuggestedScene, LeaveTheRangeOfAnotherFieldToTheData) {
+  for (const char* setting :
+       {"component.0.color.field=density", "component.0.color={field=\"density\"}"}) {
+    const FieldMap color = color_with({setting});
+    EXPECT_EQ(color.field, "density");
+    EXPECT_EQ(color.scaling, Scaling::log);
+    EXPECT_FALSE(color.minimum);
+    EXPECT_FALSE(color.maximum);
+  }
+}
+
+TEST(SettingsOfASuggestedScene, KeepALimitThatIsGivenWithTheField) {
+  const FieldMap color =
+      color_with({"component.0.color.field=density", "component.0.color.min=1e-9"});
+  EXPECT_EQ(color.minimum, 1e-9);
+  EXPECT_FALSE(color.maximum);
+}
+
+TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
+  const Scene before = apply_settings(suggested(), {"component.0.color.min=3"});
+  const Scene after = scene_file::apply_settings_to_suggested(before, suggested(),
+                                                              {"component.0.color.field=density"});
+  EXPECT_EQ(after.components[0].color.minimum, 3);
+  EXPECT_FALSE(after.components[0].color.maximum);
+}
+
+TEST(SettingsOfASuggestedScene, KeepTheRangeOfTheSameField) {
+  const FieldMap color =
+      color_with({"component.0.color.field=internal_energy", "component.0.color.scaling=linear"});
+  EXPECT_EQ(color.minimum, 0.5);
+  EXPECT_EQ(color.maximum, 2e5);
+}
+
+Camera camera_with(const std::vector<std::string>& settings) {
+  Scene scene;
+  scene.camera.emplace();
+  scene.camera->field_of_view_degrees = 40;
+  return *scene_file::apply_settings_to_suggested(scene, scene, settings).camera;
+}
+
+TEST(SettingsOfASuggestedScene, LeaveTheFieldOfViewToAProjectionOfWideAngles) {
+  EXPECT_EQ(field_of_view_degrees(camera_with({"camera.projection=fisheye"})), 180);
+  EXPECT_EQ(field_of_view_degrees(
+                camera_with({"camera.projection=equirectangular", "image.size=[64,32]"})),
+            360);
+  EXPECT_EQ(field_of_view_degrees(camera_with({"camera={projection=\"cube\"}"})), 90);
+}
+
+TEST(SettingsOfASuggestedScene, KeepAFieldOfViewThatIsGivenWithTheProjection) {
+  const Camera camera = camera_with({"camera.field_of_view=120", "camera.projection=fisheye"});
+  EXPECT_EQ(camera.field_of_view_degrees, 120);
+}
+
+TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
+  EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
+}
+
+TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
+  const Scene scene = parse_scene("[[component]]\ncolor = { field = 'U', min = 1, max = 2 }\n",
+                                  "scene.toml", {"component.0.color.field=density"});
+  EXPECT_EQ(scene.components[0].color.minimum, 1);
+  EXPECT_EQ(scene.components[0].color.maximum, 2);
+}
+
 struct Refused {
   std::string setting, message;
 };
@@ -173,6 +321,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"tolerence=1", "did you mean tolerance?"},
         Refused{"camera.fov=30", "key camera.fov: found an unknown key, expected one of position"},
         Refused{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
+        Refused{"camera.feild=3", "did you mean camera.field_of_view?"},
+        Refused{"component.gas.colour.field=density", "did you mean component.0.color.field?"},
+        Refused{"component.gas.colour.feild=density", "did you mean component.0.color.field?"},
+        Refused{"component.gas.field=density", "did you mean component.0.size.field?"},
+        Refused{"imgae.sise=[1,1]", "did you mean image.size?"},
+        Refused{"brightnes=2", "did you mean component.0.brightness?"},
         Refused{"camera.near.x=30", "key camera.near.x: found an unknown key"},
         Refused{"camera.=30", "key camera.: found an unknown key"},
         Refused{"camera=30", "key camera: found integer 30, expected a table"},

@@ -69,9 +69,9 @@ def open_drawable(
     """Whatever may be drawn, opened; with these scene keys."""
     if isinstance(what, str | os.PathLike) and particles is None:
         pairs = [_toml.setting(key, value) for key, value in keys.items()]
-        opened, data, notes = _core.open_scene(Path(what), pairs)
+        opened, data, notes, suggested = _core.open_scene(Path(what), pairs)
         return Drawable(
-            Scene._of(opened), _snapshot_of(data), notes + data.describe()["notes"]
+            Scene._of(opened, suggested), _snapshot_of(data), notes + data.describe()["notes"]
         )
     if isinstance(what, str | os.PathLike):
         what = Scene.from_file(what)
@@ -95,7 +95,8 @@ def open_drawable(
 
 
 def _suggested(source: Source, keys: dict[str, Any]) -> Drawable:
-    scene = Scene._of(_core.suggest(source._source))
+    suggested = _core.suggest(source._source)
+    scene = Scene._of(suggested, suggested)
     scene.update(keys)
     notes = _notes_of(source)
     not_drawn = _core.tell_not_drawn(scene._scene, source._source)

@@ -43,11 +43,14 @@ class Scene(MutableMapping[str, Any]):
     def __init__(self, keys: Mapping[str, Any] | None = None) -> None:
         tables = dict(keys or {})
         self._scene = _core.parse_scene(_toml.document(tables), _settings_for_arrays(tables))
+        self._suggested: _core.Scene | None = None
 
+    # `suggested`: as what the scene began, of which another field or projection has no use.
     @classmethod
-    def _of(cls, scene: _core.Scene) -> Scene:
+    def _of(cls, scene: _core.Scene, suggested: _core.Scene | None = None) -> Scene:
         made = cls.__new__(cls)
         made._scene = scene
+        made._suggested = suggested
         return made
 
     @classmethod
@@ -73,7 +76,7 @@ class Scene(MutableMapping[str, Any]):
 
     def copy(self) -> Scene:
         """A scene of its own with the same keys."""
-        return Scene._of(self._scene)
+        return Scene._of(self._scene, self._suggested)
 
     __copy__ = copy
 
@@ -99,7 +102,7 @@ class Scene(MutableMapping[str, Any]):
             None: the scene's own snapshot.
         """
         data = _core.snapshot_of(self._scene) if source is None else source._source
-        return Scene._of(_core.decide(self._scene, data, None)[0])
+        return Scene._of(_core.decide(self._scene, data, None)[0], self._suggested)
 
     def frames(self) -> list[Scene]:
         """The scene at every frame of its path (docs/movies.md)."""
@@ -166,7 +169,7 @@ class Scene(MutableMapping[str, Any]):
 
     def _change(self, settings: list[str]) -> None:
         try:
-            self._scene = self._scene.with_settings(settings)
+            self._scene = self._scene.with_settings(settings, self._suggested)
         except UsageError as error:
             if "an unknown key" in str(error):
                 raise UnknownKey(str(error)) from None

@@ -1,0 +1,47 @@
+#include "scene_file/give_way.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace splotchcl::scene_file {
+namespace {
+
+// A range that was found in the data of one field is none of another field's.
+void give_way(const FieldMap& before, const FieldMap& suggested, const std::string& label,
+              const IsGiven& is_given, FieldMap& map) {
+  if (map.field == before.field || before.field != suggested.field) return;
+  const bool is_suggested_minimum = before.minimum == suggested.minimum;
+  const bool is_suggested_maximum = before.maximum == suggested.maximum;
+  if (is_suggested_minimum && !is_given(label + ".min")) map.minimum.reset();
+  if (is_suggested_maximum && !is_given(label + ".max")) map.maximum.reset();
+}
+
+// A projection of wide angles has a field of view of its own; the suggested one frames what the
+// others show.
+void give_way(const Camera& before, const Camera& suggested, const IsGiven& is_given,
+              Camera& camera) {
+  const bool is_suggested =
+      before.field_of_view_degrees == suggested.field_of_view_degrees && !before.width;
+  if (camera.projection == before.projection || !is_wide_angle(camera.projection)) return;
+  if (is_suggested && !is_given("camera.field_of_view") && !is_given("camera.width"))
+    camera.field_of_view_degrees.reset();
+}
+
+}  // namespace
+
+void give_way(const Scene& before, const Scene& suggested, const IsGiven& is_given, Scene& scene) {
+  if (before.camera && suggested.camera)
+    give_way(*before.camera, *suggested.camera, is_given, *scene.camera);
+  const std::size_t count = std::min(scene.components.size(), suggested.components.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Component &old = before.components[i], &first = suggested.components[i];
+    Component& component = scene.components[i];
+    const std::string label = fmt::format("component.{}", i);
+    give_way(old.color, first.color, label + ".color", is_given, component.color);
+    give_way(old.intensity, first.intensity, label + ".intensity", is_given, component.intensity);
+  }
+}
+
+}  // namespace splotchcl::scene_file

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "splotchcl/scene.h"
+
+namespace splotchcl::scene_file {
+
+// apply_settings for a scene that began as one suggested for a snapshot. What is still as it was
+// suggested was given by nobody, and gives way where it belongs to what the settings replace: the
+// range of another field, the field of view of another projection.
+Scene apply_settings_to_suggested(const Scene& scene, const Scene& suggested,
+                                  const std::vector<std::string>& settings);
+
+}  // namespace splotchcl::scene_file
