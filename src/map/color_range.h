@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "splotchcl/map_settings.h"
+
+namespace splotchcl {
+
+// The values that take the first and the last color of a figure's palette.
+struct ColorRange {
+  double low = 0, high = 1;
+  bool begins_at_floor = false;  // where a percentile would have been lower
+};
+
+// Limits that the settings leave open are percentiles of the values, and of a logarithm not below
+// the floor, where maps hold errors rather than values. Throws UsageError for limits that the
+// scaling does not have, or out of order.
+ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,
+                              double floor);
+
+}  // namespace splotchcl
