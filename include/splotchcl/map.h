@@ -65,7 +65,7 @@ void check_map_output(const std::filesystem::path& path, const Scene& scene,
 // Whether check_map_output and write_map take the ending for one of a figure.
 bool is_figure(const std::filesystem::path& path);
 
-// What a figure of the map does not show: what lies below its range.
+// What a figure of the map does not show: what lies below its range, or has no logarithm.
 std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings);
 
 // By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a

@@ -14,8 +14,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 MapColors::MapColors(const std::vector<float>& values, const MapSettings& settings, double floor)
-    : scaling_(settings.scaling), exponent_(settings.exponent) {
+    : exponent_(settings.exponent) {
   const ColorRange range = decide_color_range(values, settings, floor);
+  scaling_ = range.scaling;
   low_ = range.low;
   high_ = range.high;
   softening_ = decide_softening(settings);

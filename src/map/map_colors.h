@@ -27,7 +27,7 @@ class MapColors {
   double decide_softening(const MapSettings& settings) const;
   std::vector<Tick> symmetric_ticks(int most, bool superscripts) const;
 
-  MapScaling scaling_;
+  MapScaling scaling_ = MapScaling::log;
   double low_ = 0, high_ = 1;  // values
   double exponent_, softening_;
 };
