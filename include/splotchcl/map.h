@@ -43,6 +43,9 @@ struct Map {
   // How exact: each sum over particles is within tolerance * max(sum, floor).
   double tolerance = 0;
   double floor = 0;  // of the column of the weights, in the snapshot's units
+  // Below it the map's values are known to tolerance * value_floor, not to a part of themselves. 0
+  // for means, which are not numbers there.
+  double value_floor = 0;
   std::uint64_t particles = 0, images = 0, bad_particles = 0;
 };
 
@@ -58,6 +61,12 @@ void check_map_path(const std::filesystem::path& path);
 // Throws UsageError.
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot);
+
+// Whether check_map_output and write_map take the ending for one of a figure.
+bool is_figure(const std::filesystem::path& path);
+
+// What a figure of the map does not show: what lies below its range, or has no logarithm.
+std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings);
 
 // By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a
 // color bar, by the scene's [map] and [finish]. The metadata is kept by .fits, .hdf5 and .exr.

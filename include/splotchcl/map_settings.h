@@ -56,9 +56,12 @@ struct MapSettings {
   std::array<double, 2> sky = {0, 0};
 
   // Of figures.
-  MapScaling scaling = MapScaling::log;
+  // Unset: log; where there are values below 0, linear, or asinh where half of them would have
+  // nearly one color.
+  std::optional<MapScaling> scaling;
   std::optional<double> softening;  // > 0; unset: a thousandth of the farther limit, or less
   double exponent = 0.5;            // > 0
+  // Unset: by percentiles, as docs/maps.md says.
   std::optional<double> minimum, maximum;
   std::array<double, 2> percentiles = {1, 99.9};
   std::string palette = "viridis";

@@ -83,9 +83,22 @@ std::string to_text(const ImageDifference& difference, const CompareOptions& opt
   return text;
 }
 
-ComparedChannels choose_channels(const CompareOptions& options, Console& console) {
-  const bool first = read_image_info(options.image).has_alpha;
-  const bool second = read_image_info(options.reference).has_alpha;
+// Display values are cut at 0 and 1, rounded, and have their scene's gamma: against light the
+// numbers tell of that more than of the picture.
+void note_kinds(const CompareOptions& options, bool image_is_float, bool reference_is_float,
+                Console& console) {
+  if (image_is_float == reference_is_float) return;
+  const std::string linear = (image_is_float ? options.image : options.reference).string();
+  const std::string display = (image_is_float ? options.reference : options.image).string();
+  console.note(fmt::format(
+      "{} holds linear floats and {} display values, which are cut at 0 and 1, rounded, and may "
+      "have a gamma: the numbers tell of that, too; compare two files of one kind, such as .exr",
+      linear, display));
+}
+
+ComparedChannels choose_channels(const CompareOptions& options, const ImageFileInfo& image,
+                                 const ImageFileInfo& reference, Console& console) {
+  const bool first = image.has_alpha, second = reference.has_alpha;
   if (first && second) return ComparedChannels::rgba;
   if (first != second) {
     console.note((first ? options.reference : options.image).string() +
@@ -96,7 +109,10 @@ ComparedChannels choose_channels(const CompareOptions& options, Console& console
 
 ImageDifference measure(const CompareOptions& options, const Image& image, const Image& reference,
                         Console& console) {
-  const ComparedChannels channels = choose_channels(options, console);
+  const ImageFileInfo image_info = read_image_info(options.image);
+  const ImageFileInfo reference_info = read_image_info(options.reference);
+  note_kinds(options, image_info.is_float, reference_info.is_float, console);
+  const ComparedChannels channels = choose_channels(options, image_info, reference_info, console);
   try {
     return compare_images(image, reference, options.limit.value_or(0), channels);
   } catch (const UsageError& error) {

@@ -119,6 +119,10 @@ int run_map(const MapOptions& options, Console& console) {
   const Map map = draw_map(
       source.scene, *source.snapshot, draw, notes,
       [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
+  if (std::any_of(options.outputs.begin(), options.outputs.end(), is_figure)) {
+    const std::vector<std::string> more = figure_notes(map, source.scene.map);
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
   for (const std::string& note : notes)
     console.note(note);
   for (const std::filesystem::path& output : options.outputs) {

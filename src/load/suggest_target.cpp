@@ -193,34 +193,40 @@ void fit_to_picture(Target& target, const Sample& sample, double aspect) {
   target.size = half_width > 0 ? half_width : 1.0;
 }
 
-// Whether some lie in the middle: else they are two objects at a distance.
-bool has_middle(const std::vector<double>& values, const ValueRange& range) {
-  constexpr double least_share = 0.1;
-  const double third = (range.maximum - range.minimum) / 3;
-  const auto inside = std::count_if(values.begin(), values.end(), [&](double value) {
-    return value > range.minimum + third && value < range.maximum - third;
-  });
-  return static_cast<double>(inside) > least_share * static_cast<double>(values.size());
+// Whether some lie in each tenth of the length, also where they are denser in one part of it than
+// in another, as in a shock tube. Objects thin out towards their ends, and two of them have a gap.
+bool fill_length(const std::vector<double>& values, const ValueRange& range) {
+  constexpr std::size_t slices = 10;
+  constexpr double least_part = 0.1;  // of an even share
+  std::array<std::size_t, slices> counts = {};
+  for (const double value : values) {
+    const double part = (value - range.minimum) / (range.maximum - range.minimum);
+    ++counts[std::min(slices - 1, static_cast<std::size_t>(part * slices))];
+  }
+  const std::size_t fewest = *std::min_element(counts.begin(), counts.end());
+  return static_cast<double>(fewest * slices) >= least_part * static_cast<double>(values.size());
 }
 
-// The long axis of a slab: particles fill it to its faces, without a gap, and reach much farther
-// along one axis than along both others.
+// The long axis of a slab: particles fill its length without a gap and its sides to the faces, and
+// reach much farther along one axis than along both others.
 std::optional<std::size_t> find_long_axis(Sample sample) {
   constexpr double much = 2.5, filled = 0.8;
-  std::array<double, 3> spans;
   std::array<ValueRange, 3> ranges;
+  std::array<double, 3> spans;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ranges[axis] = extent(sample[axis], 0);
     spans[axis] = ranges[axis].maximum - ranges[axis].minimum;
-    const ValueRange most = extent(sample[axis], 0.05);
-    if (!(most.maximum - most.minimum > filled * spans[axis])) return std::nullopt;
   }
   const auto longest =
       static_cast<std::size_t>(std::max_element(spans.begin(), spans.end()) - spans.begin());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (axis != longest && spans[axis] * much > spans[longest]) return std::nullopt;
+    if (axis == longest) continue;
+    const ValueRange most = extent(sample[axis], 0.05);
+    const bool is_side =
+        spans[axis] * much <= spans[longest] && most.maximum - most.minimum > filled * spans[axis];
+    if (!is_side) return std::nullopt;
   }
-  return has_middle(sample[longest], ranges[longest]) ? std::optional(longest) : std::nullopt;
+  return fill_length(sample[longest], ranges[longest]) ? std::optional(longest) : std::nullopt;
 }
 
 // Whatever lies along an axis is seen from its side, with that axis from left to right.

@@ -165,6 +165,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   describe_place(geometry, settings, fields.snapshot_info(), units, map);
   map.tolerance = one.tolerance;
   map.floor = weighted.floor();
+  map.value_floor = weighted.value_floor() * units.factor;
   map.particles = matter.count;
   map.images = placed.count();
   map.bad_particles = placed.bad + weighted.bad();

@@ -1,11 +1,14 @@
 #include "map/figure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "finish/finish_picture.h"
 #include "finish/labels.h"
+#include "map/color_range.h"
 #include "splotchcl/palette_file.h"
 
 namespace splotchcl {
@@ -53,11 +56,18 @@ Frame frame_of_figure(const Map& map) {
   return frame;
 }
 
+double percent_below(double limit, const Map& map) {
+  const auto below = std::count_if(map.values.begin(), map.values.end(), [limit](float value) {
+    return static_cast<double>(value) < limit;
+  });
+  return 100 * static_cast<double>(below) / static_cast<double>(map.values.size());
+}
+
 }  // namespace
 
 Figure plan_figure(const Map& map, const MapSettings& settings) {
-  Figure figure = {map, MapColors(map.values, settings), load_palette(settings.palette),
-                   label_of(map), settings.contours};
+  Figure figure = {map, MapColors(map.values, settings, map.value_floor),
+                   load_palette(settings.palette), label_of(map), settings.contours};
   if (settings.contour_count > 0) figure.levels = figure.colors.even_values(settings.contour_count);
   return figure;
 }
@@ -73,6 +83,25 @@ Image Figure::picture() const {
     image.pixels[4 * i + 3] = 1;
   }
   return image;
+}
+
+std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings) {
+  const ColorRange range = decide_color_range(map.values, settings, map.value_floor);
+  const double negative = percent_below(0, map);
+  std::vector<std::string> notes;
+  if (range.begins_at_floor) {
+    notes.push_back(fmt::format(
+        "{:.2g} % of the map's pixels lie below its floor, {:.2g}, down to which the tolerance "
+        "holds, and have the first color of the figure; map.min sets another limit",
+        percent_below(range.low, map), range.low));
+  }
+  if (range.scaling == MapScaling::log && negative > 0) {
+    notes.push_back(fmt::format(
+        "{:.2g} % of the map's pixels lie below 0, where there is no logarithm, and have the first "
+        "color of the figure; map.scaling = \"linear\" or \"asinh\" shows them",
+        negative));
+  }
+  return notes;
 }
 
 void check_figure(const Scene& scene, const SnapshotInfo& snapshot) {

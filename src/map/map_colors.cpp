@@ -1,49 +1,24 @@
 #include "map/map_colors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/statistics.h"
-#include "splotchcl/error.h"
+#include "map/color_range.h"
 
 namespace splotchcl {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> values_with_a_place(const std::vector<float>& values, MapScaling scaling) {
-  std::vector<double> usable;
-  for (const float value : values) {
-    if (!std::isfinite(value) || (scaling == MapScaling::log && !(value > 0))) continue;
-    usable.push_back(static_cast<double>(value));
-  }
-  if (usable.empty()) usable = {1};
-  return usable;
-}
-
-double limit(const std::optional<double>& said, const char* key, double percent,
-             std::vector<double>& values, MapScaling scaling) {
-  if (!said) return percentile(values, percent / 100);
-  if (scaling != MapScaling::log || *said > 0) return *said;
-  throw UsageError(fmt::format(
-      "key map.{}: found {}, expected a number > 0, since map.scaling is \"log\"", key, *said));
-}
-
 }  // namespace
 
-MapColors::MapColors(const std::vector<float>& values, const MapSettings& settings)
-    : scaling_(settings.scaling), exponent_(settings.exponent) {
-  std::vector<double> usable = values_with_a_place(values, scaling_);
-  low_ = limit(settings.minimum, "min", settings.percentiles[0], usable, scaling_);
-  high_ = limit(settings.maximum, "max", settings.percentiles[1], usable, scaling_);
-  if (high_ < low_) {
-    throw UsageError(fmt::format(
-        "key map.max: found {:.6g}, below the palette's least value, {:.6g}, expected more", high_,
-        low_));
-  }
+MapColors::MapColors(const std::vector<float>& values, const MapSettings& settings, double floor)
+    : exponent_(settings.exponent) {
+  const ColorRange range = decide_color_range(values, settings, floor);
+  scaling_ = range.scaling;
+  low_ = range.low;
+  high_ = range.high;
   softening_ = decide_softening(settings);
 }
 

@@ -12,9 +12,8 @@ namespace splotchcl {
 // From a map's values to the places 0 to 1 of a palette, and to the marks of its bar.
 class MapColors {
  public:
-  // Limits that the settings leave open are percentiles of the values. Throws UsageError for limits
-  // that the scaling does not have, or out of order.
-  MapColors(const std::vector<float>& values, const MapSettings& settings);
+  // Limits are those of decide_color_range. Throws UsageError as it does.
+  MapColors(const std::vector<float>& values, const MapSettings& settings, double floor = 0);
 
   // Not clamped; not a number for a value without one. Of a logarithm 0 for values <= 0.
   double place(double value) const;
@@ -28,7 +27,7 @@ class MapColors {
   double decide_softening(const MapSettings& settings) const;
   std::vector<Tick> symmetric_ticks(int most, bool superscripts) const;
 
-  MapScaling scaling_;
+  MapScaling scaling_ = MapScaling::log;
   double low_ = 0, high_ = 1;  // values
   double exponent_, softening_;
 };

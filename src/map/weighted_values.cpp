@@ -86,6 +86,20 @@ double WeightedValues::floor() const {
   return white_ * weight_unit_ * area_factor();
 }
 
+double WeightedValues::value_floor() const {
+  switch (kind_) {
+    case MapQuantity::Kind::column:
+    case MapQuantity::Kind::counts:
+      return floor();
+    case MapQuantity::Kind::integral:
+      return floor() * value_unit_;
+    case MapQuantity::Kind::mean:
+    case MapQuantity::Kind::dispersion:
+      break;
+  }
+  return 0;
+}
+
 // One for the weights alone, and what of the values lies above 0 and below it: colors cannot be
 // negative.
 std::vector<float> WeightedValues::factors(double subtracted) const {

@@ -25,6 +25,8 @@ class WeightedValues {
 
   // Of the weights' column, in the snapshot's units.
   double floor() const;
+  // Of the map's values, likewise; 0 where they are means.
+  double value_floor() const;
   std::uint64_t bad() const { return bad_; }
 
   // As they are drawn.

@@ -47,12 +47,14 @@ Image numbers_as_image(const Map& map) {
   return image;
 }
 
+bool is_figure(const std::filesystem::path& path) {
+  const std::string ending = lower_ending(path);
+  return !(is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".exr");
+}
+
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot) {
-  const std::string ending = lower_ending(path);
-  const bool holds_numbers =
-      is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".exr";
-  if (!holds_numbers) check_figure(scene, snapshot);
+  if (is_figure(path)) check_figure(scene, snapshot);
 }
 
 void check_map_path(const std::filesystem::path& path) {

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Image filled(int width, int height, float value) {
   Image image(width, height);
@@ -27,6 +28,18 @@ TEST(Compare, EndsWithZeroForEqualPicturesAndALimitOfZero) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("equal"));
+}
+
+TEST(Compare, HasANoteWhereOneFileHoldsLightAndTheOtherDisplayValues) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"a.exr", "a.tif", "a.png", "b.png"})
+    write_image(folder / name, filled(4, 4, 0.5F), {2.2});
+  for (const char* const files : {"a.exr a.png", "a.png a.exr", "a.tif a.png"})
+    EXPECT_THAT(splotchcl_in(folder, std::string("compare ") + files).err,
+                HasSubstr("a.png display values"));
+  for (const char* const files : {"a.exr a.tif", "a.png b.png"})
+    EXPECT_THAT(splotchcl_in(folder, std::string("compare ") + files).err,
+                Not(HasSubstr("display values")));
 }
 
 TEST(Compare, EndsWithOneBeyondTheLimitOnly) {

@@ -283,6 +283,21 @@ TEST(SuggestCamera, SeesASlabFromItsSideAndFillsThePictureWithIt) {
   }
 }
 
+// Seven eighths of the particles lie in one half, as at the start of Sod's shock tube.
+TEST(SuggestCamera, SeesATubeOfTwoDensitiesFromItsSideAndWhole) {
+  MemorySnapshot snapshot;
+  std::vector<float> position = cube(8000, 1);
+  for (std::size_t i = 0; i < position.size(); i += 3)
+    position[i + 2] = 5 * (position[i + 2] + (i % 8 == 0 ? 1.0F : 0.0F));
+  snapshot.add(0, "position", position, 3);
+  const Camera camera = *suggest_scene(snapshot).camera;
+  const Vec3 view = camera.look_at - camera.position;
+  EXPECT_NEAR(view.a[2], 0, 0.01);
+  EXPECT_EQ(camera.sky.a[2], 0);
+  EXPECT_NEAR(camera.look_at.a[2], 5, 0.2);
+  EXPECT_GT(half_width(camera), 5);
+}
+
 TEST(SuggestCamera, FramesAPairOfSmallObjectsClosely) {
   MemorySnapshot snapshot;
   std::vector<float> position = ball(2000, 0, 1);

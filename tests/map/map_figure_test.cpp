@@ -114,6 +114,112 @@ TEST(MapColors, TakePercentilesOfFiniteValuesForLimits) {
   EXPECT_NEAR(colors.place(75), 1, 1e-9);
 }
 
+// Powers of ten from 1e-10 to 1.
+std::vector<float> eleven_decades() {
+  std::vector<float> values;
+  for (int i = -100; i <= 0; ++i)
+    values.push_back(static_cast<float>(std::pow(10.0, 0.1 * i)));
+  return values;
+}
+
+TEST(MapColors, BeginAtTheFloorWhereTheyAreLogarithmic) {
+  MapSettings all;
+  all.percentiles = {0, 100};
+  EXPECT_NEAR(MapColors(eleven_decades(), all, 1e-4).place(1e-4), 0, 1e-9);
+  EXPECT_NEAR(MapColors(eleven_decades(), all, 1e-4).place(1e-2), 0.5, 1e-6);
+  EXPECT_NEAR(MapColors(eleven_decades(), all, 1e-12).place(1e-10), 0, 1e-6);
+  all.scaling = MapScaling::linear;
+  EXPECT_NEAR(MapColors(eleven_decades(), all, 1e-4).place(1e-10), 0, 1e-9);
+}
+
+TEST(MapColors, BeginBelowTheFloorWhereTheSettingsSay) {
+  MapSettings deep;
+  deep.minimum = 1e-8;
+  EXPECT_NEAR(MapColors(eleven_decades(), deep, 1e-4).place(1e-8), 0, 1e-9);
+  MapSettings faint;
+  faint.maximum = 1e-6;
+  EXPECT_NEAR(MapColors(eleven_decades(), faint, 1e-4).place(1e-6), 1, 1e-9);
+}
+
+TEST(MapColors, EndAtTheLargestValueWhereThePercentileLiesBelowTheFloor) {
+  std::vector<float> values(10000, 1e-9F);
+  values.back() = 1;
+  const MapColors colors(values, {}, 1e-7);
+  EXPECT_NEAR(colors.place(1e-7), 0, 1e-9);
+  EXPECT_NEAR(colors.place(1), 1, 1e-9);
+}
+
+TEST(MapFigure, HasANoteOnPixelsBelowTheFloor) {
+  Map map = even_map(10, 10, 1);
+  map.value_floor = 1e-3;
+  EXPECT_TRUE(figure_notes(map, {}).empty());
+  std::fill_n(map.values.begin(), 25, 1e-6F);
+  ASSERT_EQ(figure_notes(map, {}).size(), 1U);
+  EXPECT_THAT(figure_notes(map, {}).front(), ::testing::HasSubstr("25 % of the map's pixels"));
+  EXPECT_TRUE(figure_notes(map, settings(MapScaling::log, 1e-8, 2)).empty());
+}
+
+std::vector<float> from_minus_hundred_to(int last) {
+  std::vector<float> values;
+  for (int i = -100; i <= last; ++i)
+    values.push_back(static_cast<float>(i));
+  return values;
+}
+
+TEST(MapColors, AreEvenInValuesOfBothSignsWithZeroInTheMiddle) {
+  MapSettings all;
+  all.percentiles = {0, 100};
+  const MapColors colors(from_minus_hundred_to(50), all);
+  EXPECT_NEAR(colors.place(-100), 0, 1e-9);
+  EXPECT_NEAR(colors.place(0), 0.5, 1e-9);
+  EXPECT_NEAR(colors.place(50), 0.75, 1e-9);
+}
+
+TEST(MapColors, SpreadValuesOfBothSignsThatSpanDecades) {
+  std::vector<float> values = eleven_decades();
+  for (float value : eleven_decades())
+    values.push_back(-value);
+  MapSettings all;
+  all.percentiles = {0, 100};
+  const MapColors colors(values, all);
+  EXPECT_NEAR(colors.place(0), 0.5, 1e-9);
+  EXPECT_GT(colors.place(0.01), 0.6) << "an asinh";
+}
+
+TEST(MapColors, ReachFromLimitsThatAreSetBelowZero) {
+  MapSettings set;
+  set.percentiles = {0, 100};
+  set.minimum = -200;
+  const MapColors colors(from_minus_hundred_to(200), set);
+  EXPECT_NEAR(colors.place(-200), 0, 1e-9);
+  EXPECT_NEAR(colors.place(0), 0.5, 1e-9);
+}
+
+TEST(MapColors, EndAtTheValuesWhereAllLieBelowZero) {
+  MapSettings all;
+  all.percentiles = {0, 100};
+  EXPECT_NEAR(MapColors(from_minus_hundred_to(-10), all).place(-10), 1, 1e-9);
+}
+
+TEST(MapColors, AreLogarithmicWhereFewValuesLieBelowZero) {
+  std::vector<float> values(1000, 1);
+  values[0] = -1e-6F;
+  values[1] = 100;
+  MapSettings limits;
+  limits.maximum = 100;
+  EXPECT_NEAR(MapColors(values, limits).place(10), 0.5, 1e-9);
+}
+
+TEST(MapFigure, HasANoteOnPixelsWithoutALogarithm) {
+  Map map = even_map(10, 10, 1);
+  std::fill_n(map.values.begin(), 25, -1.0F);
+  EXPECT_TRUE(figure_notes(map, {}).empty());
+  MapSettings log;
+  log.scaling = MapScaling::log;
+  ASSERT_EQ(figure_notes(map, log).size(), 1U);
+  EXPECT_THAT(figure_notes(map, log).front(), ::testing::HasSubstr("25 % of the map's pixels"));
+}
+
 TEST(MapColors, MarkTheBarWhereTheValuesAre) {
   MapSettings asinh = settings(MapScaling::asinh, -1e-3, 1e-3);
   asinh.softening = 1e-6;

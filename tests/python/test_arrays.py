@@ -187,12 +187,31 @@ def test_a_wrong_type_is_refused(name, arrays):
         Particles().add(name, **arrays)
 
 
+@pytest.mark.parametrize("name", [0, 1.5, None, ("gas",), "stars"])
+def test_what_is_no_type_of_a_snapshot_is_refused_with_those_that_it_has(name, particles):
+    with pytest.raises(UsageError, match="expected a name, one of gas"):
+        particles[name]
+
+
+@pytest.mark.parametrize("name", [0, None])
+def test_what_is_no_name_of_a_field_is_refused_with_those_that_there_are(name, particles):
+    with pytest.raises(UsageError, match="expected a name, one of .*temperature"):
+        particles["gas"][name]
+
+
 def test_a_refused_array_leaves_the_particles_as_they_were(renderer, arrays, particles, expected):
     with pytest.raises(UsageError):
         particles.gas(mass=np.ones(3, np.float32))
     assert np.array_equal(
         renderer.render(scene_for(arrays), particles, size=SIZE).linear, expected
     )
+
+
+def test_masses_below_0_are_left_out_and_counted(renderer, arrays):
+    mass = arrays["mass"].copy()
+    mass[:7] = -1
+    notes = draw(renderer, **{**arrays, "mass": mass}).notes
+    assert any("7 " in note and "left out" in note for note in notes), notes
 
 
 def test_particles_without_any_are_refused(renderer):

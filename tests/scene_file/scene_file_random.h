@@ -283,7 +283,7 @@ class RandomScenes {
     map.noise = coin();
     if (coin()) map.distance = word();
     if (coin()) map.sky = {360 * unit(), 180 * unit() - 90};
-    map.scaling = static_cast<MapScaling>(integer(0, 3));
+    if (coin()) map.scaling = static_cast<MapScaling>(integer(0, 3));
     map.softening = maybe(positive());
     map.exponent = 0.01 + 9 * unit();
     map.minimum = maybe(any());

@@ -26,9 +26,9 @@ struct PathPlot {
 };
 
 // The places where particles crowd most: cells of a grid over the bulk of them that hold more
-// than all their neighbours, the fullest first.
+// than all their neighbours and a hundredth of what the fullest holds, the fullest first.
 struct DenseCell {
-  Vec3 center;
+  Vec3 center;      // the mean place of the particles in the cell and its neighbours
   double size = 0;  // a side of the cell
 };
 std::vector<DenseCell> densest_cells(const std::vector<Vec3>& particles, std::size_t limit);

@@ -47,6 +47,8 @@ class ParticleType:
         UsageError, DataError
             For a field that the type does not have, naming those that it has.
         """
+        if not isinstance(field, str):
+            raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
         number = int(self._described["type"])
         values: np.ndarray[Any, Any] = np.asarray(self._source.read(number, field))
         origin = np.array(self._source.position_origin())
@@ -74,12 +76,12 @@ class Source:
         return {name: ParticleType(self._source, name, types[name]) for name in types}
 
     def __getitem__(self, name: str) -> ParticleType:
-        number = _core.find_particle_type(name)
         types = self.types
+        number = _core.find_particle_type(name) if isinstance(name, str) else None
         if number is not None:
             name = _core.particle_type_name(number)
         if name not in types:
-            raise UsageError(f"particle type {name!r}: expected one of {', '.join(types)}")
+            raise UsageError(f"particle type {name!r}: expected a name, one of {', '.join(types)}")
         return types[name]
 
     @property

@@ -28,8 +28,17 @@ TEST(DensestCells, AreWhereParticlesCrowdTheFullestFirst) {
   const Vec3 expected[] = {{{100, 0, 0}}, {{0, 100, 50}}, {{0, 0, 0}}};
   for (int i = 0; i < 3; ++i) {
     const DenseCell& cell = cells[static_cast<std::size_t>(i)];
-    EXPECT_LT(boost::qvm::mag(cell.center - expected[i]), 1.8 * cell.size);
+    EXPECT_LT(boost::qvm::mag(cell.center - expected[i]), 0.1 * cell.size);
   }
+}
+
+TEST(DensestCells, AreNotPeaksOfAFewParticles) {
+  std::vector<Vec3> particles;
+  add_ball(particles, {{0, 0, 0}}, 3000);
+  add_ball(particles, {{100, 0, 0}}, 3000);
+  add_ball(particles, {{50, 30, 0}}, 10);
+  add_ball(particles, {{50, -30, 10}}, 15);
+  EXPECT_EQ(densest_cells(particles, 8).size(), 2U);
 }
 
 TEST(DensestCells, OfNoParticlesAreNone) {
