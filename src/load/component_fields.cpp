@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "between/interpolated_column.h"
 #include "load/component_boxes.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
