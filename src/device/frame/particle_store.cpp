@@ -124,13 +124,6 @@ compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t value
   const std::size_t end = piece.end * values_per_particle;
   const bool is_whole = first == 0 && end >= column.size();
   const auto source = column.source();
-  if (interpolated(column) && piece.end - piece.first < column.size() / values_per_particle) {
-    throw DeviceError("device " + device_.device.name() + ": found " +
-                      std::to_string(column.size() / values_per_particle) +
-                      " particles between two snapshots, expected at most " +
-                      std::to_string(piece.end - piece.first) +
-                      ": draw a part of them, or a moment that a snapshot has");
-  }
   if (!column.is_array() || (is_whole && !is_streamed(column)) || interpolated(column))
     return buffer_of(column, value_if_absent, stride);
   stride = 1;
@@ -282,6 +275,16 @@ ParticleBuffers ParticleStore::get(const Particles& particles, const ParticleChu
 }
 
 ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece& piece) {
+  const bool is_whole = piece.end - piece.first == particles.count;
+  const auto columns = particles.columns();
+  if (!is_whole && std::any_of(columns.begin(), columns.end(),
+                               [](const Column* column) { return interpolated(*column); })) {
+    throw DeviceError("device " + device_.device.name() + ": found " +
+                      std::to_string(particles.count) +
+                      " particles between two snapshots, expected at most " +
+                      std::to_string(piece.end - piece.first) +
+                      ": draw a part of them, or a moment that a snapshot has");
+  }
   // Commands that read them come before those that will write their memory.
   streamed_.clear();
   ParticleBuffers buffers;
@@ -298,7 +301,6 @@ ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece
   buffers.intensity = scalars(particles.intensity, 1, buffers.intensity_stride);
   buffers.sort_field = scalars(particles.sort_field, 0, buffers.sort_stride);
   buffers.own_color = buffer_of(particles.color_vector, 3, piece, 1, buffers.own_color_stride);
-  const bool is_whole = piece.end - piece.first == particles.count;
   if (particles.boxes) {
     buffers.boxes =
         &boxes_.given(particles.boxes, particles.count, device_.traits.project_block, frame_);

@@ -23,7 +23,7 @@ std::optional<double> source_of_all(const DrawnComponent& component) {
   if (component.absorption.kind != Kind::factor) return std::nullopt;
   // Sums are of A w, and E is as many times as much: of more single precision holds too little of
   // one of them.
-  constexpr double largest = 1e18;
+  constexpr double largest = 1e31;
   const double source = component.brightness / component.absorption.factor;
   return source >= 1 / largest && source <= largest ? std::optional(source) : std::nullopt;
 }
