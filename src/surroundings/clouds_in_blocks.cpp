@@ -25,7 +25,35 @@ int block_of(int pixel) {
 struct BlockOfPixels {
   int left, top;
   Vec3 axis;
-  double half_angle;
+  double half_angle, cosine, sine;
+};
+
+// Rays find a cloud within an angle of its center, of this cosine and sine. (One that leads away
+// from it finds exp(-D^2) / 2 of it at most.)
+struct ConeOfRays {
+  explicit ConeOfRays(const CloudAround& cloud) {
+    using namespace boost::qvm;
+    const double distance2 = mag_sqr(cloud.center);
+    is_found = cloud.ray > 0;
+    is_everywhere = is_found && distance2 <= cloud.farthest2;
+    if (!is_found || is_everywhere) return;
+    direction = cloud.center / std::sqrt(distance2);
+    sine = std::sqrt(cloud.farthest2 / distance2);
+    cosine = std::sqrt(1 - sine * sine);
+  }
+
+  bool meets(const BlockOfPixels& block) const {
+    if (!is_found || is_everywhere) return is_found;
+    // Angles that together are more than half a turn meet everywhere.
+    if (block.half_angle >= 0.5 * pi) return true;
+    constexpr double rounding = 1e-12;
+    const double cosine_of_both = cosine * block.cosine - sine * block.sine;
+    return boost::qvm::dot(direction, block.axis) >= cosine_of_both - rounding;
+  }
+
+  bool is_found, is_everywhere;
+  Vec3 direction{};
+  double cosine = 0, sine = 0;
 };
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -41,7 +69,7 @@ BlockOfPixels make_block(int left, int top, const Frame& frame) {
   const auto direction = [&](int column, int row) {
     return direction_at(left + column * step, top + row * step, frame.camera, frame.projection);
   };
-  BlockOfPixels block = {left, top, direction(samples / 2, samples / 2), 0};
+  BlockOfPixels block = {left, top, direction(samples / 2, samples / 2), 0, 1, 0};
   double farthest = 0, apart = 0;
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
@@ -52,19 +80,9 @@ BlockOfPixels make_block(int left, int top, const Frame& frame) {
     }
   }
   block.half_angle = farthest + apart;
+  block.cosine = std::cos(block.half_angle);
+  block.sine = std::sin(block.half_angle);
   return block;
-}
-
-// A ray that leads away from a cloud's center finds exp(-D^2) / 2 of it at most.
-bool is_found_by_rays(const CloudAround& cloud, const BlockOfPixels& block) {
-  if (cloud.ray == 0) return false;
-  const double distance2 = boost::qvm::mag_sqr(cloud.center);
-  if (distance2 <= cloud.farthest2) return true;
-  const double angle = angle_between(cloud.center, block.axis) - block.half_angle;
-  if (angle <= 0) return true;
-  if (angle >= 0.5 * pi) return false;
-  const double beside = std::sin(angle);
-  return distance2 * beside * beside <= cloud.farthest2;
 }
 
 // Of a range of a block's pixels.
@@ -92,16 +110,18 @@ CloudsInBlocks::CloudsInBlocks(const std::vector<CloudAround>& clouds, std::size
       of_blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       all_(end - first) {
   std::iota(all_.begin(), all_.end(), static_cast<std::uint32_t>(first));
+  std::vector<ConeOfRays> cones;
+  for (std::size_t k = first; k < end; ++k)
+    cones.emplace_back(clouds[k]);
   for_blocks(of_blocks_.size(), 4, [&](std::size_t from, std::size_t to) {
     for (std::size_t b = from; b < to; ++b) {
       const int column = first_x_ + static_cast<int>(b) % columns_;
       const int row = first_y_ + static_cast<int>(b) / columns_;
       const BlockOfPixels block = make_block(column * block_pixels, row * block_pixels, frame);
-      std::copy_if(all_.begin(), all_.end(), std::back_inserter(of_blocks_[b]),
-                   [&](std::uint32_t number) {
-                     const CloudAround& cloud = clouds[number];
-                     return is_found_by_rays(cloud, block) || is_splat_in(cloud, block);
-                   });
+      std::copy_if(
+          all_.begin(), all_.end(), std::back_inserter(of_blocks_[b]), [&](std::uint32_t number) {
+            return cones[number - first].meets(block) || is_splat_in(clouds[number], block);
+          });
     }
   });
 }
