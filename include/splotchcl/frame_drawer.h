@@ -55,8 +55,8 @@ struct DrawnFrame {
 
 // Draws the frames of scenes, on a device or with the oracle, always in the same way: loads what
 // the scene uses, draws its views, finishes the pictures, and keeps account of what is to be
-// told. Everything that draws does so through this class. Keeps compiled kernels and buffers
-// between frames. Not for use from several threads at once; several FrameDrawers are.
+// told. Everything that draws but maps does so through this class. Keeps compiled kernels and
+// buffers between frames. Not for use from several threads at once; several FrameDrawers are.
 class FrameDrawer {
  public:
   // Throws DeviceError where there is no device, UsageError where none has such a name.

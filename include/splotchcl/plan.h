@@ -18,8 +18,8 @@ namespace splotchcl {
 enum class LightPlan { emission, proportional, ordered };
 
 enum class Precision {
-  fast,      // single precision, short polynomials: exp to 2.7e-6, erf to 2.3e-7
-  full,      // single precision to its last digits: exp to 7.5e-8, erf as well or better
+  fast,      // single precision, short polynomials: exp to 2.7e-6, erf to 2.3e-6
+  full,      // single precision to its last digits: exp to 7.5e-8, erf to 2.3e-7
   extended,  // numbers of 45 bits: double precision, or pairs of floats
 };
 

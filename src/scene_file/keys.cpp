@@ -226,7 +226,8 @@ Keys sort_keys() {
       key("sort.order", choice<bool>({{"ascending", false}, {"descending", true}}),
           &SortOrder::descending,
           {"`ascending`: the smallest value lies in front (the nearest cloud). `descending`: the "
-           "largest. Equal ones stay in file order, the earlier one in front."}),
+           "largest. Equal ones stay in file order, the earlier one in front; clouds "
+           "around the camera lie behind splats of the same value."}),
   };
 }
 
