@@ -17,11 +17,8 @@ namespace {
 
 bool has_streamed_columns(const Frame& frame) {
   return std::any_of(
-      frame.components.begin(), frame.components.end(), [](const DrawnComponent& component) {
-        const auto columns = component.particles.columns();
-        return std::any_of(columns.begin(), columns.end(),
-                           [](const Column* column) { return is_streamed(*column); });
-      });
+      frame.components.begin(), frame.components.end(),
+      [](const DrawnComponent& component) { return has_streamed_column(component.particles); });
 }
 
 // As Pipeline::draw_ordered decides, of which particles are drawn being an estimate.

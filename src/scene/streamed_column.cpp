@@ -41,6 +41,12 @@ bool is_streamed(const Column& column) {
   return source && source->is_streamed();
 }
 
+bool has_streamed_column(const Particles& particles) {
+  const auto columns = particles.columns();
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const Column* column) { return is_streamed(*column); });
+}
+
 Column make_column(std::size_t size, bool is_streamed, MakeValues make) {
   if (is_streamed) return Column::made_by(std::make_shared<FunctionColumn>(size, std::move(make)));
   std::vector<float> values(size);

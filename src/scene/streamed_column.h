@@ -30,6 +30,8 @@ class ColumnStretch {
 
 // Whether its values are made as they are wanted.
 bool is_streamed(const Column& column);
+// Whether those of any of their columns are.
+bool has_streamed_column(const Particles& particles);
 
 // So many particles at a time.
 constexpr std::size_t streamed_particles = std::size_t{1} << 18;

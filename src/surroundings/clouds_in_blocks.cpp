@@ -16,6 +16,7 @@ constexpr int block_pixels = 32;
 // Of the nodes farther beside the picture (smooth_picture.cpp), which are few, each looks at all
 // clouds.
 constexpr int pixels_beside = 64;
+constexpr int first_block = -pixels_beside / block_pixels;  // along both axes
 
 int block_of(int pixel) {
   return pixel >= 0 ? pixel / block_pixels : -((-pixel + block_pixels - 1) / block_pixels);
@@ -103,10 +104,8 @@ bool is_splat_in(const CloudAround& cloud, const BlockOfPixels& block) {
 
 CloudsInBlocks::CloudsInBlocks(const std::vector<CloudAround>& clouds, std::size_t first,
                                std::size_t end, const Frame& frame)
-    : first_x_(block_of(-pixels_beside)),
-      first_y_(first_x_),
-      columns_(block_of(frame.width + pixels_beside) + 1 - first_x_),
-      rows_(block_of(frame.height + pixels_beside) + 1 - first_y_),
+    : columns_(block_of(frame.width + pixels_beside) + 1 - first_block),
+      rows_(block_of(frame.height + pixels_beside) + 1 - first_block),
       of_blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       all_(end - first) {
   std::iota(all_.begin(), all_.end(), static_cast<std::uint32_t>(first));
@@ -115,8 +114,8 @@ CloudsInBlocks::CloudsInBlocks(const std::vector<CloudAround>& clouds, std::size
     cones.emplace_back(clouds[k]);
   for_blocks(of_blocks_.size(), 4, [&](std::size_t from, std::size_t to) {
     for (std::size_t b = from; b < to; ++b) {
-      const int column = first_x_ + static_cast<int>(b) % columns_;
-      const int row = first_y_ + static_cast<int>(b) / columns_;
+      const int column = first_block + static_cast<int>(b) % columns_;
+      const int row = first_block + static_cast<int>(b) / columns_;
       const BlockOfPixels block = make_block(column * block_pixels, row * block_pixels, frame);
       std::copy_if(
           all_.begin(), all_.end(), std::back_inserter(of_blocks_[b]), [&](std::uint32_t number) {
@@ -127,7 +126,7 @@ CloudsInBlocks::CloudsInBlocks(const std::vector<CloudAround>& clouds, std::size
 }
 
 const std::vector<std::uint32_t>& CloudsInBlocks::at(int x, int y) const {
-  const int column = block_of(x) - first_x_, row = block_of(y) - first_y_;
+  const int column = block_of(x) - first_block, row = block_of(y) - first_block;
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return all_;
   return of_blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                     static_cast<std::size_t>(column)];

@@ -21,7 +21,7 @@ class CloudsInBlocks {
   const std::vector<std::uint32_t>& at(int x, int y) const;
 
  private:
-  int first_x_, first_y_, columns_, rows_;  // of blocks
+  int columns_, rows_;  // of blocks
   std::vector<std::vector<std::uint32_t>> of_blocks_;
   std::vector<std::uint32_t> all_;
 };

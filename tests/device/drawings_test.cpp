@@ -25,15 +25,20 @@ class Drawings : public PictureTest {
     return frame;
   }
 
-  // Around pixel 50, 50.
-  static Frame crowd_among_faint_clouds(Absorption absorption) {
+  static CloudSetup faint_clouds(int width, int height, double column_low, double column_high) {
     CloudSetup faint;
-    faint.width = 400;
-    faint.height = 300;
+    faint.width = width;
+    faint.height = height;
     faint.count = 2000;
     faint.sigma_high = 3;
-    faint.column_low = 0.001;
-    faint.column_high = 0.02;
+    faint.column_low = column_low;
+    faint.column_high = column_high;
+    return faint;
+  }
+
+  // Around pixel 50, 50.
+  static Frame crowd_among_faint_clouds(Absorption absorption) {
+    const CloudSetup faint = faint_clouds(400, 300, 0.001, 0.02);
     const std::vector<Cloud> crowd(20000, Cloud{-150, -100, 50, 3, 0.5});
     Frame frame = frame_of(faint.width, faint.height,
                            {random_clouds(faint), component_of(crowd, one_color(1, 1, 1))});
@@ -44,13 +49,7 @@ class Drawings : public PictureTest {
 
   // In the first and in the last corner, of clouds with these columns.
   static Frame two_crowds(double first, double last) {
-    CloudSetup faint;
-    faint.width = 600;
-    faint.height = 450;
-    faint.count = 2000;
-    faint.sigma_high = 3;
-    faint.column_low = 1e-5;
-    faint.column_high = 2e-4;
+    const CloudSetup faint = faint_clouds(600, 450, 1e-5, 2e-4);
     const std::vector<Cloud> before(300, Cloud{-225, -175, 50, 4.5, first});
     const std::vector<Cloud> behind(300, Cloud{225, 175, 50, 4.5, last});
     return frame_of(faint.width, faint.height,

@@ -14,12 +14,6 @@ namespace splotchcl {
 
 namespace {
 
-bool has_streamed_column(const Particles& particles) {
-  const auto columns = particles.columns();
-  return std::any_of(columns.begin(), columns.end(),
-                     [](const Column* column) { return is_streamed(*column); });
-}
-
 // Values of particles [first, end) in a column of `count` of them.
 void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
                    std::uint64_t end) {

@@ -48,6 +48,15 @@ class Films : public ::testing::Test {
     }
     return "was not refused";
   }
+  // The second half is to come.
+  void draw_half_before_a_change_of(const std::string& name) {
+    options_.part = "1/2";
+    EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
+    const auto file = folder_ / name;
+    std::filesystem::last_write_time(
+        file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
+    options_.part = "2/2";
+  }
   bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
   testing::TemporaryFolder folder_;
@@ -118,12 +127,7 @@ class FilmsOfASequence : public Films {
 };
 
 TEST_F(FilmsOfASequence, HaveNoFramesOfOtherData) {
-  options_.part = "1/2";
-  EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
-  const auto file = folder_ / "s_000.0";
-  std::filesystem::last_write_time(
-      file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
-  options_.part = "2/2";
+  draw_half_before_a_change_of("s_000.0");
   EXPECT_THAT(refusal(), HasSubstr("s_000.0"));
 }
 
@@ -131,12 +135,7 @@ TEST_F(Films, HaveNoFramesOfOtherDataOfASingleComponent) {
   write_gadget2(folder_ / "other.0", halo_);
   std::ofstream(folder_ / "film.toml", std::ios::app)
       << "[[component]]\nname = 'other'\ntypes = ['gas']\nsnapshot = 'other'\n";
-  options_.part = "1/2";
-  EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
-  const auto file = folder_ / "other.0";
-  std::filesystem::last_write_time(
-      file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
-  options_.part = "2/2";
+  draw_half_before_a_change_of("other.0");
   EXPECT_THAT(refusal(), HasSubstr("other.0"));
 }
 
