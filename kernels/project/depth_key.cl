@@ -23,11 +23,24 @@ INLINED UNSIGNED_WIDE choose_wide(UNSIGNED_WIDE if_false, UNSIGNED_WIDE if_true,
   return select(if_false, if_true, TO_WIDE(mask));
 }
 
+// How many bits a number has. Processors without registers of sixteen floats count none of vectors.
+INLINED INTEGER bits_of_magnitude(UNSIGNED_WIDE magnitude) {
+#if LANES == 8
+  const INTEGER upper = TO_INTEGER(magnitude >> 32);
+  if (!ANY(upper <= 0)) {
+    // A number of which the second bit is 0 is not rounded up to more bits.
+    const VALUE leading = TO_VALUE(upper & ~(upper >> 1));
+    return (AS_INTEGER(leading) >> 23) - 126 + 32;
+  }
+#endif
+  return 64 - TO_INTEGER(clz(magnitude));
+}
+
 // The exponent of the leading bit beyond the 41st, and the leading 41 bits, as one number: it
 // grows with magnitude * 2^exponent, and is that itself below 2^41.
 INLINED UNSIGNED_WIDE compressed_depth(UNSIGNED_WIDE magnitude, INTEGER exponent,
                                        int largest_exponent) {
-  const INTEGER bits = 64 - TO_INTEGER(clz(magnitude));
+  const INTEGER bits = bits_of_magnitude(magnitude);
   const INTEGER beyond = max(bits + exponent - 41, 0), down = beyond - exponent;
   const UNSIGNED_WIDE leading =
       choose_wide(magnitude << TO_UNSIGNED_WIDE(max(-down, 0)),
@@ -85,6 +98,19 @@ typedef struct Place {
   INTEGER exponent;
 } Place;
 
+// Rounded to zero, of magnitudes below 2^62. The same processors would do it lane by lane.
+INLINED WIDE to_wide(VALUE value) {
+#if LANES == 8
+  const INTEGER bits = AS_INTEGER(value), exponent = ((bits >> 23) & 0xff) - 150;
+  const WIDE digits = TO_WIDE((bits & 0x7fffff) | 0x800000), sign = TO_WIDE(bits >> 31);
+  WIDE magnitude = digits << TO_WIDE(max(exponent, 0));
+  if (ANY(exponent < 0)) magnitude >>= TO_WIDE(clamp(-exponent, 0, 63));
+  return (magnitude ^ sign) - sign;
+#else
+  return TO_WIDE(value);
+#endif
+}
+
 // In two steps: 2^power itself may be no float.
 INLINED VALUE times_power_of_two(VALUE value, INTEGER power) {
   return value * power_of_two_float(power / 2) * power_of_two_float(power - power / 2);
@@ -98,11 +124,11 @@ INLINED Place place_in_units(const Vectors position, INTEGER coarser, const Dept
   const INTEGER power = clamp(-(p.unit + coarser), -252, 252), down = min(coarser, 63);
   Place place;
   place.x = origin_from_camera(p.origin_from_camera[0], down) +
-            TO_WIDE(times_power_of_two(position.x, power));
+            to_wide(times_power_of_two(position.x, power));
   place.y = origin_from_camera(p.origin_from_camera[1], down) +
-            TO_WIDE(times_power_of_two(position.y, power));
+            to_wide(times_power_of_two(position.y, power));
   place.z = origin_from_camera(p.origin_from_camera[2], down) +
-            TO_WIDE(times_power_of_two(position.z, power));
+            to_wide(times_power_of_two(position.z, power));
   place.exponent = p.unit + coarser - p.finest_unit;
   return place;
 }
