@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -195,6 +196,10 @@ struct FramePlan {
   double light_behind = 1;
   // Ordered: the part of all particles that is expected to be drawn. Only memory depends on it.
   double visible_part = 0;
+  // Ordered: sort keys of 48 bits, ascending, of some particles that are expected to be drawn. They
+  // may be off by some bits; how splats lie in memory and how fast they are sorted depend on them,
+  // not their order.
+  std::vector<std::uint64_t> sampled_keys;
   SplatLimits splats;
   double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak

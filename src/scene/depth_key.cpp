@@ -55,20 +55,10 @@ Scaled squared(const Scaled& value) {
   return {high * high + (high * low >> 29), 60 + 2 * (value.exponent - doublings)};
 }
 
-// The key of a particle at this depth.
-std::uint64_t key_of(double depth, const DepthKeyScale& scale) {
-  if (scale.by_distance && depth <= 0) return 0;
-  Scaled finest = scaled(depth);
-  finest.exponent -= scale.finest_unit;
-  if (scale.by_distance) return compressed(squared(finest), 254);
-  const std::uint64_t magnitude = compressed(finest, 126);
-  return depth < 0 ? zero_depth - magnitude : zero_depth + magnitude;
-}
-
 void set_limits(const Frame& frame, const DrawnComponent& component, DepthKeyScale& scale) {
-  scale.far_key = frame.far_limit ? key_of(*frame.far_limit, scale) : largest_key;
+  scale.far_key = frame.far_limit ? key_of_depth(*frame.far_limit, scale) : largest_key;
   if (frame.near_limit || frame.projection == Projection::orthographic) {
-    scale.near_key = key_of(frame.near_limit.value_or(0), scale);
+    scale.near_key = key_of_depth(frame.near_limit.value_or(0), scale);
     return;
   }
   const Scaled factor = scaled(near_smoothing_lengths * component.size_factor);
@@ -92,6 +82,15 @@ std::int64_t in_units(const Difference& length, int unit) {
 }
 
 }  // namespace
+
+std::uint64_t key_of_depth(double depth, const DepthKeyScale& scale) {
+  if (scale.by_distance && depth <= 0) return 0;
+  Scaled finest = scaled(depth);
+  finest.exponent -= scale.finest_unit;
+  if (scale.by_distance) return compressed(squared(finest), 254);
+  const std::uint64_t magnitude = compressed(finest, 126);
+  return depth < 0 ? zero_depth - magnitude : zero_depth + magnitude;
+}
 
 DepthKeyScale make_depth_key_scale(const Frame& frame, const DrawnComponent& component) {
   const CameraFrame& camera = frame.camera;

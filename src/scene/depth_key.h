@@ -44,4 +44,8 @@ constexpr std::int64_t least_perspective_depth = std::int64_t{1} << 22;
 
 DepthKeyScale make_depth_key_scale(const Frame& frame, const DrawnComponent& component);
 
+// The key of a depth or, in wide angles, of a distance that is known in double precision. A
+// particle's own is made from its coordinates.
+std::uint64_t key_of_depth(double depth, const DepthKeyScale& scale);
+
 }  // namespace splotchcl

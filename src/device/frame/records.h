@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
+#include "device/frame/key_parts.h"
 #include "device/frame/shared.h"
 #include "device/opencl/buffer_pool.h"
 
@@ -42,6 +44,14 @@ struct ParticleCounts {
   std::vector<ChunkBlocks> chunks_around;
 };
 
+// Where splats lie that were put in parts of their keys, piece by piece of the particles.
+struct SplatParts {
+  // Per piece one more than there are parts: where its splats of each part begin, and the last end.
+  Buffer<std::uint32_t> first_slots;
+  std::uint32_t piece_count = 0;
+  std::vector<KeyPart> keys;
+};
+
 // All splats of a frame in component and file order, with their sort keys, which have no gaps.
 struct KeyedSplats {
   SplatMemory splats;
@@ -55,6 +65,8 @@ struct KeyedSplats {
   std::vector<std::uint32_t> free_slots;
   std::uint32_t left_out = 0;  // blocks out of view
   ParticleCounts particles;
+  // Of splats in parts: keys lie slot by slot then, and there is no order.
+  std::optional<SplatParts> parts;
 };
 
 // The same, nearest first: splat order[0], order[1], ...

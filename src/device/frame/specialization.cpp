@@ -210,6 +210,17 @@ ProgramSource Specialization::compact() {
   return {"", {"splat.h", "project.h", "compact.cl"}};
 }
 
+// No more parts than bytes tell apart (key_parts.h).
+ProgramSource Specialization::key_parts() const {
+  return {define("SPLAT_WORDS " + std::to_string(splat_bytes() / sizeof(cl_uint))) +
+              define("MOST_KEY_PARTS 256"),
+          {"splat.h", "project.h", "prefetch.cl", "pieces.cl", "key_parts.cl"}};
+}
+
+ProgramSource Specialization::sort_parts() {
+  return {"", {"prefetch.cl", "pieces.cl", "sort.h", "sort_parts.cl"}};
+}
+
 ProgramSource Specialization::sort() {
   return {"", {"prefetch.cl", "pieces.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
 }

@@ -78,6 +78,8 @@ class Specialization {
   static ProgramSource boxes(bool rows, bool vector_colors);
   static ProgramSource scan_blocks();
   static ProgramSource compact();
+  ProgramSource key_parts() const;
+  static ProgramSource sort_parts();
   static ProgramSource sort();
   static ProgramSource sort_groups();
   static ProgramSource carry();

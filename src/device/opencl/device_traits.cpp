@@ -15,6 +15,12 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.sorted_chunk = 1u << 19;
   traits.bin_blocks = 64;
   traits.sort_blocks = 32;
+  // A part is sorted in a core's caches, and blocks that are projected at a time lie in all cores'.
+  // The splats of fewer parts are sorted as fast all at once (docs/tuning.md).
+  traits.splats_of_part = 1u << 15;
+  traits.fewest_parts = 96;
+  traits.blocks_apart = 64;
+  traits.piece_blocks = 1;
   traits.segment_length = 8192;
   traits.list_capacity = 3u << 20;
 }
@@ -41,6 +47,7 @@ DeviceTraits traits_of(const compute::device& device) {
   traits.large_pages = (device.type() & CL_DEVICE_TYPE_CPU) != 0 && is_pocl(device);
   traits.double_numbers = device.supports_extension("cl_khr_fp64");
   traits.largest_buffer = device.max_memory_alloc_size();
+  traits.threads = device.compute_units();
   traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;
   choose_shape(traits, !traits.is_gpu);
   return traits;

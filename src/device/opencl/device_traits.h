@@ -16,12 +16,17 @@ struct DeviceTraits {
   bool rows_of_16 = false;           // registers hold sixteen floats
   bool double_numbers = false;       // extended numbers are double precision, not pairs
   std::uint64_t largest_buffer = 0;  // bytes
+  std::uint32_t threads = 1;         // only memory follows from them
   std::uint32_t project_block = 0;   // particles per work-item of a projection
   std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum
   std::uint32_t leaf_chunks = 0;     // such chunks per leaf of a sum (chunks.h)
   std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted
   std::uint32_t bin_blocks = 0;      // blocks that a chunk's splats are binned in, in order
   std::uint32_t sort_blocks = 0;     // blocks of the radix sort
+  // Of large ordered frames on a processor (key_parts.h): splats of a part of the keys, parts of
+  // the smallest such frame, and blocks of particles that are projected at a time, and put in parts
+  // by one work-item.
+  std::uint32_t splats_of_part = 0, fewest_parts = 0, blocks_apart = 0, piece_blocks = 0;
   std::uint32_t segment_length = 0;  // entries of a tile's list per work-item
   std::uint64_t list_capacity = 0;   // entries of all lists of a band of the picture
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }

@@ -9,6 +9,7 @@
 #include "device/stages/clear_memory.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
+#include "device/stages/projector_targets.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -38,36 +39,21 @@ void take_window(const KeyWindow& window, shared::ProjectParameters& parameters)
 
 }  // namespace
 
-// Where a launch that counts keys writes.
-struct Projector::KeyTargets {
-  const Buffer<std::uint32_t>& counts;
-  const Buffer<shared::KeyBins>& bins;  // of each block
-};
-
-// Where a launch writes.
-struct Projector::Targets {
-  const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
-  const Buffer<shared::BlockCounts>& counts;
-  const SplatMemory& splats;
-  const Buffer<std::uint32_t>& keys;
-  const Buffer<std::uint16_t>& key_ends;
-  const Buffer<std::uint32_t>& order;
-  // Of splats that are binned as they come.
-  const SplatBlocks* blocks = nullptr;
-  const KeyTargets* key_counts = nullptr;  // where keys are counted
-};
-
 Projector::Projector(const StageContext& context)
     : context_(context),
       width_needs_(upload_needs()),
       unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
-      unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
+      unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")),
+      parts_(choose_key_parts(context.frame, context.plan, context.device.traits)) {
   // Asked for, so that they are compiled with those of other stages.
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
   if (!rows) {
     scan_.emplace(context.device);
     programs.get(context.specialization.project(ProjectOutput::counts));
+  } else if (parts_) {
+    programs.get(context.specialization.key_parts());
+    programs.get(Specialization::sort_parts());
   } else if (context.plan.needs_sort()) {
     programs.get(Specialization::compact());
   }
@@ -216,13 +202,6 @@ ParticleCounts Projector::count(const SplatBlocks& blocks, const ParticleChunk& 
   return sum;
 }
 
-// Of a launch for each component.
-struct Projector::AllParticles {
-  std::vector<shared::ProjectParameters> components;
-  std::vector<std::vector<std::uint32_t>> left_out;
-  std::uint32_t blocks = 0, blocks_left_out = 0;
-};
-
 KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
   AllParticles all;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
@@ -234,8 +213,9 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
     all.blocks_left_out += count_left_out(all.left_out.back());
   }
   if (all.blocks == 0) return {};
-  KeyedSplats keyed =
-      scan_ ? project_all_in_groups(all, particles) : project_all_in_blocks(all, particles);
+  KeyedSplats keyed = scan_    ? project_all_in_groups(all, particles)
+                      : parts_ ? project_all_in_parts(all, particles)
+                               : project_all_in_blocks(all, particles);
   keyed.left_out = all.blocks_left_out;
   return keyed;
 }
@@ -282,15 +262,19 @@ std::vector<ChunkBlocks> Projector::chunks_around(
   return around;
 }
 
+// Large pages have memory for all of the room as soon as any of it is written to, and are made in
+// half the time of small ones.
+Filling Projector::filling_of_slots() const {
+  constexpr double mostly = 0.7;
+  return context_.plan.visible_part >= mostly ? Filling::whole : Filling::in_parts;
+}
+
 // Each block's splats lie where there is room for all its particles, so that these are projected
 // once: how many come before is known afterwards, and only keys are moved. A processor has no
 // memory for slots that nothing is written to, where these are many.
 KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
                                              const std::vector<ParticleBuffers>& particles) const {
-  // Large pages have memory for all of the room as soon as any of it is written to, and are made in
-  // half the time of small ones.
-  constexpr double mostly = 0.7;
-  const Filling filling = context_.plan.visible_part >= mostly ? Filling::whole : Filling::in_parts;
+  const Filling filling = filling_of_slots();
   BufferPool& pool = context_.device.pool;
   const std::uint32_t stride = all.components.front().block_particles *
                                static_cast<std::uint32_t>(context_.plan.splats_per_particle);

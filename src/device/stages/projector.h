@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
+#include "device/frame/key_parts.h"
 #include "device/frame/key_windows.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
@@ -52,6 +53,10 @@ class Projector {
   struct AllParticles;
   KeyedSplats project_all_in_blocks(const AllParticles& all,
                                     const std::vector<ParticleBuffers>& particles) const;
+  KeyedSplats project_all_in_parts(const AllParticles& all,
+                                   const std::vector<ParticleBuffers>& particles) const;
+  void gather_keys(KeyedSplats& keyed, std::uint32_t slots) const;
+  Filling filling_of_slots() const;
   KeyedSplats project_all_in_groups(const AllParticles& all,
                                     const std::vector<ParticleBuffers>& particles) const;
   std::vector<ChunkBlocks> chunks_around(const AllParticles& all,
@@ -94,6 +99,7 @@ class Projector {
   // Stand for what a variant of the kernel does not write.
   Buffer<std::uint32_t> unused_;
   Buffer<std::uint16_t> unused_ends_;
+  const std::optional<KeyParts> parts_;  // of a large ordered frame on a processor
 };
 
 }  // namespace splotchcl

@@ -29,6 +29,7 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
   PictureCloud cloud;
   cloud.x = place->x;
   cloud.y = place->y;
+  cloud.depth = place->depth;
   // A cloud that is no circle has the light of a circle of the same area.
   const double height = sigma * place->pixels_per_length;
   cloud.sigma = height * std::sqrt(stretch_of_area(*place, height, frame.camera, frame.projection));

@@ -197,6 +197,7 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   if (plan.needs_sort() && !plan.is_extended()) guess = guess_order(frame);
   plan.light_behind = guess.light_behind;
   plan.visible_part = guess.visible_part;
+  plan.sampled_keys = std::move(guess.sampled_keys);
   plan.slabs = choose_slabs(frame, plan, guess.wide_layers, options);
   if (plan.slabs > 0) {
     set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, true), plan);
