@@ -196,7 +196,7 @@ DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
   if (known && known->input == work.input) return *known;
   PageScene scene;
   scene.input = work.input;
-  scene.all = scene_of(drawer_.opened(), work.state);
+  scene.all = scene_of(drawer_.opened(), drawer_.suggested(), work.state);
   scene.open = open_keys(scene.all);
   scene.all = drawer_.decide(scene.all);
   scene.shown = without_hidden(scene.all, work.state.hidden);

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "film/path/film_path.h"
+#include "scene_file/suggested.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
-#include "splotchcl/scene_file.h"
 
 namespace splotchcl::view {
 namespace {
@@ -61,11 +61,11 @@ void check_palettes(const Scene& opened, const Scene& scene) {
 
 }  // namespace
 
-Scene scene_of(const Scene& opened, const PageState& state) {
+Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& state) {
   std::vector<std::string> settings;
   for (const PageSetting& setting : state.settings)
     settings.push_back(setting.key + "=" + setting.value);
-  Scene scene = apply_settings(opened, settings);
+  Scene scene = scene_file::apply_settings_to_suggested(opened, suggested, settings);
   for (const std::string& key : state.open) {
     std::optional<double>* const number = find_open_number(scene, key);
     if (number == nullptr) throw UsageError(key + ": found no value, expected one");

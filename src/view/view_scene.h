@@ -10,10 +10,12 @@
 // What a page's state makes of the scene that was opened.
 namespace splotchcl::view {
 
-// With all components; limits that the state leaves open are unset. Throws UsageError for values
+// With all components; limits that the state leaves open are unset. `suggested` is the scene as
+// which the opened one began, null where it began otherwise: what was suggested and suits no more
+// gives way, as it does to settings of the command line. Throws UsageError for values
 // that no scene can have, palettes that are neither the program's nor the scene's own, and
 // pictures of more than 8192 x 8192 pixels.
-Scene scene_of(const Scene& opened, const PageState& state);
+Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& state);
 
 // Without the components that are off. Throws UsageError where all are.
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden);

@@ -223,9 +223,8 @@ Scene suggested() {
 }
 
 FieldMap color_with(const std::vector<std::string>& settings) {
-  return scene_file::apply_settings_to_suggested(suggested(), suggested(), settings)
-      .components[0]
-      .color;
+  const Scene scene = suggested();
+  return scene_file::apply_settings_to_suggested(scene, &scene, settings).components[0].color;
 }
 
 TEST(SettingsOfASuggestedScene, LeaveTheRangeOfAnotherFieldToTheData) {
@@ -247,9 +246,10 @@ TEST(SettingsOfASuggestedScene, KeepALimitThatIsGivenWithTheField) {
 }
 
 TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
-  const Scene before = apply_settings(suggested(), {"component.0.color.min=3"});
-  const Scene after = scene_file::apply_settings_to_suggested(before, suggested(),
-                                                              {"component.0.color.field=density"});
+  const Scene first = suggested();
+  const Scene before = apply_settings(first, {"component.0.color.min=3"});
+  const Scene after =
+      scene_file::apply_settings_to_suggested(before, &first, {"component.0.color.field=density"});
   EXPECT_EQ(after.components[0].color.minimum, 3);
   EXPECT_FALSE(after.components[0].color.maximum);
 }
@@ -265,7 +265,7 @@ Camera camera_with(const std::vector<std::string>& settings) {
   Scene scene;
   scene.camera.emplace();
   scene.camera->field_of_view_degrees = 40;
-  return *scene_file::apply_settings_to_suggested(scene, scene, settings).camera;
+  return *scene_file::apply_settings_to_suggested(scene, &scene, settings).camera;
 }
 
 TEST(SettingsOfASuggestedScene, LeaveTheFieldOfViewToAProjectionOfWideAngles) {
