@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene_file/scene_file_equality.h"
@@ -283,6 +284,30 @@ TEST(SettingsOfASuggestedScene, KeepAFieldOfViewThatIsGivenWithTheProjection) {
 
 TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
   EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
+}
+
+std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
+  settings.emplace_back("camera.projection=equirectangular");
+  Scene scene;
+  scene.camera.emplace();
+  const Scene panorama = scene_file::apply_settings_to_suggested(scene, &scene, settings);
+  return {panorama.image.width, panorama.image.height};
+}
+
+TEST(SettingsOfASuggestedScene, MakeAPanoramaTwiceAsWideAsHigh) {
+  EXPECT_EQ(size_of_panorama_with({}), std::pair(1024, 512));
+  EXPECT_EQ(size_of_panorama_with({"image.width=2001"}), std::pair(2001, 1000));
+  EXPECT_EQ(size_of_panorama_with({"image.height=1000"}), std::pair(2000, 1000));
+}
+
+TEST(SettingsOfASuggestedScene, LeaveAPartOfAPanoramaAsHighAsItMayBe) {
+  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=90"}), std::pair(1024, 1024));
+  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=240"}), std::pair(1024, 768));
+}
+
+TEST(SettingsOfASuggestedScene, KeepASizeThatIsGivenForAPanorama) {
+  EXPECT_EQ(size_of_panorama_with({"image.size=[300,100]"}), std::pair(300, 100));
+  EXPECT_THROW(size_of_panorama_with({"image.size=[100,100]"}), UsageError);
 }
 
 TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
