@@ -223,6 +223,7 @@ void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
   header.state = work.state.number;
   header.stage = task.stage;
   header.decided = numbers_of(scene.all, scene.open);
+  header.given_way = given_way(drawer_.opened(), work.state, scene.all);
   {
     const std::lock_guard lock(mutex_);
     header.frame = page.scheduler.sent(task);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <utility>
 
 #include "splotchcl/camera.h"
@@ -72,6 +73,24 @@ TEST(ViewScene, AProjectionOfWideAnglesHasAFieldOfViewOfItsOwnInPlaceOfASuggeste
 TEST(ViewScene, AProjectionOfWideAnglesKeepsTheFieldOfViewOfASceneFile) {
   const PageState state = state_with("camera.projection", "\"fisheye\"");
   EXPECT_EQ(scene_of(suggested_scene(), nullptr, state).camera->field_of_view_degrees, 40);
+}
+
+GivenWay given_way_to(const PageState& state) {
+  const Scene suggested = suggested_scene();
+  return given_way(suggested, state, scene_of(suggested, &suggested, state));
+}
+
+TEST(ViewScene, TellsWhatGaveWayToAPanorama) {
+  const GivenWay instead = given_way_to(state_with("camera.projection", "\"equirectangular\""));
+  EXPECT_EQ(instead.field_of_view_degrees, 360);
+  EXPECT_EQ(instead.size, (std::array{1024, 512}));
+}
+
+TEST(ViewScene, NothingGivesWayToWhatTheStateSets) {
+  PageState state = state_with("image.size", "[64, 32]");
+  state.settings.push_back({"camera.field_of_view", "30"});
+  EXPECT_FALSE(given_way_to(state).field_of_view_degrees);
+  EXPECT_FALSE(given_way_to(state).size);
 }
 
 TEST(ViewScene, LeavesOpenWhatTheStateLeavesOpen) {
