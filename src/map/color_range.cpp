@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/statistics.h"
@@ -10,6 +11,15 @@
 
 namespace splotchcl {
 namespace {
+
+constexpr std::array<double, 2> usual_percentiles = {1, 99.9};
+
+double low_percentile(const MapSettings& settings, std::vector<double>& values) {
+  return percentile(values, settings.percentiles.value_or(usual_percentiles)[0] / 100);
+}
+double high_percentile(const MapSettings& settings, std::vector<double>& values) {
+  return percentile(values, settings.percentiles.value_or(usual_percentiles)[1] / 100);
+}
 
 // Of a logarithm only values above 0 have a place.
 std::vector<double> usable_values(const std::vector<float>& values, bool is_log) {
@@ -24,8 +34,8 @@ std::vector<double> usable_values(const std::vector<float>& values, bool is_log)
 
 ColorRange percentiles_or(const MapSettings& settings, std::vector<double>& values) {
   ColorRange range;
-  range.low = settings.minimum.value_or(percentile(values, settings.percentiles[0] / 100));
-  range.high = settings.maximum.value_or(percentile(values, settings.percentiles[1] / 100));
+  range.low = settings.minimum.value_or(low_percentile(settings, values));
+  range.high = settings.maximum.value_or(high_percentile(settings, values));
   return range;
 }
 
@@ -81,7 +91,7 @@ bool is_signed(const MapSettings& settings, std::vector<double> values) {
     return said && *said <= 0;
   };
   return is_not_above_zero(settings.minimum) || is_not_above_zero(settings.maximum) ||
-         percentile(values, settings.percentiles[0] / 100) < 0;
+         low_percentile(settings, values) < 0;
 }
 
 }  // namespace

@@ -176,6 +176,18 @@ TEST(SettingsOfARange, ReplacePercentiles) {
   EXPECT_FALSE(color.percentiles);
 }
 
+TEST(SettingsOfARange, OfAMapAndItsPercentilesReplaceEachOther) {
+  const std::string limits = "[map]\nmin = 1\nmax = 2\n",
+                    percents = "[map]\npercentiles = [20, 80]\n";
+  const MapSettings by_percentiles =
+      parse_scene(limits, "scene.toml", {"map.percentiles=[20,80]"}).map;
+  EXPECT_FALSE(by_percentiles.minimum);
+  EXPECT_FALSE(by_percentiles.maximum);
+  const MapSettings by_limits = parse_scene(percents, "scene.toml", {"map.min=1", "map.max=2"}).map;
+  EXPECT_FALSE(by_limits.percentiles);
+  EXPECT_EQ(by_limits.maximum, 2);
+}
+
 TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
   const std::string message =
       message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
