@@ -8,7 +8,6 @@
 
 #include "finish/finish_picture.h"
 #include "finish/labels.h"
-#include "map/color_range.h"
 #include "splotchcl/palette_file.h"
 
 namespace splotchcl {
@@ -85,8 +84,8 @@ Image Figure::picture() const {
   return image;
 }
 
-std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings) {
-  const ColorRange range = decide_color_range(map.values, settings, map.value_floor);
+std::vector<std::string> Figure::notes() const {
+  const ColorRange& range = colors.range();
   const double negative = percent_below(0, map);
   std::vector<std::string> notes;
   if (range.begins_at_floor) {
@@ -111,8 +110,8 @@ void check_figure(const Scene& scene, const SnapshotInfo& snapshot) {
   check_finish(texts, snapshot);
 }
 
-Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot) {
-  const Figure figure = plan_figure(map, scene.map);
+Image draw_figure(const Figure& figure, const Scene& scene, const SnapshotInfo& snapshot) {
+  const Map& map = figure.map;
   const Scene finished = scene_of_figure(map, scene);
   const auto& labels = finished.finish.color_bar.labels;
   const ColorBarContent bar = {
