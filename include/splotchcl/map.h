@@ -57,8 +57,8 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 // be written to.
 void check_map_path(const std::filesystem::path& path);
 
-// Before a map is drawn: refuses a palette, a font or a placeholder that a figure would lack.
-// Throws UsageError.
+// Before a map is drawn: refuses limits that cannot be, and a palette, a font or a placeholder that
+// a figure would lack. Throws UsageError.
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot);
 

@@ -70,8 +70,6 @@ void check_limit(const std::optional<double>& said, const char* key) {
 
 ColorRange range_of_logarithm(const MapSettings& settings, std::vector<double> values,
                               double floor) {
-  check_limit(settings.minimum, "min");
-  check_limit(settings.maximum, "max");
   ColorRange range = percentiles_or(settings, values);
   if (settings.minimum) return range;
   if (!settings.maximum && range.high < floor) {
@@ -94,17 +92,31 @@ bool is_signed(const MapSettings& settings, std::vector<double> values) {
          low_percentile(settings, values) < 0;
 }
 
+void check_order(double low, double high) {
+  if (high >= low) return;
+  throw UsageError(fmt::format(
+      "key map.max: found {:.6g}, below the palette's least value, {:.6g}, expected more", high,
+      low));
+}
+
 }  // namespace
+
+void check_color_limits(const MapSettings& settings) {
+  if (settings.scaling == MapScaling::log) {
+    check_limit(settings.minimum, "min");
+    check_limit(settings.maximum, "max");
+  }
+  if (settings.minimum && settings.maximum) check_order(*settings.minimum, *settings.maximum);
+}
 
 ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,
                               double floor) {
+  check_color_limits(settings);
   const ColorRange range = is_signed(settings, usable_values(values, false))
                                ? range_of_signed(settings, usable_values(values, false))
                                : range_of_logarithm(settings, usable_values(values, true), floor);
-  if (range.high >= range.low) return range;
-  throw UsageError(fmt::format(
-      "key map.max: found {:.6g}, below the palette's least value, {:.6g}, expected more",
-      range.high, range.low));
+  check_order(range.low, range.high);
+  return range;
 }
 
 }  // namespace splotchcl

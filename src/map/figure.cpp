@@ -8,6 +8,7 @@
 
 #include "finish/finish_picture.h"
 #include "finish/labels.h"
+#include "map/color_range.h"
 #include "splotchcl/palette_file.h"
 
 namespace splotchcl {
@@ -105,6 +106,7 @@ std::vector<std::string> Figure::notes() const {
 
 void check_figure(const Scene& scene, const SnapshotInfo& snapshot) {
   (void)load_palette(scene.map.palette);
+  check_color_limits(scene.map);
   Scene texts = scene_of_figure(Map(), scene);
   texts.finish.color_bar.show = false;  // it needs no component's field
   check_finish(texts, snapshot);

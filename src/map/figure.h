@@ -28,8 +28,8 @@ struct Figure {
 // Throws UsageError for a palette that there is none of, or limits that cannot be.
 Figure plan_figure(const Map& map, const MapSettings& settings);
 
-// Refuses before anything is drawn what would be refused afterwards: a palette, a font,
-// placeholders that there are none of. Throws UsageError.
+// Refuses before anything is drawn what would be refused afterwards: limits of colors, a palette, a
+// font, placeholders that there are none of. Throws UsageError.
 void check_figure(const Scene& scene, const SnapshotInfo& snapshot);
 
 // The picture with contours, color bar, scale bar and texts upon it.

@@ -244,6 +244,16 @@ TEST(MapColors, RefuseALogarithmOfZero) {
   EXPECT_THROW(MapColors({}, settings(MapScaling::log, 0, 1)), UsageError);
 }
 
+TEST(MapFigure, HasItsLimitsRefusedBeforeAnythingIsDrawn) {
+  Scene scene = map_scene();
+  for (const MapSettings& wrong :
+       {settings(MapScaling::log, 0, 1), settings(MapScaling::linear, 2, 1)}) {
+    scene.map = wrong;
+    EXPECT_THROW(check_map_output("a.png", scene, {}), UsageError);
+    EXPECT_NO_THROW(check_map_output("a.fits", scene, {}));
+  }
+}
+
 TEST(MapColors, RefuseLimitsOutOfOrder) {
   EXPECT_THROW(MapColors({}, settings(MapScaling::linear, 2, 1)), UsageError);
 }
