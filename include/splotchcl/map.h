@@ -57,21 +57,17 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 // be written to.
 void check_map_path(const std::filesystem::path& path);
 
-// Before a map is drawn: refuses a palette, a font or a placeholder that a figure would lack.
-// Throws UsageError.
+// Before a map is drawn: refuses limits that cannot be, and a palette, a font or a placeholder that
+// a figure would lack. Throws UsageError.
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot);
 
-// Whether check_map_output and write_map take the ending for one of a figure.
-bool is_figure(const std::filesystem::path& path);
-
-// What a figure of the map does not show: what lies below its range, or has no logarithm.
-std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings);
-
 // By the ending: .fits, .hdf5, .npy and .exr hold the numbers, .pdf and pictures a figure with a
 // color bar, by the scene's [map] and [finish]. The metadata is kept by .fits, .hdf5 and .exr.
-// Throws DataError.
-void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
-               const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata);
+// Returns notes, a line each: what a figure does not show, since it lies below its range or has no
+// logarithm. Throws DataError.
+std::vector<std::string> write_map(const std::filesystem::path& path, const Map& map,
+                                   const Scene& scene, const SnapshotInfo& snapshot,
+                                   const std::map<std::string, std::string>& metadata);
 
 }  // namespace splotchcl

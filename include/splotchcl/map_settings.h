@@ -63,7 +63,7 @@ struct MapSettings {
   double exponent = 0.5;            // > 0
   // Unset: by percentiles, as docs/maps.md says.
   std::optional<double> minimum, maximum;
-  std::array<double, 2> percentiles = {1, 99.9};
+  std::optional<std::array<double, 2>> percentiles;  // unset: 1 and 99.9
   std::string palette = "viridis";
   std::vector<double> contours;  // values of the map
   int contour_count = 0;         // instead of them: so many, evenly in the palette

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -24,7 +25,7 @@ class Buckets {
  public:
   // 2^bits of them.
   Buckets(const Ids& ids, int bits) : bits_(bits), sorted_(ids.size()) {
-    const std::size_t blocks = (ids.size() + block_size - 1) / block_size;
+    const std::size_t blocks = ceil_divide(ids.size(), block_size);
     std::vector<std::size_t> begins(blocks * count());
     for_blocks(ids.size(), block_size, [&](std::size_t begin, std::size_t end) {
       std::size_t* const of_block = begins.data() + begin / block_size * count();

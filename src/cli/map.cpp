@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "cli/commands.h"
@@ -94,6 +94,20 @@ DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) 
   };
 }
 
+void write_outputs(const Map& map, const SceneWithSnapshot& source,
+                   const std::vector<std::filesystem::path>& outputs, Console& console) {
+  const std::map<std::string, std::string> metadata = {
+      {"splotchcl:scene", format_scene(source.scene)}, {"splotchcl:version", SPLOTCHCL_VERSION}};
+  std::vector<std::string> notes;
+  for (const std::filesystem::path& output : outputs) {
+    console.status("writing " + output.string());
+    const std::vector<std::string> more =
+        write_map(output, map, source.scene, source.snapshot->info(), metadata);
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
+  console.note_each_once(notes);
+}
+
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
@@ -119,18 +133,9 @@ int run_map(const MapOptions& options, Console& console) {
   const Map map = draw_map(
       source.scene, *source.snapshot, draw, notes,
       [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
-  if (std::any_of(options.outputs.begin(), options.outputs.end(), is_figure)) {
-    const std::vector<std::string> more = figure_notes(map, source.scene.map);
-    notes.insert(notes.end(), more.begin(), more.end());
-  }
   for (const std::string& note : notes)
     console.note(note);
-  for (const std::filesystem::path& output : options.outputs) {
-    console.status("writing " + output.string());
-    write_map(output, map, source.scene, info,
-              {{"splotchcl:scene", format_scene(source.scene)},
-               {"splotchcl:version", SPLOTCHCL_VERSION}});
-  }
+  write_outputs(map, source, options.outputs, console);
   console.done(fmt::format("{}: {} in {}, {}x{} pixels, {} particles",
                            options.outputs.front().string(), map.quantity, map.unit, map.width,
                            map.height, map.particles));

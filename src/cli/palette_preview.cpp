@@ -7,6 +7,7 @@
 
 #include "finish/canvas.h"
 #include "image/text.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -37,7 +38,7 @@ Grid choose_grid(int count, int column_width) {
   Grid grid;
   do {
     ++grid.columns;
-    grid.rows = (count + grid.columns - 1) / grid.columns;
+    grid.rows = ceil_divide(count, grid.columns);
   } while (grid.rows * row_height > grid.columns * column_width);
   return grid;
 }

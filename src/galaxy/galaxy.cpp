@@ -5,6 +5,7 @@
 
 #include "galaxy/check_settings.h"
 #include "galaxy/kinds.h"
+#include "scene/ceil_divide.h"
 #include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
@@ -126,7 +127,7 @@ Galaxy read_galaxy(const std::filesystem::path& path, const GalaxySettings& sett
   try {
     const Image picture = read_linear_image(path, options);
     const int longest = std::max(info.width, info.height);
-    const int square = (longest + galaxy_picture_limit - 1) / galaxy_picture_limit;
+    const int square = ceil_divide(longest, galaxy_picture_limit);
     return make_galaxy(picture, settings, square);
   } catch (const DataError& error) {
     const std::string text = error.what();

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -87,7 +88,7 @@ void make_stream(std::vector<Strip>& strips) {
 
 std::vector<std::vector<unsigned char>> png_strips(const PngRows& picture) {
   const std::size_t rows_of_strip = std::max<std::size_t>(1, strip_bytes / (picture.row_bytes + 1));
-  std::vector<Strip> strips((picture.rows + rows_of_strip - 1) / rows_of_strip);
+  std::vector<Strip> strips(ceil_divide(picture.rows, rows_of_strip));
   for_blocks(strips.size(), 1, [&](std::size_t s, std::size_t) {
     strips[s] =
         make_strip(picture, s * rows_of_strip, std::min((s + 1) * rows_of_strip, picture.rows));

@@ -270,6 +270,11 @@ Column ComponentFields::weight_factors() const {
   });
 }
 
+Column ComponentFields::with_factors(const Column& weights) const {
+  const Column factors = weight_factors();
+  return factors.is_absent() ? weights : faded(weights, factors, count());
+}
+
 Column ComponentFields::smoothing_lengths() const {
   if (component_.size_fixed) return Column::uniform(static_cast<float>(*component_.size_fixed));
   if (canonical_field_name(component_.size_field) == "smoothing_length") {

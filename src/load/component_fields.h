@@ -51,9 +51,9 @@ class ComponentFields {
   // How many particles of the snapshot each stands for, where only a part of them is read: the
   // mean over the component's types.
   double particles_per_drawn() const;
-  // Factors on the particles' weights: how much of each is there, 0 to 1, between two snapshots,
-  // and how many more it stands for than the mean. Absent: 1 for all.
-  Column weight_factors() const;
+  // Weights times how much of each particle is there, 0 to 1, between two snapshots, and how many
+  // more it stands for than the mean. Absent weights are 1.
+  Column with_factors(const Column& weights) const;
   // h as the scene says, before the placement's scale: a fixed size, a field of the file,
   // or, for "smoothing_length" where the file has none, found from the particles themselves.
   Column smoothing_lengths() const;
@@ -70,6 +70,7 @@ class ComponentFields {
  private:
   bool stand_for_the_same() const;
   float factor_of(const TypeFields& type) const;
+  Column weight_factors() const;  // absent: 1 for all
   using Read = std::function<Column(const TypeFields&)>;
   Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
   void add_up_counts(std::size_t type);

@@ -3,19 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "between/interpolated_column.h"
 #include "load/choose_palette.h"
 
 namespace splotchcl {
 namespace {
-
-// Particles that vanish or appear between two snapshots are there only in part, and those of
-// different types may stand for different numbers of particles.
-void apply_factors(const ComponentFields& fields, Particles& particles) {
-  const Column factors = fields.weight_factors();
-  if (factors.is_absent()) return;
-  particles.weight = faded(particles.weight, factors, particles.count);
-}
 
 // Lengths of the snapshot are scaled with it; a fixed size is a length of the scene.
 double drawn_size_factor(const Component& component) {
@@ -86,9 +77,8 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   particles.origin = fields_.origin();
   particles.position = fields_.positions();
   particles.smoothing_length = fields_.smoothing_lengths();
-  particles.weight = weights(weight);
+  particles.weight = fields_.with_factors(weights(weight));
   particles.boxes = fields_.boxes();
-  apply_factors(fields_, particles);
   particles.color = color();
   if (!component_.color_vector.empty()) {
     particles.color_vector = fields_.vectors(component_.color_vector, "color.vector");

@@ -11,6 +11,7 @@
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_integers.h"
 #include "load/passes.h"
+#include "scene/ceil_divide.h"
 #include "scene/streamed_column.h"
 #include "select/condition.h"
 #include "select/id_list.h"
@@ -296,7 +297,7 @@ Column gather(const Column& column, const std::shared_ptr<const ParticleIndices>
   return make_column(selected->size() * width, true,
                      [gathered, width](std::size_t begin, std::size_t end, float* values) {
                        const std::size_t first = begin / width;
-                       const Column some = gathered(first, (end + width - 1) / width);
+                       const Column some = gathered(first, ceil_divide(end, width));
                        std::copy_n(some.data() + (begin - first * width), end - begin, values);
                      });
 }

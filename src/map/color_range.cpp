@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/statistics.h"
@@ -10,6 +11,15 @@
 
 namespace splotchcl {
 namespace {
+
+constexpr std::array<double, 2> usual_percentiles = {1, 99.9};
+
+double low_percentile(const MapSettings& settings, std::vector<double>& values) {
+  return percentile(values, settings.percentiles.value_or(usual_percentiles)[0] / 100);
+}
+double high_percentile(const MapSettings& settings, std::vector<double>& values) {
+  return percentile(values, settings.percentiles.value_or(usual_percentiles)[1] / 100);
+}
 
 // Of a logarithm only values above 0 have a place.
 std::vector<double> usable_values(const std::vector<float>& values, bool is_log) {
@@ -24,8 +34,8 @@ std::vector<double> usable_values(const std::vector<float>& values, bool is_log)
 
 ColorRange percentiles_or(const MapSettings& settings, std::vector<double>& values) {
   ColorRange range;
-  range.low = settings.minimum.value_or(percentile(values, settings.percentiles[0] / 100));
-  range.high = settings.maximum.value_or(percentile(values, settings.percentiles[1] / 100));
+  range.low = settings.minimum.value_or(low_percentile(settings, values));
+  range.high = settings.maximum.value_or(high_percentile(settings, values));
   return range;
 }
 
@@ -60,8 +70,6 @@ void check_limit(const std::optional<double>& said, const char* key) {
 
 ColorRange range_of_logarithm(const MapSettings& settings, std::vector<double> values,
                               double floor) {
-  check_limit(settings.minimum, "min");
-  check_limit(settings.maximum, "max");
   ColorRange range = percentiles_or(settings, values);
   if (settings.minimum) return range;
   if (!settings.maximum && range.high < floor) {
@@ -81,20 +89,34 @@ bool is_signed(const MapSettings& settings, std::vector<double> values) {
     return said && *said <= 0;
   };
   return is_not_above_zero(settings.minimum) || is_not_above_zero(settings.maximum) ||
-         percentile(values, settings.percentiles[0] / 100) < 0;
+         low_percentile(settings, values) < 0;
+}
+
+void check_order(double low, double high) {
+  if (high >= low) return;
+  throw UsageError(fmt::format(
+      "key map.max: found {:.6g}, below the palette's least value, {:.6g}, expected more", high,
+      low));
 }
 
 }  // namespace
 
+void check_color_limits(const MapSettings& settings) {
+  if (settings.scaling == MapScaling::log) {
+    check_limit(settings.minimum, "min");
+    check_limit(settings.maximum, "max");
+  }
+  if (settings.minimum && settings.maximum) check_order(*settings.minimum, *settings.maximum);
+}
+
 ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,
                               double floor) {
+  check_color_limits(settings);
   const ColorRange range = is_signed(settings, usable_values(values, false))
                                ? range_of_signed(settings, usable_values(values, false))
                                : range_of_logarithm(settings, usable_values(values, true), floor);
-  if (range.high >= range.low) return range;
-  throw UsageError(fmt::format(
-      "key map.max: found {:.6g}, below the palette's least value, {:.6g}, expected more",
-      range.high, range.low));
+  check_order(range.low, range.high);
+  return range;
 }
 
 }  // namespace splotchcl

@@ -68,9 +68,7 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   matter.origin = fields.origin();
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
-  if (fields.masses_are_known()) {
-    matter.mass = with_weight_factors(fields.masses(), fields, matter.count);
-  }
+  if (fields.masses_are_known()) matter.mass = fields.with_factors(fields.masses());
   if (center == MapCenter::densest && has_densities(component, fields.snapshot_info())) {
     matter.density = fields.scalars("density", "map.center_at");
   }

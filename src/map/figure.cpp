@@ -85,8 +85,8 @@ Image Figure::picture() const {
   return image;
 }
 
-std::vector<std::string> figure_notes(const Map& map, const MapSettings& settings) {
-  const ColorRange range = decide_color_range(map.values, settings, map.value_floor);
+std::vector<std::string> Figure::notes() const {
+  const ColorRange& range = colors.range();
   const double negative = percent_below(0, map);
   std::vector<std::string> notes;
   if (range.begins_at_floor) {
@@ -106,13 +106,14 @@ std::vector<std::string> figure_notes(const Map& map, const MapSettings& setting
 
 void check_figure(const Scene& scene, const SnapshotInfo& snapshot) {
   (void)load_palette(scene.map.palette);
+  check_color_limits(scene.map);
   Scene texts = scene_of_figure(Map(), scene);
   texts.finish.color_bar.show = false;  // it needs no component's field
   check_finish(texts, snapshot);
 }
 
-Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot) {
-  const Figure figure = plan_figure(map, scene.map);
+Image draw_figure(const Figure& figure, const Scene& scene, const SnapshotInfo& snapshot) {
+  const Map& map = figure.map;
   const Scene finished = scene_of_figure(map, scene);
   const auto& labels = finished.finish.color_bar.labels;
   const ColorBarContent bar = {

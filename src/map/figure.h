@@ -21,20 +21,22 @@ struct Figure {
 
   // The palette's color of each pixel, as displayed; gray where there is no value.
   Image picture() const;
+  // On pixels that the colors do not show, a line each.
+  std::vector<std::string> notes() const;
 };
 
 // Throws UsageError for a palette that there is none of, or limits that cannot be.
 Figure plan_figure(const Map& map, const MapSettings& settings);
 
-// Refuses before anything is drawn what would be refused afterwards: a palette, a font,
-// placeholders that there are none of. Throws UsageError.
+// Refuses before anything is drawn what would be refused afterwards: limits of colors, a palette, a
+// font, placeholders that there are none of. Throws UsageError.
 void check_figure(const Scene& scene, const SnapshotInfo& snapshot);
 
 // The picture with contours, color bar, scale bar and texts upon it.
-Image draw_figure(const Map& map, const Scene& scene, const SnapshotInfo& snapshot);
+Image draw_figure(const Figure& figure, const Scene& scene, const SnapshotInfo& snapshot);
 
 // A page with axes around the picture; lines and texts are lines and texts. `path` is for messages.
-std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Map& map,
+std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Figure& figure,
                                       const Scene& scene, const SnapshotInfo& snapshot);
 
 // Lines of this width in pixels upon the picture.

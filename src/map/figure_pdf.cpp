@@ -215,9 +215,8 @@ class FigurePage {
 
 }  // namespace
 
-std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Map& map,
+std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Figure& figure,
                                       const Scene& scene, const SnapshotInfo& snapshot) {
-  const Figure figure = plan_figure(map, scene.map);
   const FinishSettings& finish = scene.finish;
   FigurePage page(path, figure, finish);
   page.draw_map();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "finish/ticks.h"
+#include "map/color_range.h"
 #include "splotchcl/map.h"
 #include "splotchcl/map_settings.h"
 #include "splotchcl/palette.h"
@@ -15,6 +16,7 @@ class MapColors {
   // Limits are those of decide_color_range. Throws UsageError as it does.
   MapColors(const std::vector<float>& values, const MapSettings& settings, double floor = 0);
 
+  const ColorRange& range() const { return range_; }
   // Not clamped; not a number for a value without one. Of a logarithm 0 for values <= 0.
   double place(double value) const;
   // Of places that are even in [0, 1], without its ends.
@@ -27,8 +29,7 @@ class MapColors {
   double decide_softening(const MapSettings& settings) const;
   std::vector<Tick> symmetric_ticks(int most, bool superscripts) const;
 
-  MapScaling scaling_ = MapScaling::log;
-  double low_ = 0, high_ = 1;  // values
+  ColorRange range_;
   double exponent_, softening_;
 };
 

@@ -111,19 +111,10 @@ void check_quantity(const MapSettings& settings) {
   }
 }
 
-Column with_weight_factors(const Column& column, const ComponentFields& fields, std::size_t count) {
-  const Column factors = fields.weight_factors();
-  if (factors.is_absent()) return column;
-  std::vector<float> product(count);
-  for (std::size_t i = 0; i < count; ++i)
-    product[i] = column[i] * factors[i];
-  return Column::owning(std::move(product));
-}
-
 MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
                           const ComponentFields& fields, std::size_t count) {
   MapQuantity quantity = read_unweighted(settings, geometry, fields, count);
-  quantity.weight = with_weight_factors(quantity.weight, fields, count);
+  quantity.weight = fields.with_factors(quantity.weight);
   return quantity;
 }
 

@@ -21,9 +21,6 @@ struct MapQuantity {
 // Reads no particles: refuses settings that contradict each other.
 void check_quantity(const MapSettings& settings);
 
-// A column times what each of the particles counts for more than the mean or less.
-Column with_weight_factors(const Column& column, const ComponentFields& fields, std::size_t count);
-
 // Throws UsageError for fields that the particles do not have, DataError for weights below 0.
 MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
                           const ComponentFields& fields, std::size_t count);

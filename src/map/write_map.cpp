@@ -15,6 +15,11 @@ bool is_hdf5(const std::string& ending) {
   return ending == ".hdf5" || ending == ".h5";
 }
 
+bool is_figure(const std::filesystem::path& path) {
+  const std::string ending = lower_ending(path);
+  return !(is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".exr");
+}
+
 constexpr const char* endings_of_maps =
     "expected .fits, .hdf5, .npy or .exr for the numbers, .pdf, .png or another picture of 8 bits "
     "for a figure";
@@ -35,6 +40,26 @@ void write_bytes(const std::filesystem::path& path, const std::vector<unsigned c
   file.finish();
 }
 
+std::vector<std::string> write_figure(const std::filesystem::path& path, const Map& map,
+                                      const Scene& scene, const SnapshotInfo& snapshot) {
+  const Figure figure = plan_figure(map, scene.map);
+  if (lower_ending(path) == ".pdf") {
+    write_bytes(path, encode_pdf(path, figure, scene, snapshot));
+  } else {
+    write_image(path, draw_figure(figure, scene, snapshot));
+  }
+  return figure.notes();
+}
+
+void write_as_exr(const std::filesystem::path& path, const Map& map,
+                  const std::map<std::string, std::string>& metadata) {
+  ImageFileOptions options;
+  options.metadata = metadata;
+  options.metadata["splotchcl:quantity"] = map.quantity;
+  options.metadata["splotchcl:unit"] = map.unit;
+  write_image(path, numbers_as_image(map), options);
+}
+
 }  // namespace
 
 Image numbers_as_image(const Map& map) {
@@ -45,11 +70,6 @@ Image numbers_as_image(const Map& map) {
     image.pixels[4 * i + 3] = 1;
   }
   return image;
-}
-
-bool is_figure(const std::filesystem::path& path) {
-  const std::string ending = lower_ending(path);
-  return !(is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".exr");
 }
 
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
@@ -69,8 +89,10 @@ void check_map_path(const std::filesystem::path& path) {
   }
 }
 
-void write_map(const std::filesystem::path& path, const Map& map, const Scene& scene,
-               const SnapshotInfo& snapshot, const std::map<std::string, std::string>& metadata) {
+std::vector<std::string> write_map(const std::filesystem::path& path, const Map& map,
+                                   const Scene& scene, const SnapshotInfo& snapshot,
+                                   const std::map<std::string, std::string>& metadata) {
+  if (is_figure(path)) return write_figure(path, map, scene, snapshot);
   const std::string ending = lower_ending(path);
   if (is_fits(ending)) {
     write_bytes(path, encode_fits(path, map, metadata));
@@ -80,17 +102,10 @@ void write_map(const std::filesystem::path& path, const Map& map, const Scene& s
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));
-  } else if (ending == ".pdf") {
-    write_bytes(path, encode_pdf(path, map, scene, snapshot));
-  } else if (ending == ".exr") {
-    ImageFileOptions options;
-    options.metadata = metadata;
-    options.metadata["splotchcl:quantity"] = map.quantity;
-    options.metadata["splotchcl:unit"] = map.unit;
-    write_image(path, numbers_as_image(map), options);
   } else {
-    write_image(path, draw_figure(map, scene, snapshot));
+    write_as_exr(path, map, metadata);
   }
+  return {};
 }
 
 }  // namespace splotchcl

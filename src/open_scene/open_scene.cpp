@@ -113,7 +113,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result.suggested =
         with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
     result.scene =
-        scene_file::apply_settings_to_suggested(*result.suggested, *result.suggested, settings);
+        scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }

@@ -66,14 +66,15 @@ py::tuple draw(const Scene& scene, const Source& source, const std::string& devi
   return py::make_tuple(std::move(map), std::move(notes));
 }
 
-void write(const Map& map, const std::filesystem::path& path, const Scene& scene,
-           const Source& source) {
-  without_python([&] {
+std::vector<std::string> write(const Map& map, const std::filesystem::path& path,
+                               const Scene& scene, const Source& source) {
+  return without_python([&] {
     const SnapshotInfo info = source.in_turn([](const Snapshot& s) { return s.info(); });
     check_map_path(path);
     check_map_output(path, scene, info);
-    write_map(path, map, scene, info,
-              {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:version", SPLOTCHCL_VERSION}});
+    return write_map(
+        path, map, scene, info,
+        {{"splotchcl:scene", format_scene(scene)}, {"splotchcl:version", SPLOTCHCL_VERSION}});
   });
 }
 

@@ -36,11 +36,8 @@ py::tuple open(const std::filesystem::path& path, const Settings& settings) {
                         std::move(opened.notes), std::move(opened.suggested));
 }
 
-// `suggested` is the scene as which this one began; null where it began otherwise.
 Scene with_settings(const Scene& scene, const Settings& settings, const Scene* suggested) {
-  return suggested == nullptr
-             ? apply_settings(scene, settings)
-             : scene_file::apply_settings_to_suggested(scene, *suggested, settings);
+  return scene_file::apply_settings_to_suggested(scene, suggested, settings);
 }
 
 template <typename Work>

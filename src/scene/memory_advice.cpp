@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "scene/ceil_divide.h"
 #include "scene/streamed_column.h"
 
 namespace splotchcl {
@@ -37,7 +38,7 @@ void read_ahead(const Column& column, std::size_t begin, std::size_t end) {
 void expect_all_written(void* memory, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   const std::uintptr_t page = page_bytes(), begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = (begin + page - 1) / page * page,
+  const std::uintptr_t first = ceil_divide(begin, page) * page,
                        last = (begin + bytes) / page * page;
   if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 #endif

@@ -121,6 +121,15 @@ void check_name(const std::string& name, const std::string& label, const Origins
   }
 }
 
+// Of a component's field or of a map's figure.
+template <class Limits>
+void check_percentiles(const Limits& range, const std::string& label, const Origins& origins) {
+  if (!range.minimum || !range.maximum || !range.percentiles) return;
+  refuse(origins.at(label + ".percentiles"), label + ".percentiles",
+         "it beside min and max, for neither of which it can stand",
+         "percentiles, or min and max, or percentiles and one of the two");
+}
+
 void check_field_map(const FieldMap& map, const std::string& label, const Origins& origins) {
   if (map.field.empty()) {
     for (const char* part : {".scaling", ".min", ".max", ".percentiles"}) {
@@ -130,11 +139,7 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
     }
     return;
   }
-  if (map.minimum && map.maximum && map.percentiles) {
-    refuse(origins.at(label + ".percentiles"), label + ".percentiles",
-           "it beside min and max, for neither of which it can stand",
-           "percentiles, or min and max, or percentiles and one of the two");
-  }
+  check_percentiles(map, label, origins);
   if (map.minimum && map.maximum && *map.minimum > *map.maximum) {
     refuse(origins.at(label + ".min"), label + ".min", write_number(*map.minimum),
            fmt::format("at most {}.max, which is {}", label, write_number(*map.maximum)));
@@ -235,6 +240,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
   check_time(scene, origins);
+  check_percentiles(scene.map, "map", origins);
   check_components(scene, origins);
 }
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+
+#include "splotchcl/camera.h"
 
 namespace splotchcl::scene_file {
 namespace {
@@ -29,11 +32,33 @@ void give_way(const Camera& before, const Camera& suggested, const IsGiven& is_g
     camera.field_of_view_degrees.reset();
 }
 
+// No panorama reaches beyond the poles: sides that were suggested make room for one of so many
+// degrees.
+void give_way(const ImageSettings& before, const ImageSettings& suggested, const IsGiven& is_given,
+              double degrees, ImageSettings& image) {
+  constexpr double from_pole_to_pole = 180;
+  const double ratio = degrees / from_pole_to_pole;
+  const bool gives_size = is_given("image.size");
+  const bool gives_width = gives_size || is_given("image.width") || before.width != suggested.width;
+  const bool gives_height =
+      gives_size || is_given("image.height") || before.height != suggested.height;
+  if (!gives_height) {
+    const double highest = std::max(1.0, std::floor(image.width / ratio));
+    image.height = static_cast<int>(std::min<double>(image.height, highest));
+  } else if (!gives_width) {
+    image.width = std::max(image.width, static_cast<int>(std::ceil(image.height * ratio)));
+  }
+}
+
 }  // namespace
 
 void give_way(const Scene& before, const Scene& suggested, const IsGiven& is_given, Scene& scene) {
   if (before.camera && suggested.camera)
     give_way(*before.camera, *suggested.camera, is_given, *scene.camera);
+  if (scene.camera && scene.camera->projection == Projection::equirectangular) {
+    const double degrees = field_of_view_degrees(*scene.camera);
+    give_way(before.image, suggested.image, is_given, degrees, scene.image);
+  }
   const std::size_t count = std::min(scene.components.size(), suggested.components.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Component &old = before.components[i], &first = suggested.components[i];

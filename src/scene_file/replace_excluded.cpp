@@ -9,14 +9,15 @@ namespace splotchcl::scene_file {
 namespace {
 
 // Percentiles stand for a limit that is missing.
-void replace_range(const std::string& label, const IsGiven& is_given, FieldMap& map) {
-  if (!map.minimum || !map.maximum || !map.percentiles) return;
+template <class Limits>
+void replace_range(const std::string& label, const IsGiven& is_given, Limits& range) {
+  if (!range.minimum || !range.maximum || !range.percentiles) return;
   const bool gives_minimum = is_given(label + ".min"), gives_maximum = is_given(label + ".max");
   if (is_given(label + ".percentiles")) {
-    if (!gives_minimum) map.minimum.reset();
-    if (!gives_maximum) map.maximum.reset();
+    if (!gives_minimum) range.minimum.reset();
+    if (!gives_maximum) range.maximum.reset();
   } else if (gives_minimum || gives_maximum) {
-    map.percentiles.reset();
+    range.percentiles.reset();
   }
 }
 
@@ -44,6 +45,7 @@ void replace_colors(const std::string& label, const IsGiven& is_given, Component
 }  // namespace
 
 void replace_excluded(const IsGiven& is_given, Scene& scene, Origins& origins) {
+  replace_range("map", is_given, scene.map);
   for (std::size_t i = 0; i < scene.components.size(); ++i) {
     const std::string label = fmt::format("component.{}", i);
     replace_colors(label + ".color", is_given, scene.components[i], origins);

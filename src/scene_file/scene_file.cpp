@@ -56,10 +56,10 @@ Scene apply_settings(const Scene& scene, const std::vector<std::string>& setting
   return builder.finish();
 }
 
-Scene scene_file::apply_settings_to_suggested(const Scene& scene, const Scene& suggested,
+Scene scene_file::apply_settings_to_suggested(const Scene& scene, const Scene* suggested,
                                               const std::vector<std::string>& settings) {
   SceneBuilder builder(scene, "the scene");
-  builder.apply_settings(settings, &suggested);
+  builder.apply_settings(settings, suggested);
   return builder.finish();
 }
 

@@ -9,8 +9,9 @@ namespace splotchcl::scene_file {
 
 // apply_settings for a scene that began as one suggested for a snapshot. What is still as it was
 // suggested was given by nobody, and gives way where it belongs to what the settings replace: the
-// range of another field, the field of view of another projection.
-Scene apply_settings_to_suggested(const Scene& scene, const Scene& suggested,
+// range of another field, the field of view of another projection, the size of what is no panorama.
+// `suggested` is null for a scene that began otherwise, of which all was given.
+Scene apply_settings_to_suggested(const Scene& scene, const Scene* suggested,
                                   const std::vector<std::string>& settings);
 
 }  // namespace splotchcl::scene_file

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -99,7 +100,7 @@ std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& firs
 // Blocks are added up in their order, so that the sum is the same on any number of cores.
 std::optional<double> tangent_ratio(const TypePath& path, const IdMatch& match) {
   const std::size_t count = match.place_in_second.size();
-  std::vector<Squares> blocks((count + block_size - 1) / block_size);
+  std::vector<Squares> blocks(ceil_divide(count, block_size));
   for_blocks(count, block_size, [&](std::size_t begin, std::size_t end) {
     Squares& sum = blocks[begin / block_size];
     for (std::size_t a = begin; a < end; ++a) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
 #include "splotchcl/error.h"
@@ -250,7 +251,7 @@ void replace_zeros(std::vector<float>& lengths, double fallback) {
 
 // Blocks are those of one rank.
 std::vector<std::size_t> begins_of_ranks(std::size_t points, int ranks) {
-  const std::size_t blocks = (points + block_size - 1) / block_size;
+  const std::size_t blocks = ceil_divide(points, block_size);
   std::vector<std::size_t> begins;
   for (int rank = 0; rank <= ranks; ++rank) {
     const std::size_t block =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/ceil_divide.h"
 #include "scene/hash.h"
 #include "scene/streamed_column.h"
 
@@ -58,8 +59,7 @@ SubsetSnapshot::SubsetSnapshot(std::shared_ptr<const Snapshot> whole, const Read
 
 std::uint64_t SubsetSnapshot::count_of(std::uint64_t count, std::uint64_t total) const {
   if (!read_.max_particles) {
-    const auto every = static_cast<std::uint64_t>(read_.every);
-    return (count + every - 1) / every;
+    return ceil_divide(count, static_cast<std::uint64_t>(read_.every));
   }
   const auto most = static_cast<std::uint64_t>(*read_.max_particles);
   if (total <= most) return count;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/constants.h"
 #include "scene/projection.h"
 
@@ -19,7 +20,7 @@ constexpr int pixels_beside = 64;
 constexpr int first_block = -pixels_beside / block_pixels;  // along both axes
 
 int block_of(int pixel) {
-  return pixel >= 0 ? pixel / block_pixels : -((-pixel + block_pixels - 1) / block_pixels);
+  return pixel >= 0 ? pixel / block_pixels : -ceil_divide(-pixel, block_pixels);
 }
 
 // All directions that a block's pixels see lie within `half_angle` of its axis.

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -18,7 +19,7 @@ constexpr int widest_spacing = 64;
 constexpr double better_when_halved = 8;
 
 int floor_divide(int value, int by) {
-  return value >= 0 ? value / by : -((-value + by - 1) / by);
+  return value >= 0 ? value / by : -ceil_divide(-value, by);
 }
 
 using Weights = std::array<double, taps>;

@@ -16,6 +16,14 @@ Json answer(std::uint64_t id) {
   return {{"type", "answer"}, {"id", id}};
 }
 
+Json given_way_json(const GivenWay& given_way) {
+  Json json = Json::object();
+  if (given_way.field_of_view_degrees)
+    json["camera.field_of_view"] = *given_way.field_of_view_degrees;
+  if (given_way.size) json["image.size"] = *given_way.size;
+  return json;
+}
+
 }  // namespace
 
 std::string frame_message(const FrameHeader& header, const ViewPicture& picture) {
@@ -26,6 +34,7 @@ std::string frame_message(const FrameHeader& header, const ViewPicture& picture)
                                     {"format", picture.is_jpeg ? "image/jpeg" : "image/png"},
                                     {"seconds", picture.seconds},
                                     {"decided", header.decided},
+                                    {"given_way", given_way_json(header.given_way)},
                                     {"notes", picture.notes}});
   std::string message;
   message.reserve(4 + json.size() + picture.file.size());

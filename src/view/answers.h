@@ -11,6 +11,7 @@
 #include "view/frame_scheduler.h"
 #include "view/view_drawer.h"
 #include "view/view_files.h"
+#include "view/view_scene.h"
 
 // What the program says to a page (docs/view.md, "What page and program say"): JSON, but for
 // frames.
@@ -22,6 +23,7 @@ struct FrameHeader {
   std::uint64_t state = 0;  // the page's number of the state that it shows
   FrameScheduler::Stage stage = FrameScheduler::Stage::preview;
   std::map<std::string, double> decided;  // keys that the state left open
+  GivenWay given_way;
 };
 
 // Binary: the number of bytes of the header, 4 bytes with the lowest first; the header as JSON; the

@@ -196,7 +196,7 @@ DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
   if (known && known->input == work.input) return *known;
   PageScene scene;
   scene.input = work.input;
-  scene.all = scene_of(drawer_.opened(), work.state);
+  scene.all = scene_of(drawer_.opened(), drawer_.suggested(), work.state);
   scene.open = open_keys(scene.all);
   scene.all = drawer_.decide(scene.all);
   scene.shown = without_hidden(scene.all, work.state.hidden);
@@ -223,6 +223,7 @@ void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
   header.state = work.state.number;
   header.stage = task.stage;
   header.decided = numbers_of(scene.all, scene.open);
+  header.given_way = given_way(drawer_.opened(), work.state, scene.all);
   {
     const std::lock_guard lock(mutex_);
     header.frame = page.scheduler.sent(task);

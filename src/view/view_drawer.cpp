@@ -54,7 +54,8 @@ ViewPicture stored(const Scene& scene, const DrawnFrame& drawn, bool as_jpeg) {
 
 ViewDrawer::ViewDrawer(SceneWithSnapshot source, const Options& options,
                        std::vector<std::string>& notes)
-    : snapshot_(std::make_shared<CachedSnapshot>(std::move(source.snapshot))),
+    : suggested_(std::move(source.suggested)),
+      snapshot_(std::make_shared<CachedSnapshot>(std::move(source.snapshot))),
       drawer_(drawer_options(options)) {
   opened_ = fixed_scene(splotchcl::decide(source.scene, *snapshot_, notes));
   particles_ = particle_count(load(opened_));

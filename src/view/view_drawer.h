@@ -44,6 +44,8 @@ class ViewDrawer {
 
   // The scene as it was opened, with every number decided but exposure and white.
   const Scene& opened() const { return opened_; }
+  // As which it began where a snapshot was opened; else null.
+  const Scene* suggested() const { return suggested_ ? &*suggested_ : nullptr; }
   // What the scene draws: of a sequence the moment that it says.
   std::shared_ptr<const Snapshot> snapshot_of(const Scene& scene) const;
   std::uint64_t particles() const { return particles_; }
@@ -62,6 +64,7 @@ class ViewDrawer {
 
  private:
   Scene opened_;
+  std::optional<Scene> suggested_;
   mutable SnapshotSource source_;                   // of a sequence
   mutable std::shared_ptr<const Snapshot> moment_;  // of the sequence that was asked for last
   std::shared_ptr<const Snapshot> snapshot_;        // that was opened, with its columns

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include "film/path/film_path.h"
+#include "scene_file/suggested.h"
+#include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
-#include "splotchcl/scene_file.h"
 
 namespace splotchcl::view {
 namespace {
@@ -59,13 +59,18 @@ void check_palettes(const Scene& opened, const Scene& scene) {
   }
 }
 
+bool sets(const PageState& state, const char* key) {
+  return std::any_of(state.settings.begin(), state.settings.end(),
+                     [key](const PageSetting& setting) { return setting.key == key; });
+}
+
 }  // namespace
 
-Scene scene_of(const Scene& opened, const PageState& state) {
+Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& state) {
   std::vector<std::string> settings;
   for (const PageSetting& setting : state.settings)
     settings.push_back(setting.key + "=" + setting.value);
-  Scene scene = apply_settings(opened, settings);
+  Scene scene = scene_file::apply_settings_to_suggested(opened, suggested, settings);
   for (const std::string& key : state.open) {
     std::optional<double>* const number = find_open_number(scene, key);
     if (number == nullptr) throw UsageError(key + ": found no value, expected one");
@@ -81,6 +86,19 @@ Scene scene_of(const Scene& opened, const PageState& state) {
         scene.image.width, scene.image.height));
   }
   return scene;
+}
+
+GivenWay given_way(const Scene& opened, const PageState& state, const Scene& scene) {
+  GivenWay instead;
+  const Camera& camera = *scene.camera;
+  const bool had_field_of_view = opened.camera->field_of_view_degrees.has_value();
+  if (had_field_of_view && !camera.field_of_view_degrees && !camera.width) {
+    instead.field_of_view_degrees = field_of_view_degrees(camera);
+  }
+  const std::array size = {scene.image.width, scene.image.height};
+  const bool is_other = size != std::array{opened.image.width, opened.image.height};
+  if (is_other && !sets(state, "image.size")) instead.size = size;
+  return instead;
 }
 
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {

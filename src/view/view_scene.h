@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -10,10 +12,20 @@
 // What a page's state makes of the scene that was opened.
 namespace splotchcl::view {
 
-// With all components; limits that the state leaves open are unset. Throws UsageError for values
+// With all components; limits that the state leaves open are unset. `suggested` is the scene as
+// which the opened one began, null where it began otherwise: what was suggested and suits no more
+// gives way, as it does to settings of the command line. Throws UsageError for values
 // that no scene can have, palettes that are neither the program's nor the scene's own, and
 // pictures of more than 8192 x 8192 pixels.
-Scene scene_of(const Scene& opened, const PageState& state);
+Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& state);
+
+// Values of the opened scene that the state does not set and that gave way to what it sets, as the
+// scene of this state has them instead.
+struct GivenWay {
+  std::optional<double> field_of_view_degrees;
+  std::optional<std::array<int, 2>> size;
+};
+GivenWay given_way(const Scene& opened, const PageState& state, const Scene& scene);
 
 // Without the components that are off. Throws UsageError where all are.
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden);

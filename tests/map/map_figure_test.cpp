@@ -46,7 +46,7 @@ TEST(MapFigure, ShowsValuesByThePaletteAsItsBarDoes) {
   Scene scene = map_scene();
   scene.map = settings(MapScaling::log, 1, 100);
   scene.map.palette = "gray";
-  const Image figure = draw_figure(even_map(600, 400, 10), scene, {});
+  const Image figure = draw_figure(plan_figure(even_map(600, 400, 10), scene.map), scene, {});
   EXPECT_NEAR(figure.at(200, 200)[0], 0.5F, 1e-3F);  // the middle of two decades
 }
 
@@ -54,7 +54,7 @@ TEST(MapFigure, ShowsGrayWhereThereIsNoValue) {
   Scene scene = map_scene();
   Map map = even_map(600, 400, 10);
   map.values[200 * 600 + 200] = std::nanf("");
-  EXPECT_EQ(draw_figure(map, scene, {}).at(200, 200)[1], 0.2F);
+  EXPECT_EQ(draw_figure(plan_figure(map, scene.map), scene, {}).at(200, 200)[1], 0.2F);
 }
 
 TEST(MapFigure, HasAWhiteLineAtAContour) {
@@ -62,7 +62,7 @@ TEST(MapFigure, HasAWhiteLineAtAContour) {
   scene.map = settings(MapScaling::linear, 0, 599);
   scene.map.palette = "gray";
   scene.map.contours = {150.5};
-  const Image figure = draw_figure(ramp(600, 400), scene, {});
+  const Image figure = draw_figure(plan_figure(ramp(600, 400), scene.map), scene, {});
   // Values are those of pixel centers: 150.5 lies at the border of pixels 150 and 151.
   EXPECT_NEAR(figure.at(150, 200)[0], 0.5F + 0.5F * 0.1F, 0.1F);
   EXPECT_NEAR(figure.at(140, 200)[0], 140.0F / 599, 1e-3F);
@@ -73,11 +73,13 @@ TEST(MapFigure, IsAPdfFileOnRequest) {
   Scene scene = map_scene();
   scene.map.contour_count = 3;
   scene.finish.title.text = "Σ at z = 0";
-  const auto bytes = encode_pdf("a.pdf", ramp(60, 40), scene, {});
+  const Map map = ramp(60, 40);
+  const Figure figure = plan_figure(map, scene.map);
+  const auto bytes = encode_pdf("a.pdf", figure, scene, {});
   const std::string text(bytes.begin(), bytes.end());
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
   EXPECT_THAT(text, ::testing::HasSubstr("%%EOF"));
-  EXPECT_EQ(bytes, encode_pdf("a.pdf", ramp(60, 40), scene, {})) << "the same map, the same bytes";
+  EXPECT_EQ(bytes, encode_pdf("a.pdf", figure, scene, {})) << "the same map, the same bytes";
 }
 
 TEST(MapFigure, IsRefusedBeforeTheMapIsDrawnWhereItCannotBe) {
@@ -152,11 +154,12 @@ TEST(MapColors, EndAtTheLargestValueWhereThePercentileLiesBelowTheFloor) {
 TEST(MapFigure, HasANoteOnPixelsBelowTheFloor) {
   Map map = even_map(10, 10, 1);
   map.value_floor = 1e-3;
-  EXPECT_TRUE(figure_notes(map, {}).empty());
+  EXPECT_TRUE(plan_figure(map, {}).notes().empty());
   std::fill_n(map.values.begin(), 25, 1e-6F);
-  ASSERT_EQ(figure_notes(map, {}).size(), 1U);
-  EXPECT_THAT(figure_notes(map, {}).front(), ::testing::HasSubstr("25 % of the map's pixels"));
-  EXPECT_TRUE(figure_notes(map, settings(MapScaling::log, 1e-8, 2)).empty());
+  ASSERT_EQ(plan_figure(map, {}).notes().size(), 1U);
+  EXPECT_THAT(plan_figure(map, {}).notes().front(),
+              ::testing::HasSubstr("25 % of the map's pixels"));
+  EXPECT_TRUE(plan_figure(map, settings(MapScaling::log, 1e-8, 2)).notes().empty());
 }
 
 std::vector<float> from_minus_hundred_to(int last) {
@@ -213,11 +216,12 @@ TEST(MapColors, AreLogarithmicWhereFewValuesLieBelowZero) {
 TEST(MapFigure, HasANoteOnPixelsWithoutALogarithm) {
   Map map = even_map(10, 10, 1);
   std::fill_n(map.values.begin(), 25, -1.0F);
-  EXPECT_TRUE(figure_notes(map, {}).empty());
+  EXPECT_TRUE(plan_figure(map, {}).notes().empty());
   MapSettings log;
   log.scaling = MapScaling::log;
-  ASSERT_EQ(figure_notes(map, log).size(), 1U);
-  EXPECT_THAT(figure_notes(map, log).front(), ::testing::HasSubstr("25 % of the map's pixels"));
+  ASSERT_EQ(plan_figure(map, log).notes().size(), 1U);
+  EXPECT_THAT(plan_figure(map, log).notes().front(),
+              ::testing::HasSubstr("25 % of the map's pixels"));
 }
 
 TEST(MapColors, MarkTheBarWhereTheValuesAre) {
@@ -238,6 +242,16 @@ TEST(MapColors, MarkTheBarWhereTheValuesAre) {
 
 TEST(MapColors, RefuseALogarithmOfZero) {
   EXPECT_THROW(MapColors({}, settings(MapScaling::log, 0, 1)), UsageError);
+}
+
+TEST(MapFigure, HasItsLimitsRefusedBeforeAnythingIsDrawn) {
+  Scene scene = map_scene();
+  for (const MapSettings& wrong :
+       {settings(MapScaling::log, 0, 1), settings(MapScaling::linear, 2, 1)}) {
+    scene.map = wrong;
+    EXPECT_THROW(check_map_output("a.png", scene, {}), UsageError);
+    EXPECT_NO_THROW(check_map_output("a.fits", scene, {}));
+  }
 }
 
 TEST(MapColors, RefuseLimitsOutOfOrder) {

@@ -40,6 +40,19 @@ void write(const std::filesystem::path& path, const Map& map) {
   write_map(path, map, map_scene(), {}, {{"splotchcl:scene", "[map]\nview = \"xy\""}});
 }
 
+TEST(MapFiles, OnlyFiguresHaveNotesOnWhatTheyDoNotShow) {
+  const testing::TemporaryFolder folder;
+  Map map = small_map();
+  map.width = map.height = 200;
+  map.values.assign(40000, 1);
+  map.values[0] = -1;  // no logarithm
+  map.effective_particles.clear();
+  for (const char* name : {"a.fits", "a.hdf5", "a.npy", "a.exr"})
+    EXPECT_TRUE(write_map(folder / name, map, map_scene(), {}, {}).empty()) << name;
+  for (const char* name : {"a.png", "a.pdf"})
+    EXPECT_EQ(write_map(folder / name, map, map_scene(), {}, {}).size(), 1U) << name;
+}
+
 TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
   const testing::TemporaryFolder folder;
   write(folder / "a.fits", small_map());

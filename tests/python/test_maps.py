@@ -28,6 +28,18 @@ def test_a_saved_map_is_its_values(universe, tmp_path):
     assert np.array_equal(np.load(tmp_path / "map.npy"), np.asarray(drawn))
 
 
+def test_a_saved_figure_adds_its_notes_once(universe, tmp_path):
+    log = {"map.scaling": "log"}
+    drawn = splotchcl.column(universe, "line_of_sight_velocity", size=(200, 200), settings=log)
+    before = list(drawn.notes)
+    drawn.save(tmp_path / "map.npy")
+    assert drawn.notes == before
+    drawn.save(tmp_path / "map.png")
+    drawn.save(tmp_path / "map.pdf")
+    assert len(drawn.notes) == len(before) + 1
+    assert "below 0, where there is no logarithm" in drawn.notes[-1]
+
+
 def test_a_surface_density_adds_up_to_the_mass(universe):
     drawn = splotchcl.column(universe, types="gas", size=(64, 64))
     mass = Snapshot(universe)["gas"]["mass"].sum(dtype=float)

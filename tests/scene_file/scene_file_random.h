@@ -288,7 +288,8 @@ class RandomScenes {
     map.exponent = 0.01 + 9 * unit();
     map.minimum = maybe(any());
     map.maximum = maybe(any());
-    map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
+    const bool has_both_limits = map.minimum && map.maximum;
+    if (!has_both_limits && coin()) map.percentiles = {50 * unit(), 50.1 + 49 * unit()};
     map.palette = word();
     if (coin()) {
       map.contour_count = integer(1, 100);

@@ -162,6 +162,8 @@ TEST(SceneFileRange, IsOfLimitsOrOfPercentiles) {
   EXPECT_THAT(message_for(component + "color = { field = 'U', min = 1, max = 2, "
                                       "percentiles = [20, 80] }"),
               HasSubstr("key component.0.color.percentiles: found it beside min and max"));
+  EXPECT_THAT(message_for("[map]\nmin = 1\nmax = 2\npercentiles = [20, 80]"),
+              HasSubstr("scene.toml:4: key map.percentiles: found it beside min and max"));
 }
 
 TEST(SceneFileAdvice, NamesTheNearestKeyOfTheTable) {

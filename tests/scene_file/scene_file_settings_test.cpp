@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene_file/scene_file_equality.h"
@@ -175,6 +176,18 @@ TEST(SettingsOfARange, ReplacePercentiles) {
   EXPECT_FALSE(color.percentiles);
 }
 
+TEST(SettingsOfARange, OfAMapAndItsPercentilesReplaceEachOther) {
+  const std::string limits = "[map]\nmin = 1\nmax = 2\n",
+                    percents = "[map]\npercentiles = [20, 80]\n";
+  const MapSettings by_percentiles =
+      parse_scene(limits, "scene.toml", {"map.percentiles=[20,80]"}).map;
+  EXPECT_FALSE(by_percentiles.minimum);
+  EXPECT_FALSE(by_percentiles.maximum);
+  const MapSettings by_limits = parse_scene(percents, "scene.toml", {"map.min=1", "map.max=2"}).map;
+  EXPECT_FALSE(by_limits.percentiles);
+  EXPECT_EQ(by_limits.maximum, 2);
+}
+
 TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
   const std::string message =
       message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
@@ -223,9 +236,8 @@ Scene suggested() {
 }
 
 FieldMap color_with(const std::vector<std::string>& settings) {
-  return scene_file::apply_settings_to_suggested(suggested(), suggested(), settings)
-      .components[0]
-      .color;
+  const Scene scene = suggested();
+  return scene_file::apply_settings_to_suggested(scene, &scene, settings).components[0].color;
 }
 
 TEST(SettingsOfASuggestedScene, LeaveTheRangeOfAnotherFieldToTheData) {
@@ -247,9 +259,10 @@ TEST(SettingsOfASuggestedScene, KeepALimitThatIsGivenWithTheField) {
 }
 
 TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
-  const Scene before = apply_settings(suggested(), {"component.0.color.min=3"});
-  const Scene after = scene_file::apply_settings_to_suggested(before, suggested(),
-                                                              {"component.0.color.field=density"});
+  const Scene first = suggested();
+  const Scene before = apply_settings(first, {"component.0.color.min=3"});
+  const Scene after =
+      scene_file::apply_settings_to_suggested(before, &first, {"component.0.color.field=density"});
   EXPECT_EQ(after.components[0].color.minimum, 3);
   EXPECT_FALSE(after.components[0].color.maximum);
 }
@@ -265,7 +278,7 @@ Camera camera_with(const std::vector<std::string>& settings) {
   Scene scene;
   scene.camera.emplace();
   scene.camera->field_of_view_degrees = 40;
-  return *scene_file::apply_settings_to_suggested(scene, scene, settings).camera;
+  return *scene_file::apply_settings_to_suggested(scene, &scene, settings).camera;
 }
 
 TEST(SettingsOfASuggestedScene, LeaveTheFieldOfViewToAProjectionOfWideAngles) {
@@ -283,6 +296,30 @@ TEST(SettingsOfASuggestedScene, KeepAFieldOfViewThatIsGivenWithTheProjection) {
 
 TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
   EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
+}
+
+std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
+  settings.emplace_back("camera.projection=equirectangular");
+  Scene scene;
+  scene.camera.emplace();
+  const Scene panorama = scene_file::apply_settings_to_suggested(scene, &scene, settings);
+  return {panorama.image.width, panorama.image.height};
+}
+
+TEST(SettingsOfASuggestedScene, MakeAPanoramaTwiceAsWideAsHigh) {
+  EXPECT_EQ(size_of_panorama_with({}), std::pair(1024, 512));
+  EXPECT_EQ(size_of_panorama_with({"image.width=2001"}), std::pair(2001, 1000));
+  EXPECT_EQ(size_of_panorama_with({"image.height=1000"}), std::pair(2000, 1000));
+}
+
+TEST(SettingsOfASuggestedScene, LeaveAPartOfAPanoramaAsHighAsItMayBe) {
+  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=90"}), std::pair(1024, 1024));
+  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=240"}), std::pair(1024, 768));
+}
+
+TEST(SettingsOfASuggestedScene, KeepASizeThatIsGivenForAPanorama) {
+  EXPECT_EQ(size_of_panorama_with({"image.size=[300,100]"}), std::pair(300, 100));
+  EXPECT_THROW(size_of_panorama_with({"image.size=[100,100]"}), UsageError);
 }
 
 TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <utility>
+
+#include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 
@@ -33,25 +37,66 @@ PageState state_with(const std::string& key, const std::string& value) {
 }
 
 TEST(ViewScene, IsTheOpenedOneForAnEmptyState) {
-  EXPECT_EQ(format_scene(scene_of(opened_scene(), {})), format_scene(opened_scene()));
+  EXPECT_EQ(format_scene(scene_of(opened_scene(), nullptr, {})), format_scene(opened_scene()));
 }
 
 TEST(ViewScene, HasTheStatesSettings) {
-  const Scene scene = scene_of(opened_scene(), state_with("component.1.palette", "\"magma\""));
+  const Scene scene =
+      scene_of(opened_scene(), nullptr, state_with("component.1.palette", "\"magma\""));
   EXPECT_EQ(scene.components[1].palette, "magma");
   EXPECT_EQ(scene.components[0].palette, opened_scene().components[0].palette);
 }
 
 TEST(ViewScene, AFieldOfViewTakesThePlaceOfAWidth) {
-  const Scene scene = scene_of(opened_scene(), state_with("camera.field_of_view", "30"));
+  const Scene scene = scene_of(opened_scene(), nullptr, state_with("camera.field_of_view", "30"));
   EXPECT_FALSE(scene.camera->width);
   EXPECT_EQ(scene.camera->field_of_view_degrees, 30);
+}
+
+// As open_scene gives it for a snapshot.
+Scene suggested_scene() {
+  Scene scene = opened_scene();
+  scene.camera->width.reset();
+  scene.camera->field_of_view_degrees = 40;
+  return scene;
+}
+
+TEST(ViewScene, AProjectionOfWideAnglesHasAFieldOfViewOfItsOwnInPlaceOfASuggestedOne) {
+  const Scene suggested = suggested_scene();
+  for (const auto& [projection, degrees] : {std::pair{"\"cube\"", 90}, {"\"fisheye\"", 180}}) {
+    const PageState state = state_with("camera.projection", projection);
+    const Scene scene = scene_of(suggested, &suggested, state);
+    EXPECT_EQ(field_of_view_degrees(*scene.camera), degrees) << projection;
+  }
+}
+
+TEST(ViewScene, AProjectionOfWideAnglesKeepsTheFieldOfViewOfASceneFile) {
+  const PageState state = state_with("camera.projection", "\"fisheye\"");
+  EXPECT_EQ(scene_of(suggested_scene(), nullptr, state).camera->field_of_view_degrees, 40);
+}
+
+GivenWay given_way_to(const PageState& state) {
+  const Scene suggested = suggested_scene();
+  return given_way(suggested, state, scene_of(suggested, &suggested, state));
+}
+
+TEST(ViewScene, TellsWhatGaveWayToAPanorama) {
+  const GivenWay instead = given_way_to(state_with("camera.projection", "\"equirectangular\""));
+  EXPECT_EQ(instead.field_of_view_degrees, 360);
+  EXPECT_EQ(instead.size, (std::array{1024, 512}));
+}
+
+TEST(ViewScene, NothingGivesWayToWhatTheStateSets) {
+  PageState state = state_with("image.size", "[64, 32]");
+  state.settings.push_back({"camera.field_of_view", "30"});
+  EXPECT_FALSE(given_way_to(state).field_of_view_degrees);
+  EXPECT_FALSE(given_way_to(state).size);
 }
 
 TEST(ViewScene, LeavesOpenWhatTheStateLeavesOpen) {
   PageState state;
   state.open = {"component.0.color.min", "finish.exposure"};
-  const Scene scene = scene_of(opened_scene(), state);
+  const Scene scene = scene_of(opened_scene(), nullptr, state);
   EXPECT_FALSE(scene.components[0].color.minimum);
   EXPECT_TRUE(scene.components[0].color.maximum);
   EXPECT_THAT(open_keys(scene), ElementsAre("component.0.color.min", "finish.exposure"));
@@ -60,7 +105,7 @@ TEST(ViewScene, LeavesOpenWhatTheStateLeavesOpen) {
 TEST(ViewScene, AFrameOfTheFilmIsBetweenItsKeyframes) {
   PageState state;
   state.keyframes = {{0, {{"camera.field_of_view", "20"}}}, {10, {{"camera.field_of_view", "40"}}}};
-  const Scene scene = scene_of(opened_scene(), state);
+  const Scene scene = scene_of(opened_scene(), nullptr, state);
   EXPECT_EQ(*at_frame(scene, 0).camera->field_of_view_degrees, 20);
   EXPECT_EQ(*at_frame(scene, 10).camera->field_of_view_degrees, 40);
   const double between = *at_frame(scene, 4).camera->field_of_view_degrees;
@@ -72,7 +117,7 @@ TEST(ViewScene, AFrameOfTheFilmIsBetweenItsKeyframes) {
 TEST(ViewScene, OtherKeysCannotBeOpen) {
   PageState state;
   state.open = {"camera.position"};
-  EXPECT_THROW(scene_of(opened_scene(), state), UsageError);
+  EXPECT_THROW(scene_of(opened_scene(), nullptr, state), UsageError);
 }
 
 TEST(ViewScene, TellsTheNumbersThatWereFound) {
@@ -82,19 +127,23 @@ TEST(ViewScene, TellsTheNumbersThatWereFound) {
 }
 
 TEST(ViewScene, ValuesThatNoSceneCanHaveAreRefused) {
-  EXPECT_THROW(scene_of(opened_scene(), state_with("camera.field_of_view", "-3")), UsageError);
-  EXPECT_THROW(scene_of(opened_scene(), state_with("component.2.palette", "\"magma\"")),
+  EXPECT_THROW(scene_of(opened_scene(), nullptr, state_with("camera.field_of_view", "-3")),
+               UsageError);
+  EXPECT_THROW(scene_of(opened_scene(), nullptr, state_with("component.2.palette", "\"magma\"")),
                UsageError);
 }
 
 TEST(ViewScene, PalettesAreNoFiles) {
-  EXPECT_NO_THROW(scene_of(opened_scene(), state_with("component.0.palette", "\"magma_r\"")));
-  EXPECT_THROW(scene_of(opened_scene(), state_with("component.0.palette", "\"/etc/passwd\"")),
-               UsageError);
+  EXPECT_NO_THROW(
+      scene_of(opened_scene(), nullptr, state_with("component.0.palette", "\"magma_r\"")));
+  EXPECT_THROW(
+      scene_of(opened_scene(), nullptr, state_with("component.0.palette", "\"/etc/passwd\"")),
+      UsageError);
 }
 
 TEST(ViewScene, HugePicturesAreRefused) {
-  EXPECT_THROW(scene_of(opened_scene(), state_with("image.size", "[65536, 65536]")), UsageError);
+  EXPECT_THROW(scene_of(opened_scene(), nullptr, state_with("image.size", "[65536, 65536]")),
+               UsageError);
 }
 
 TEST(ViewScene, ComponentsThatAreOffAreLeftOut) {

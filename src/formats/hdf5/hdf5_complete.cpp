@@ -6,6 +6,7 @@
 #include <array>
 
 #include "formats/hdf5/hdf5_file.h"
+#include "scene/ceil_divide.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -77,7 +78,7 @@ bool has_all_chunks(const Hdf5Dataset& dataset, hid_t handle, hid_t properties) 
   H5Dget_num_chunks(handle, space.id(), &stored);
   hsize_t needed = 1;
   for (std::size_t i = 0; i < chunk.size() && needed <= stored; ++i) {
-    needed *= (dataset.shape[i] - 1) / chunk[i] + 1;
+    needed *= ceil_divide(dataset.shape[i], chunk[i]);
   }
   return needed <= stored;
 }

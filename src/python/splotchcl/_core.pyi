@@ -95,7 +95,7 @@ class Map(Buffer):
     tolerance: float
     particles: int
     bad_particles: int
-    def save(self, path: Path, scene: Scene, source: Source) -> None: ...
+    def save(self, path: Path, scene: Scene, source: Source) -> list[str]: ...
 
 def draw_map(
     scene: Scene, source: Source, device: str, by_reference: bool, progress: _Progress

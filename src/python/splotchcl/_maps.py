@@ -85,6 +85,9 @@ class Map:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes .fits, .hdf5, .npy or .exr with the numbers, .pdf or a picture as a figure.
 
+        What a figure does not show, since it lies below its range or has no logarithm, `notes`
+        tell afterwards.
+
         Raises
         ------
         UsageError
@@ -92,7 +95,8 @@ class Map:
         DataError
             For a file that cannot be written.
         """
-        self._map.save(Path(path), self.scene._scene, self._source._source)
+        told = self._map.save(Path(path), self.scene._scene, self._source._source)
+        self.notes.extend(note for note in told if note not in self.notes)
 
 
 def column(

@@ -97,7 +97,10 @@ class App {
     } finally {
       this.link.acknowledge(header.frame);
     }
-    if (header.state === this.link.lastState) this.store?.decide(header.decided);
+    if (header.state === this.link.lastState) {
+      this.store?.decide(header.decided);
+      this.store?.giveWay(header.given_way);
+    }
     document.body.dataset.stage = header.stage;
     document.body.dataset.state = header.state;
     // A screen reader is told of what stays.

@@ -15,6 +15,8 @@ export class Store extends EventTarget {
       hidden: kept?.hidden ?? [],
       keyframes: kept?.keyframes ?? opened.keyframes,
     };
+    // What pictures have in place of settings that suit them no more: shown, but not sent.
+    this.instead = {};
     this.past = [];
     this.future = [];
     this.gesture = null;
@@ -22,13 +24,15 @@ export class Store extends EventTarget {
     this.isMoving = false;
   }
 
-  get settings() { return this.state.settings; }
+  get settings() { return {...this.state.settings, ...this.instead}; }
 
   // One step of undo takes back all changes of a gesture: of a drag, or of one control within a
   // short time.
   change(settings, {gesture = null, isMoving = false} = {}) {
     this.remember(gesture);
     this.state.settings = {...this.state.settings, ...settings};
+    const isLeft = ([key]) => !('camera.projection' in settings || key in settings);
+    this.instead = Object.fromEntries(Object.entries(this.instead).filter(isLeft));
     this.isMoving = isMoving;
     this.tell();
   }
@@ -62,6 +66,13 @@ export class Store extends EventTarget {
     this.dispatchEvent(new Event('decided'));
   }
 
+  // Values that the picture has in place of those of the scene. No step of their own.
+  giveWay(values) {
+    if (isEqual(values, this.instead)) return;
+    this.instead = values;
+    this.dispatchEvent(new Event('decided'));
+  }
+
   undo() { this.step(this.past, this.future); }
   redo() { this.step(this.future, this.past); }
 
@@ -90,6 +101,7 @@ export class Store extends EventTarget {
     if (from.length === 0) return;
     to.push(copyOf(this.state));
     this.state = from.pop();
+    this.instead = {};
     this.gesture = null;
     this.isMoving = false;
     this.tell();

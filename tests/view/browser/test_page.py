@@ -108,6 +108,17 @@ def test_orbiting_turns_the_camera_at_the_same_distance(page):
     assert page.picture() != picture
 
 
+def test_the_field_of_view_is_that_of_the_projection_until_the_first_comes_back(page):
+    def shown_after(projection):
+        Select(page.find("Projection")).select_by_value(projection)
+        page.wait_for_exact()
+        return float(page.find("Field of view").get_attribute("value"))
+
+    suggested = page.setting("camera.field_of_view")
+    assert shown_after("fisheye") == 180
+    assert shown_after("perspective") == suggested
+
+
 def test_a_drag_orbits_and_is_one_step_of_undo(page):
     before = page.setting("camera.position")
     ActionChains(page.browser).drag_and_drop_by_offset(page.find("Picture"), 80, 30).perform()

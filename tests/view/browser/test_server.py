@@ -96,6 +96,12 @@ def test_a_state_that_cannot_be_drawn_leaves_the_page_as_it_is(view):
     page.receive_until(is_exact(2))
 
 
+def test_faces_of_a_cube_are_drawn_in_place_of_the_field_of_view_that_was_suggested(view):
+    page = PageSocket(view())
+    page.set(1, camera__projection="cube", image__size=[64, 64])
+    assert page.receive_until(is_exact(1))[-1]["file"]
+
+
 def test_two_hundred_states_leave_no_backlog_and_the_last_is_drawn(view):
     page = PageSocket(view())
     page.receive_until(is_exact_of_opened)
