@@ -82,19 +82,20 @@ class FrameBuffers {
     return (traits_.rows ? count * specialization_.splat_bytes() : 0) + tiles(count);
   }
 
-  // Counts per tile of each block, and the lists of as many tiles as fit.
+  // Of the lists of as many tiles as fit.
+  std::uint64_t entries() const {
+    return entry_capacity(plan_, traits_) * specialization_.tile_splat_bytes();
+  }
+
+  // Counts per tile of each block, and the lists.
   std::uint64_t lists(std::uint64_t blocks) const {
-    const std::uint64_t splats =
-        plan_.needs_sort() ? traits_.sorted_chunk
-                           : std::uint64_t{traits_.chunk_length()} * splats_per_particle();
-    const std::uint64_t capacity = std::max(traits_.list_capacity, splats);
+    const std::uint64_t capacity = entry_capacity(plan_, traits_);
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
     // Of a GPU: tiles and splats of all entries, from where and to where they are sorted.
     const std::uint64_t pairs = traits_.rows ? 0 : 4 * sizeof(std::uint32_t);
     const std::uint64_t counts = traits_.rows ? blocks + 2 : 2;
     return counts * layout_.tile_count * sizeof(std::uint32_t) +
-           segments * sizeof(shared::Segment) +
-           capacity * (specialization_.tile_splat_bytes() + pairs);
+           segments * sizeof(shared::Segment) + entries() + capacity * pairs;
   }
 
   // Where splats lie before they are put in parts of their keys.
@@ -193,8 +194,9 @@ std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
   const std::uint64_t slots = buffers.slots(count);
   const auto in_parts = static_cast<std::uint64_t>(buffers.sorted_in_parts(splats));
   const std::uint64_t sorting =
-      slots * (key + key_end) + (in_parts > 0 ? bytes_of_parts(buffers, key_end, count, in_parts)
-                                              : count * (key + 2 * order));
+      slots * key_end + (in_parts > 0 ? std::max(slots * key, buffers.entries()) +
+                                            bytes_of_parts(buffers, key_end, count, in_parts)
+                                      : slots * key + count * (key + 2 * order));
   return buffers.light() + buffers.splats(slots) +
          std::max(sorting, bytes_of_drawing(buffers, traits, count));
 }

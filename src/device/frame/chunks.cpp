@@ -95,4 +95,12 @@ std::size_t most_held_leaves(std::size_t leaves) {
   return std::max(most_held_leaves(left), 1 + most_held_leaves(leaves - left));
 }
 
+std::uint64_t entry_capacity(const FramePlan& plan, const DeviceTraits& traits) {
+  const std::uint64_t splats_of_chunk =
+      plan.needs_sort() ? traits.sorted_chunk
+                        : std::uint64_t{traits.chunk_length()} *
+                              static_cast<std::uint64_t>(plan.splats_per_particle);
+  return std::max(traits.list_capacity, splats_of_chunk);
+}
+
 }  // namespace splotchcl

@@ -6,6 +6,7 @@
 
 #include "device/opencl/device_traits.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 
@@ -52,5 +53,9 @@ struct SplatChunk {
 std::vector<SplatChunk> splat_chunks(std::uint64_t count, const DeviceTraits& traits);
 // The same in slabs of as many splats each, which chunks do not cross.
 std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const DeviceTraits& traits);
+
+// Entries that lists of a band of the picture have room for. One tile may have all splats of a
+// chunk.
+std::uint64_t entry_capacity(const FramePlan& plan, const DeviceTraits& traits);
 
 }  // namespace splotchcl

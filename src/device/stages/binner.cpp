@@ -30,12 +30,7 @@ Binner::Binner(const StageContext& context)
       no_blocks_(context.device.pool.get<shared::BlockCounts>(0, "unused")) {
   const DeviceTraits& traits = context.device.traits;
   if (!traits.rows) groups_.emplace(context);
-  // One tile may have all splats of a chunk.
-  const std::uint64_t splats_of_chunk =
-      context.plan.needs_sort() ? traits.sorted_chunk
-                                : std::uint64_t{traits.chunk_length()} *
-                                      static_cast<std::uint64_t>(context.plan.splats_per_particle);
-  entry_capacity_ = std::max(traits.list_capacity, splats_of_chunk);
+  entry_capacity_ = entry_capacity(context.plan, traits);
   const PictureLayout& layout = context.layout;
   parameters_.tile_count = layout.tile_count;
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());

@@ -55,6 +55,7 @@ class Projector {
                                     const std::vector<ParticleBuffers>& particles) const;
   KeyedSplats project_all_in_parts(const AllParticles& all,
                                    const std::vector<ParticleBuffers>& particles) const;
+  std::uint64_t room_for_keys(std::uint32_t slots) const;
   void gather_keys(KeyedSplats& keyed, std::uint32_t slots) const;
   Filling filling_of_slots() const;
   KeyedSplats project_all_in_groups(const AllParticles& all,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/frame/block_counts.h"
+#include "device/frame/chunks.h"
 #include "device/opencl/launch.h"
 #include "device/stages/part_placer.h"
 #include "device/stages/projector.h"
@@ -70,6 +71,14 @@ std::vector<std::uint32_t> slots_apart(const std::vector<shared::ProjectParamete
 
 }  // namespace
 
+// Lists have their memory when all has been sorted.
+std::uint64_t Projector::room_for_keys(std::uint32_t slots) const {
+  const std::uint64_t entries =
+      entry_capacity(context_.plan, context_.device.traits) + ENTRIES_BEHIND;
+  const std::uint64_t bytes = entries * context_.specialization.tile_splat_bytes();
+  return std::max<std::uint64_t>(slots, ceil_divide(bytes, sizeof(std::uint32_t)));
+}
+
 // Blocks are projected some at a time into memory that caches keep, from which their splats go to
 // where they stay.
 KeyedSplats Projector::project_all_in_parts(const AllParticles& all,
@@ -88,7 +97,7 @@ KeyedSplats Projector::project_all_in_parts(const AllParticles& all,
   const auto offsets = pool.upload(slots_apart(all.components, ranges, stride), "block offsets");
   KeyedSplats keyed;
   keyed.splats = splat_memory(slots, filling);
-  keyed.keys = pool.get<std::uint32_t>(slots, "sort keys", filling);
+  keyed.keys = pool.get<std::uint32_t>(room_for_keys(slots), "sort keys", filling);
   keyed.key_ends = key_ends(slots, filling);
   PartPlacer placer(context_, *parts_, pieces, stride);
   const KeyedSplats apart = keyed_memory(at_a_time * stride);
