@@ -38,7 +38,8 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
   if (!particles.intensity.is_absent()) {
     cloud.column *= normalized(static_cast<double>(particles.intensity[i]), component.intensity);
   }
-  const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) && cloud.sigma > 0 &&
+  const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) &&
+                       std::isfinite(cloud.depth) && cloud.sigma > 0 &&
                        std::isfinite(cloud.sigma) && cloud.column > 0 &&
                        std::isfinite(cloud.column);
   if (!is_good) return std::nullopt;

@@ -66,17 +66,18 @@ struct Sample {
 };
 
 // As kernels/project/sort_keys.cl makes them.
-std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, double depth,
-                       const DepthKeyScale& scale, const SortOrder& sort) {
+std::uint64_t sort_key(const DrawnComponent& component, const Frame& frame, std::size_t i,
+                       double depth) {
   constexpr std::uint64_t all_bits = (std::uint64_t{1} << depth_key_bits) - 1;
   constexpr int bits_below_field = depth_key_bits - 32;
+  const Column& field = component.particles.sort_field;
   std::uint64_t key = 0;
-  if (sort.by == SortOrder::By::depth) {
-    key = key_of_depth(depth, scale);
-  } else {
-    key = std::uint64_t{ascending_bits(component.particles.sort_field[i])} << bits_below_field;
+  if (frame.sort.by == SortOrder::By::depth) {
+    key = key_of_depth(depth, make_depth_key_scale(frame, component));
+  } else if (!field.is_absent()) {
+    key = std::uint64_t{ascending_bits(field[i])} << bits_below_field;
   }
-  return sort.descending ? key ^ all_bits : key;
+  return frame.sort.descending ? key ^ all_bits : key;
 }
 
 void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
@@ -84,14 +85,13 @@ void sample_component(const DrawnComponent& component, const Frame& frame, std::
   const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
   const double brightest = brightest_source(component);
   const double absorption = peak_absorption(component) / component.reference_column;
-  const DepthKeyScale scale = make_depth_key_scale(frame, component);
   for (std::size_t first = 0; first < component.particles.count; first += stride) {
     const std::size_t i = sampled_index(first, stride, component.particles.count);
     const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
     ++sample.particles;
     if (!cloud) continue;
     if (is_in_crop(*cloud, frame.crop))
-      sample.keys.push_back(sort_key(component, i, cloud->depth, scale, frame.sort));
+      sample.keys.push_back(sort_key(component, frame, i, cloud->depth));
     sample.wide_pixels += wide_pixels(*cloud, frame);
     const double amplitude = absorption * cloud->column;
     const double source =
