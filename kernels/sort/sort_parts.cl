@@ -109,6 +109,45 @@ __attribute__((noinline)) static uint sort_run_by_keys(__global PartEntry* run,
 // Pieces whose runs are asked for before they are read.
 #define RUNS_OF_PART_AHEAD 4
 
+// The part's splats of all pieces, one piece after the other, and how many have each digit; how
+// many there are. `others` will be written to all over, and is asked for in order here.
+static inline uint gather_entries(const PartSortParameters p, uint number, const PartOfKeys part,
+                                  __global const uint* first_slots, __global const uint* keys,
+                                  __global const ushort* ends, __global PartEntry* entries,
+                                  __global const PartEntry* others, uint* low, uint* high) {
+  const size_t stride = p.part_count + 1;
+  const uint last_piece = p.piece_count - 1;
+  uint count = 0;
+  for (uint piece = 0; piece < p.piece_count; ++piece) {
+    __global const uint* starts = first_slots + piece * stride + number;
+    ask_for(keys + first_slots[min(piece + RUNS_OF_PART_AHEAD, last_piece) * stride + number]);
+    for (uint slot = starts[0]; slot < starts[1]; ++slot) {
+      const PartEntry entry = entry_of(slot, keys[slot], p.has_ends ? ends[slot] : 0u, part);
+      ask_to_write(others + count);
+      entries[count++] = entry;
+      ++low[low_digit(entry)];
+      ++high[high_digit(entry)];
+    }
+  }
+  return count;
+}
+
+// There and back. The counts of digits are used up.
+static inline void sort_by_digits(__global PartEntry* entries, __global PartEntry* others,
+                                  uint count, uint* low, uint* high) {
+  scan_digits(low);
+  scan_digits(high);
+  for (uint i = 0; i < count; ++i) {
+    const PartEntry entry = entries[i];
+    others[low[low_digit(entry)]++] = entry;
+  }
+  for (uint i = 0; i < count; ++i) {
+    const PartEntry entry = others[i];
+    entries[high[high_digit(entry)]++] = entry;
+  }
+}
+
+// Work-item: one part. `scratch` has room for the splats of all parts of the launch, twice.
 __kernel void sort_parts(const PartSortParameters p, __global const PartOfKeys* parts,
                          __global const uint* first_slots, __global const uint* keys,
                          __global const ushort* ends, __global PartEntry* scratch,
@@ -122,30 +161,9 @@ __kernel void sort_parts(const PartSortParameters p, __global const PartOfKeys* 
   uint low[PART_DIGITS], high[PART_DIGITS];
   for (uint digit = 0; digit < PART_DIGITS; ++digit)
     low[digit] = high[digit] = 0;
-  const size_t stride = p.part_count + 1;
-  uint count = 0;
-  for (uint piece = 0; piece < p.piece_count; ++piece) {
-    __global const uint* starts = first_slots + piece * stride + number;
-    ask_for(keys +
-            first_slots[min(piece + RUNS_OF_PART_AHEAD, p.piece_count - 1) * stride + number]);
-    for (uint slot = starts[0]; slot < starts[1]; ++slot) {
-      const PartEntry entry = entry_of(slot, keys[slot], p.has_ends ? ends[slot] : 0u, part);
-      ask_to_write(others + count);  // which is written to all over in the next loop
-      entries[count++] = entry;
-      ++low[low_digit(entry)];
-      ++high[high_digit(entry)];
-    }
-  }
-  scan_digits(low);
-  scan_digits(high);
-  for (uint i = 0; i < count; ++i) {
-    const PartEntry entry = entries[i];
-    others[low[low_digit(entry)]++] = entry;
-  }
-  for (uint i = 0; i < count; ++i) {
-    const PartEntry entry = others[i];
-    entries[high[high_digit(entry)]++] = entry;
-  }
+  const uint count =
+      gather_entries(p, number, part, first_slots, keys, ends, entries, others, low, high);
+  sort_by_digits(entries, others, count, low, high);
   for (uint i = 0; i + 1 < count; ++i) {
     if (digits_of(entries[i]) != digits_of(entries[i + 1])) continue;
     i += sort_run_by_keys(entries + i, others + i, count - i, keys, ends, p.has_ends) - 1;
