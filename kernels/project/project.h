@@ -166,8 +166,6 @@ struct BlockCounts {
 struct KeyPartParameters {
   unsigned int first_block, block_count;  // of the launch, in counts
   unsigned int stride;                    // slots of a block
-  unsigned int piece_blocks;              // per work-item
-  unsigned int first_piece;               // of the launch, in first_slots
   unsigned int part_count;
   unsigned int first_key, shift;  // bin (key - first_key) >> shift, or the first or last one
   unsigned int has_ends;

@@ -33,7 +33,7 @@ struct PartOfKeys {
 // One launch of several parts.
 struct PartSortParameters {
   unsigned int first_part, sorted_parts;
-  unsigned int part_count, piece_count;  // of all
+  unsigned int part_count, block_count;  // of all
   unsigned int scratch_half;             // splats
   unsigned int has_ends;
 };

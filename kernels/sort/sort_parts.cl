@@ -106,21 +106,21 @@ __attribute__((noinline)) static uint sort_run_by_keys(__global PartEntry* run,
   return length;
 }
 
-// Pieces whose runs are asked for before they are read.
+// Blocks whose runs are asked for before they are read.
 #define RUNS_OF_PART_AHEAD 4
 
-// The part's splats of all pieces, one piece after the other, and how many have each digit; how
+// The part's splats of all blocks, one block after the other, and how many have each digit; how
 // many there are. `others` will be written to all over, and is asked for in order here.
 static inline uint gather_entries(const PartSortParameters p, uint number, const PartOfKeys part,
                                   __global const uint* first_slots, __global const uint* keys,
                                   __global const ushort* ends, __global PartEntry* entries,
                                   __global const PartEntry* others, uint* low, uint* high) {
   const size_t stride = p.part_count + 1;
-  const uint last_piece = p.piece_count - 1;
+  const uint last_block = p.block_count - 1;
   uint count = 0;
-  for (uint piece = 0; piece < p.piece_count; ++piece) {
-    __global const uint* starts = first_slots + piece * stride + number;
-    ask_for(keys + first_slots[min(piece + RUNS_OF_PART_AHEAD, last_piece) * stride + number]);
+  for (uint block = 0; block < p.block_count; ++block) {
+    __global const uint* starts = first_slots + block * stride + number;
+    ask_for(keys + first_slots[min(block + RUNS_OF_PART_AHEAD, last_block) * stride + number]);
     for (uint slot = starts[0]; slot < starts[1]; ++slot) {
       const PartEntry entry = entry_of(slot, keys[slot], p.has_ends ? ends[slot] : 0u, part);
       ask_to_write(others + count);

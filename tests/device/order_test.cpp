@@ -40,18 +40,6 @@ Column field_values(std::size_t count) {
   return Column::owning(values);
 }
 
-void expect_order_of_the_oracle(DeviceContext& device, Frame frame) {
-  frame = with_identities(frame);
-  Stages stages(device, frame);
-  const std::vector<std::uint64_t> order = stages.sorted_particles();
-  std::vector<reference::Splat> expected = reference::project(frame);
-  reference::sort(expected, frame.sort);
-  ASSERT_EQ(order.size(), expected.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    ASSERT_EQ(order[i], expected[i].particle) << "at place " << i;
-  }
-}
-
 using Order = StageTest;
 
 TEST_F(Order, IsTheOraclesForAnyDepths) {

@@ -214,4 +214,17 @@ class StageTest : public testing::Test {
   static inline std::unique_ptr<DeviceContext> device_;
 };
 
+// Index for index.
+inline void expect_order_of_the_oracle(DeviceContext& device, Frame frame) {
+  frame = with_identities(frame);
+  Stages stages(device, frame);
+  const std::vector<std::uint64_t> order = stages.sorted_particles();
+  std::vector<reference::Splat> expected = reference::project(frame);
+  reference::sort(expected, frame.sort);
+  ASSERT_EQ(order.size(), expected.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    ASSERT_EQ(order[i], expected[i].particle) << "at place " << i;
+  }
+}
+
 }  // namespace splotchcl::test

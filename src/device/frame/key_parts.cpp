@@ -85,8 +85,8 @@ std::optional<KeyParts> choose_key_parts(const Frame& frame, const FramePlan& pl
 }
 
 std::uint32_t blocks_apart(const DeviceTraits& traits) {
-  constexpr std::uint32_t pieces_of_thread = 4;
-  return std::max(traits.blocks_apart, pieces_of_thread * traits.piece_blocks * traits.threads);
+  constexpr std::uint32_t of_thread = 4;
+  return std::max(traits.blocks_apart, of_thread * traits.threads);
 }
 
 std::uint32_t parts_at_a_time(const DeviceTraits& traits) {

@@ -44,11 +44,11 @@ struct ParticleCounts {
   std::vector<ChunkBlocks> chunks_around;
 };
 
-// Where splats lie that were put in parts of their keys, piece by piece of the particles.
+// Where splats lie that were put in parts of their keys, block by block of the particles.
 struct SplatParts {
-  // Per piece one more than there are parts: where its splats of each part begin, and the last end.
+  // Per block one more than there are parts: where its splats of each part begin, and the last end.
   Buffer<std::uint32_t> first_slots;
-  std::uint32_t piece_count = 0;
+  std::uint32_t block_count = 0;
   std::vector<KeyPart> keys;
 };
 

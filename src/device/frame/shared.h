@@ -48,7 +48,7 @@ static_assert(has_words<ProjectParameters, 155>);
 static_assert(has_words<BlockBox, 8>);
 static_assert(has_words<BlockCounts, 4>);
 static_assert(has_words<KeyBins, 2>);
-static_assert(has_words<KeyPartParameters, 9>);
+static_assert(has_words<KeyPartParameters, 7>);
 static_assert(has_words<ExtendedParameters, 76>);
 static_assert(has_words<InterpolateParameters, 10>);
 static_assert(has_words<PathParameters, 26>);

@@ -20,7 +20,6 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.splats_of_part = 1u << 15;
   traits.fewest_parts = 96;
   traits.blocks_apart = 64;
-  traits.piece_blocks = 1;
   traits.segment_length = 8192;
   traits.list_capacity = 3u << 20;
 }

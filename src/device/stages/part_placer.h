@@ -8,20 +8,19 @@
 
 namespace splotchcl {
 
-// Puts splats where they stay, in order of the parts that their sort keys lie in, piece by piece of
+// Puts splats where they stay, in order of the parts that their sort keys lie in, block by block of
 // the particles (kernels/project/key_parts.cl): the end of the stage `project` of large ordered
 // frames on a processor.
 class PartPlacer {
  public:
-  // For so many pieces. Blocks of particles have room for `stride` splats.
-  PartPlacer(const StageContext& context, const KeyParts& parts, std::uint32_t pieces,
+  // For so many blocks of particles, each with room for `stride` splats.
+  PartPlacer(const StageContext& context, const KeyParts& parts, std::uint32_t blocks,
              std::uint32_t stride);
 
   // Blocks from `first_block` on of all, whose splats lie in `apart`, which has room for theirs
   // alone, as `counts` says of all. They come to lie in `keyed`, which has room for all.
   void place(const KeyedSplats& apart, const Buffer<shared::BlockCounts>& counts,
-             std::uint32_t first_block, std::uint32_t block_count, std::uint32_t first_piece,
-             const KeyedSplats& keyed);
+             std::uint32_t first_block, std::uint32_t block_count, const KeyedSplats& keyed);
   // Where they lie, once all blocks have been placed.
   SplatParts take_parts() { return std::move(parts_); }
 

@@ -9,16 +9,16 @@
 namespace splotchcl {
 namespace {
 
-// How many splats each part has, of all pieces.
+// How many splats each part has, of all blocks.
 std::vector<std::uint64_t> count_splats(BufferPool& pool, const SplatParts& parts) {
   const std::size_t part_count = parts.keys.size();
   const std::vector<std::uint32_t> starts =
       pool.download(parts.first_slots, static_cast<std::size_t>(parts.first_slots.size()));
   std::vector<std::uint64_t> splats(part_count);
-  for (std::size_t piece = 0; piece < parts.piece_count; ++piece) {
-    const std::uint32_t* of_piece = starts.data() + piece * (part_count + 1);
+  for (std::size_t block = 0; block < parts.block_count; ++block) {
+    const std::uint32_t* of_block = starts.data() + block * (part_count + 1);
     for (std::size_t part = 0; part < part_count; ++part)
-      splats[part] += of_piece[part + 1] - of_piece[part];
+      splats[part] += of_block[part + 1] - of_block[part];
   }
   return splats;
 }
@@ -72,7 +72,7 @@ SortedSplats PartSorter::sort(KeyedSplats keyed) const {
   sorted.order = pool.get<std::uint32_t>(keyed.count, "order");
   shared::PartSortParameters parameters{};
   parameters.part_count = static_cast<std::uint32_t>(splats.size());
-  parameters.piece_count = parts.piece_count;
+  parameters.block_count = parts.block_count;
   parameters.scratch_half = static_cast<std::uint32_t>(most);
   parameters.has_ends = keyed.key_ends.size() > 0;
   const Program program = device_.programs.get(Specialization::sort_parts());

@@ -292,13 +292,24 @@ KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
   keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
   keyed.free_slots = free_slots(found, stride, keyed.particles.around);
   if (keyed.particles.around > 0) keyed.particles.chunks_around = chunks_around(all, found);
+  put_keys_together(keys, counts, all.blocks, stride, keyed);
+  return keyed;
+}
+
+// Of keys that lie block by block, those of splats, and where these lie; with room for clouds
+// around the camera.
+void Projector::put_keys_together(const Buffer<std::uint32_t>& keys,
+                                  const Buffer<shared::BlockCounts>& counts, std::uint32_t blocks,
+                                  std::uint32_t stride, KeyedSplats& keyed) const {
+  BufferPool& pool = context_.device.pool;
   const std::uint64_t most = keyed.particles.visible + keyed.particles.around;
   // What sorting alone needs comes back as one: lists find their memory there.
   auto [sort_keys, scratch] = pool.get_two<std::uint32_t>(most, "sort keys");
   keyed.keys = std::move(sort_keys);
   keyed.scratch = std::move(scratch);
   keyed.order = pool.get<std::uint32_t>(most, "order");
-  scan_counts(all.blocks, counts, offsets);
+  const auto offsets = pool.get<std::uint32_t>(std::uint64_t{blocks} + 1, "block offsets");
+  scan_counts(blocks, counts, offsets);
   Launch(context_.device, "project",
          context_.device.programs.get(Specialization::compact()).create_kernel("compact_keys"))
       .value(stride)
@@ -307,8 +318,7 @@ KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
       .arg(keys)
       .arg(keyed.keys)
       .arg(keyed.order)
-      .run_items(all.blocks);
-  return keyed;
+      .run_items(blocks);
 }
 
 KeyedSplats Projector::keyed_memory(std::uint32_t count) const {

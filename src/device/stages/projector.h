@@ -56,7 +56,9 @@ class Projector {
   KeyedSplats project_all_in_parts(const AllParticles& all,
                                    const std::vector<ParticleBuffers>& particles) const;
   std::uint64_t room_for_keys(std::uint32_t slots) const;
-  void gather_keys(KeyedSplats& keyed, std::uint32_t slots) const;
+  void put_keys_together(const Buffer<std::uint32_t>& keys,
+                         const Buffer<shared::BlockCounts>& counts, std::uint32_t blocks,
+                         std::uint32_t stride, KeyedSplats& keyed) const;
   Filling filling_of_slots() const;
   KeyedSplats project_all_in_groups(const AllParticles& all,
                                     const std::vector<ParticleBuffers>& particles) const;
