@@ -80,7 +80,7 @@ class DeviceColumns : public ::testing::TestWithParam<bool> {
     Particles particles;
     particles.position = column;
     store_.begin_frame();
-    const ParticleBuffers buffers = store_.get(particles);
+    const ParticleBuffers buffers = store_.get(particles, {0, 0, 0});
     std::vector<float> values(column.size());
     device_.queue.enqueue_read_buffer(buffers.position, 0, values.size() * sizeof(float),
                                       values.data());

@@ -39,7 +39,7 @@ std::shared_ptr<const ParticleBoxes> boxes_of(const Particles& particles) {
   return std::make_shared<const ParticleBoxes>(std::move(boxes));
 }
 
-// Clouds in view, and behind them in the file twice as many that lie far beside it.
+// Clouds in view, and before them in the file twice as many that lie far beside it.
 Frame scene(bool is_ordered) {
   CloudSetup setup;
   setup.count = 3 * static_cast<int>(particles_in_view);
@@ -47,7 +47,7 @@ Frame scene(bool is_ordered) {
   Particles& particles = clouds.particles;
   std::vector<float> positions(particles.position.data(),
                                particles.position.data() + particles.position.size());
-  for (std::size_t i = particles_in_view; i < particles.count; ++i)
+  for (std::size_t i = 0; i < particles.count - particles_in_view; ++i)
     positions[3 * i] += 5000;
   particles.position = Column::owning(std::move(positions));
   if (is_ordered) clouds.absorption = {Absorption::Kind::gray, 0.2};

@@ -197,14 +197,19 @@ TEST_P(Windows, HoldAnEmptyFrame) {
   EXPECT_EQ(draw_in_windows(frame, 1).pixels, whole.pixels);
 }
 
+// Of 1000 clouds, and of five blocks' in chunks of three, which are shorter than chunks may be.
 TEST_P(Windows, DrawColumnsInPiecesToTheSameBits) {
+  device().traits.chunk_blocks = 4;
+  const int five_blocks = 5 * static_cast<int>(device().traits.project_block);
   for (const bool is_ordered : {false, true}) {
-    const Frame frame = is_ordered ? many_clouds(1000) : without_absorption(many_clouds(1000));
-    const Image whole = draw(frame);
-    const DeviceTraits traits = device().traits;
-    device().traits.largest_buffer = 3 * sizeof(float) * 512;
-    EXPECT_EQ(draw(frame).pixels, whole.pixels) << is_ordered;
-    device().traits = traits;
+    for (const int count : {1000, five_blocks}) {
+      const Frame frame = is_ordered ? many_clouds(count) : without_absorption(many_clouds(count));
+      const Image whole = draw(frame);
+      const DeviceTraits traits = device().traits;
+      device().traits.largest_buffer = 3 * sizeof(float) * traits.project_block * 4;
+      EXPECT_EQ(draw(frame).pixels, whole.pixels) << count << ", in order: " << is_ordered;
+      device().traits = traits;
+    }
   }
 }
 
@@ -238,9 +243,14 @@ TEST_P(Windows, HaveNoMoreSplatsThanKernelsCount) {
 }
 
 TEST_P(Windows, DrawColumnsThatAreReadChunkByChunkToTheSameBits) {
+  device().traits.chunk_blocks = 4;
+  const int five_blocks = 5 * static_cast<int>(device().traits.project_block);
   for (const bool is_ordered : {false, true}) {
-    const Frame frame = is_ordered ? many_clouds(1000) : without_absorption(many_clouds(1000));
-    EXPECT_EQ(draw(streamed(frame)).pixels, draw(frame).pixels) << is_ordered;
+    for (const int count : {1000, five_blocks}) {
+      const Frame frame = is_ordered ? many_clouds(count) : without_absorption(many_clouds(count));
+      EXPECT_EQ(draw(streamed(frame)).pixels, draw(frame).pixels)
+          << count << ", in order: " << is_ordered;
+    }
   }
 }
 

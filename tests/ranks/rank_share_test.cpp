@@ -39,7 +39,10 @@ TEST(RankShare, GivesEachLeafToOneRank) {
   }
 }
 
+// No chunk lies across the border of two of one process, where columns in pieces may be cut.
 TEST(RankShare, GivesEachParticleToOneRankInOrder) {
+  DeviceTraits sizes = small_sizes();
+  sizes.chunk_blocks = 4;
   Frame frame;
   for (const std::size_t count : {50u, 3u, 0u, 21u}) {
     frame.components.emplace_back();
@@ -49,16 +52,36 @@ TEST(RankShare, GivesEachParticleToOneRankInOrder) {
     std::vector<std::uint64_t> next(frame.components.size());
     std::uint32_t component = 0;
     for (int rank = 0; rank < ranks; ++rank) {
-      for (const ParticleChunk& chunk : particles_of_rank(frame, small_sizes(), rank, ranks)) {
+      for (const ParticleChunk& chunk : particles_of_rank(frame, sizes, rank, ranks)) {
         EXPECT_GE(chunk.component, component);
         component = chunk.component;
         EXPECT_EQ(chunk.first, next[component]);
         EXPECT_EQ(chunk.first % 4, 0u);
-        EXPECT_EQ(chunk.first / 8, (chunk.end - 1) / 8);
+        const std::uint64_t length =
+            particles_per_chunk(frame.components[component].particles.count, sizes);
+        EXPECT_EQ(chunk.first / length, (chunk.end - 1) / length);
         next[component] = chunk.end;
       }
     }
     EXPECT_EQ(next, (std::vector<std::uint64_t>{50, 3, 0, 21})) << ranks;
+  }
+}
+
+TEST(ParticleChunks, AreOfOneLengthButTheLast) {
+  DeviceTraits sizes = small_sizes();
+  sizes.chunk_blocks = 4;
+  for (std::size_t count = 0; count < 100; ++count) {
+    Frame frame;
+    frame.components.emplace_back();
+    frame.components.back().particles.count = count;
+    std::uint64_t next = 0;
+    for (const ParticleChunk& chunk : particle_chunks(frame, sizes)) {
+      EXPECT_EQ(chunk.first, next);
+      EXPECT_TRUE(chunk.end == count || chunk.count() == particles_per_chunk(count, sizes));
+      EXPECT_LE(chunk.count(), sizes.chunk_length());
+      next = chunk.end;
+    }
+    EXPECT_EQ(next, count);
   }
 }
 

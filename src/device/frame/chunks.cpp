@@ -47,13 +47,17 @@ std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const Devic
   return chunks;
 }
 
-std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits) {
+std::uint64_t particles_per_chunk(std::uint64_t count, const DeviceTraits& traits) {
   const std::uint32_t block = traits.project_block;
+  const std::uint64_t blocks = ceil_divide(count, block);
+  return std::uint64_t{block} * equal_length(blocks, traits.chunk_length() / block);
+}
+
+std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits) {
   std::vector<ParticleChunk> chunks;
   for (std::uint32_t c = 0; c < frame.components.size(); ++c) {
     const std::uint64_t count = frame.components[c].particles.count;
-    const std::uint64_t blocks = ceil_divide(count, block);
-    const std::uint32_t length = block * equal_length(blocks, traits.chunk_length() / block);
+    const auto length = static_cast<std::uint32_t>(particles_per_chunk(count, traits));
     for (const SplatChunk& part : cut(count, length))
       chunks.push_back({c, part.first, part.first + part.count});
   }

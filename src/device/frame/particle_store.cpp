@@ -244,28 +244,28 @@ bool ParticleStore::are_whole(const Particles& particles) const {
 // Whole columns where they can be: a second frame finds them.
 ParticleStore::Piece ParticleStore::piece_of(const Particles& particles,
                                              const ParticleChunk& chunk) const {
-  const std::uint64_t chunk_length = device_.traits.chunk_length();
+  if (has_streamed_column(particles)) return {chunk.first, chunk.end};
   // Kernels number the particles of a buffer by 32 bits.
   constexpr std::uint64_t most = std::uint64_t{1} << 31;
   const std::uint64_t largest = std::min(most, device_.traits.largest_buffer / (3 * sizeof(float)));
-  const bool is_streamed = has_streamed_column(particles);
-  if (!is_streamed && particles.count <= largest) return {0, particles.count};
-  const std::uint64_t length =
-      is_streamed ? chunk_length
-                  : std::max<std::uint64_t>(1, largest / chunk_length) * chunk_length;
+  if (particles.count <= largest) return {0, particles.count};
+  const std::uint64_t chunk_length = particles_per_chunk(particles.count, device_.traits);
+  const std::uint64_t length = std::max<std::uint64_t>(1, largest / chunk_length) * chunk_length;
   const std::uint64_t first = chunk.first / length * length;
   return {first, std::min<std::uint64_t>(particles.count, first + length)};
 }
 
-ParticleBuffers ParticleStore::get(const Particles& particles) {
-  list_seen(particles, {0, particles.count}, nullptr);
-  return get_piece(particles, {0, particles.count});
-}
-
 ParticleBuffers ParticleStore::get(const Particles& particles, const ParticleChunk& chunk,
                                    const ViewBounds* bounds) {
+  const Piece piece = piece_of(particles, chunk);
+  // What lies beyond would be read from behind the buffers.
+  if (chunk.first < piece.first || chunk.end > piece.end) {
+    throw DeviceError("found a chunk of particles " + std::to_string(chunk.first) + " to " +
+                      std::to_string(chunk.end) + " across pieces of columns, expected it within " +
+                      std::to_string(piece.first) + " to " + std::to_string(piece.end));
+  }
   list_seen(particles, {chunk.first, chunk.end}, bounds);
-  return get_piece(particles, piece_of(particles, chunk));
+  return get_piece(particles, piece);
 }
 
 ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece& piece) {

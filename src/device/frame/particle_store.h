@@ -38,9 +38,9 @@ class ParticleStore {
   explicit ParticleStore(DeviceContext& device, bool columns_stay = false)
       : device_(device), columns_stay_(columns_stay) {}
 
-  ParticleBuffers get(const Particles& particles);
-  // A piece in which the chunk lies. Values that are made as they are wanted are not made for
-  // blocks of particles that `bounds`, which may be null, leave out: those are bad particles then.
+  // A piece in which the chunk lies, which is one of particle_chunks() or of particles_of_rank().
+  // Values that are made as they are wanted are not made for blocks of particles that `bounds`,
+  // which may be null, leave out: those are bad particles then.
   ParticleBuffers get(const Particles& particles, const ParticleChunk& chunk,
                       const ViewBounds* bounds = nullptr);
   // Whether get() of a chunk returns all particles, which stay beside those of other components.

@@ -37,9 +37,9 @@ std::vector<ParticleChunk> particles_of_rank(const Frame& frame, const DeviceTra
       return place / traits.project_block * traits.project_block;
     };
     // Chunks end where those of one process do, so that columns in pieces have them whole.
-    const std::uint64_t last = place_of(end);
+    const std::uint64_t last = place_of(end), length = particles_per_chunk(count, traits);
     for (std::uint64_t first = place_of(begin); first < last;) {
-      const std::uint64_t next = (first / traits.chunk_length() + 1) * traits.chunk_length();
+      const std::uint64_t next = (first / length + 1) * length;
       chunks.push_back({c, first, std::min(next, last)});
       first = chunks.back().end;
     }
