@@ -204,7 +204,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     __global const ExtendedSplat* splats) {
   __local Batch batch;
   const uint item = get_local_id(0);
-  const Segment segment = segments[get_group_id(0)];
+  const Segment segment = segments[p.first_segment + get_group_id(0)];
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
   const uint first_x = (uint)grid.first_x, first_y = (uint)grid.first_y;

@@ -119,6 +119,15 @@ static inline void store_partial(const float* tile, __global float* partial) {
   }
 }
 
+INLINED void store_segment(const float* drawn, const Segment segment, __global float* planes,
+                           __global float* partials, const Grid grid, size_t corner) {
+  if (segment.partial == NO_PARTIAL) {
+    store_tile(drawn, planes, grid, corner);
+  } else {
+    store_partial(drawn, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
+  }
+}
+
 #ifdef CLOUDS_IN_LISTS
 #define CLOUD_ROWS(CHANNELS)                                     \
   for (int y = 0; y < TILE_HEIGHT; ++y) {                        \
@@ -175,6 +184,32 @@ static inline int is_opaque(const float* front, __global const float* planes, co
   return 1;
 }
 #endif
+
+#ifdef STENCILS
+#define STENCIL_BATCH_PARAMETERS , __global const Stencil *stencil, StencilBatch *batch
+#define STENCIL_BATCH_ARGUMENTS , stencil, &stencil_batch
+#else
+#define STENCIL_BATCH_PARAMETERS
+#define STENCIL_BATCH_ARGUMENTS
+#endif
+
+// Adds the entry if it is one whose window was found with those of its batch.
+INLINED int add_small_splat(float* tile, __global const TileSplat* entry, int in_batch,
+                            const EntryWindows* windows STENCIL_BATCH_PARAMETERS) {
+#ifdef NARROW_SPLATS
+  if (windows->pixels[in_batch] != 0) {
+    add_narrow_splat(tile, windows, in_batch, entry);
+    return 1;
+  }
+#endif
+#ifdef STENCILS
+  if (stencil && entry->sigma < 0.0f) {
+    add_stencil(tile, batch, in_batch, entry, stencil);
+    return 1;
+  }
+#endif
+  return 0;
+}
 
 #define ENTRIES_AHEAD 32
 
@@ -266,17 +301,7 @@ __attribute__((noinline)) static void composite_segment(
       // Lists have splats that do not touch the tile, too (splat.h), and those of a crop other
       // ones.
       if (rows.x > rows.y || columns.x > columns.y) continue;
-#ifdef NARROW_SPLATS
-      if (windows.pixels[in_batch] != 0) {
-        add_narrow_splat(tile, &windows, in_batch, entries + k);
-      } else
-#endif
-#ifdef STENCILS
-          if (stencil && entries[k].sigma < 0.0f) {
-        add_stencil(tile, &stencil_batch, in_batch, entries + k, stencil);
-      } else
-#endif
-      {
+      if (!add_small_splat(tile, entries + k, in_batch, &windows STENCIL_BATCH_ARGUMENTS)) {
         const int form = form_of_splat(entries + k, &tile_of_splats, &depth_of_block, &p);
         if (!let_wait(tile, &waiting, rows, columns, entries + k, grid.mean_sigma, form))
           add_splat(tile, entries + k, rows, columns, &tile_of_splats, form);
@@ -306,15 +331,10 @@ __attribute__((noinline)) static void composite_segment(
 #endif
 #ifdef SPLATS_OF_BLOCK
   add_block(tile, front);
-  const float* const all = front;
+  store_segment(front, segment, planes, partials, grid, corner);
 #else
-  const float* const all = tile;
+  store_segment(tile, segment, planes, partials, grid, corner);
 #endif
-  if (segment.partial == NO_PARTIAL) {
-    store_tile(all, planes, grid, corner);
-  } else {
-    store_partial(all, partials + (size_t)segment.partial * PLANES * TILE_WIDTH * TILE_HEIGHT);
-  }
 }
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,

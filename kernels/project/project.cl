@@ -1,14 +1,13 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
 
-#define PROJECT_PARAMETERS                                                                  \
-  __global const float *positions, __global const float *smoothing_lengths,                 \
-      __global const float *weights, __global const float *colors,                          \
-      __global const float *intensities, __global const float *sort_fields,                 \
-      __global const uint *offsets, __global BlockCounts *counts, __global Splat *splats,   \
-      __global uint *keys, __global ushort *key_ends, __global uint *order,                 \
-      __global const WidthNeeds *width_needs,                                               \
-      __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS \
+#define PROJECT_PARAMETERS                                                                    \
+  __global const float *positions, __global const float *smoothing_lengths,                   \
+      __global const float *weights, __global const float *colors,                            \
+      __global const float *intensities, __global const float *sort_fields,                   \
+      __global const uint *offsets, __global BlockCounts *counts, __global Splat *splats,     \
+      __global uint *keys, __global ushort *key_ends, __global const WidthNeeds *width_needs, \
+      __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS   \
           TILE_PARAMETERS
 
 #define SPLATS_WRITTEN_AHEAD 64
@@ -17,6 +16,89 @@ static inline uint blocks_of(const ProjectParameters p) {
   const uint particles = p.end_particle - p.first_particle;
   return particles / p.block_particles + (particles % p.block_particles != 0);
 }
+
+#ifdef COUNT_KEYS
+INLINED KeyBins no_bins(void) {
+  KeyBins bins;
+  bins.least = ~0u;
+  bins.most = 0;
+  return bins;
+}
+
+INLINED void count_key(uint bin, __global uint* key_counts, KeyBins* bins) {
+  atomic_inc(&key_counts[bin]);
+  bins->least = min(bins->least, bin);
+  bins->most = max(bins->most, bin);
+}
+#endif
+
+#ifdef COUNT_TILES
+// `kept` is where the splat lies; `tiles` takes which it touches, where it does not hold them.
+INLINED void list_splat(const Splat listed, __global const Splat* kept, __global const Grid* grid,
+                        uint is_visible, __global uint* count, __global uint* tiles,
+                        WaitingSplats* waiting) {
+#ifdef TILES_IN_SPLAT
+#ifdef WRITES_ALL_LANES
+  if (grid->is_part && !is_visible) return;
+#endif
+  const uint touched = tiles_in_lists(listed.tiles, kept, grid);
+#else
+  const uint touched = tiles_of(listed, *grid);
+  *tiles = touched;
+#endif
+  count_in_tiles(touched, kept, grid, is_visible, count, waiting);
+}
+#endif
+
+INLINED BlockCounts no_counts(void) {
+  BlockCounts counts;
+  counts.visible = counts.bad = counts.too_sharp = counts.around = 0;
+  return counts;
+}
+
+// The splats of LANES particles from i on; false where none is visible. `of_block` counts what is
+// no splat.
+INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
+                        __global const WidthNeeds* width_needs, const ExtendedParameters* e,
+                        const Columns columns, BlockCounts* of_block, SplatArrays* found) {
+  SplatLanes lanes = project_lanes(i, end, *p, width_needs, *e, columns);
+  if (ANY(lanes.bad)) of_block->bad += count_true(lanes.bad);
+#ifdef CLOUDS_AROUND
+  if (ANY(lanes.around)) of_block->around += count_true(lanes.around);
+#endif
+  const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
+  if (ANY(unclear)) {
+    const INTEGER within = are_within_limits(i, end, unclear, columns, *p);
+    lanes.visible &= within;
+    lanes.too_sharp &= within;
+  }
+  if (ANY(lanes.too_sharp)) of_block->too_sharp += count_true(lanes.too_sharp);
+  if (!ANY(lanes.visible)) return 0;
+#ifdef TILES_OF_LANES
+  spread(lanes, select((INTEGER)((int)ONE_TILE), tiles_of_lanes(lanes, *p), lanes.visible), found);
+#else
+  spread(lanes, (INTEGER)(0), found);
+#endif
+#ifdef SORT_KEYS
+  STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, *p)), found->sort_keys);
+#endif
+  return 1;
+}
+
+#ifdef COPIES
+// Of a panorama, in which a splat may show several times.
+INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
+                         const ProjectParameters p, float* y) {
+#ifdef EXTENDED_NUMBERS
+  *y = pixels_from_middle(splat->y, *splat, p);
+  return copies_in_picture(pixels_from_middle(splat->x, *splat, p), *y, splat->along_x.radius,
+                           splat->radius, p);
+#else
+  *y = found->pixel_y[k];
+  return copies_in_picture(found->pixel_x[k], *y, found->radius_x[k], found->radius[k], p);
+#endif
+}
+#endif
 
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
@@ -29,13 +111,11 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
                                      sort_fields OWN_COLORS_ARGUMENT);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
-  const uint numbered = p.first_block + block;
-  const uint first_slot = p.first_slot + offsets[numbered];
-  uint slot = first_slot, bad_count = 0, too_sharp_count = 0, around_count = 0;
+  const uint first_slot = p.first_slot + offsets[p.first_block + block];
+  uint slot = first_slot;
+  BlockCounts of_block = no_counts();
 #ifdef COUNT_KEYS
-  KeyBins bins;
-  bins.least = ~0u;
-  bins.most = 0;
+  KeyBins bins = no_bins();
 #endif
 #ifdef COUNT_TILES
   __global uint* count = tile_counts + (size_t)block * p.tile_count;
@@ -43,40 +123,11 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
     count[t] = 0;
   WaitingSplats waiting = no_waiting_splats();
 #endif
-  if (p.leaves_out_blocks && left_out[block] != 0) {
-    counts[numbered].visible = 0;
-    counts[numbered].bad = left_out[block] - 1;
-    counts[numbered].too_sharp = 0;
-    counts[numbered].around = 0;
-#ifdef COUNT_KEYS
-    key_bins[block] = bins;
-#endif
-    return;
-  }
-  for (uint i = begin; i < end; i += LANES) {
-    SplatLanes lanes = project_lanes(i, end, p, width_needs, e, columns);
-    if (ANY(lanes.bad)) bad_count += count_true(lanes.bad);
-#ifdef CLOUDS_AROUND
-    if (ANY(lanes.around)) around_count += count_true(lanes.around);
-#endif
-    const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
-    if (ANY(unclear)) {
-      const INTEGER within = are_within_limits(i, end, unclear, columns, p);
-      lanes.visible &= within;
-      lanes.too_sharp &= within;
-    }
-    if (ANY(lanes.too_sharp)) too_sharp_count += count_true(lanes.too_sharp);
-    if (!ANY(lanes.visible)) continue;
+  const int is_left_out = p.leaves_out_blocks && left_out[block] != 0;
+  if (is_left_out) of_block.bad = left_out[block] - 1;
+  for (uint i = begin; i < end && !is_left_out; i += LANES) {
     SplatArrays found;
-#ifdef TILES_OF_LANES
-    spread(lanes, select((INTEGER)((int)ONE_TILE), tiles_of_lanes(lanes, p), lanes.visible),
-           &found);
-#else
-    spread(lanes, (INTEGER)(0), &found);
-#endif
-#ifdef SORT_KEYS
-    STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, p)), found.sort_keys);
-#endif
+    if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
     for (uint k = 0; k < LANES; ++k) {
 #ifdef WRITES_ALL_LANES
       const uint is_visible = (uint)found.visible[k] & 1u;
@@ -101,14 +152,12 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
       }
 #endif
 #ifdef COPIES
-#ifdef EXTENDED_NUMBERS
-      const float x = pixels_from_middle(splat.x, splat, p), radius_x = splat.along_x.radius;
-      const float y = pixels_from_middle(splat.y, splat, p), radius = splat.radius;
+      float y = 0.0f;
+#if defined(OUTPUT_SPLATS) || defined(EXTENDED_NUMBERS)
+      const Copies copies = copies_of(&found, k, &splat, p, &y);
 #else
-      const float x = found.pixel_x[k], radius_x = found.radius_x[k];
-      const float y = found.pixel_y[k], radius = found.radius[k];
+      const Copies copies = copies_of(&found, k, 0, p, &y);
 #endif
-      const Copies copies = copies_in_picture(x, y, radius_x, radius, p);
       for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
 #endif
 #ifdef OUTPUT_SPLATS
@@ -134,23 +183,11 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
         if (!p.sort_by_field) key_ends[slot] = (ushort)key;
 #endif
 #ifdef COUNT_KEYS
-        const uint bin = bin_of(key, p);
-        atomic_inc(&key_counts[bin]);
-        bins.least = min(bins.least, bin);
-        bins.most = max(bins.most, bin);
+        count_key(bin_of(key, p), key_counts, &bins);
 #endif
 #ifdef COUNT_TILES
-        __global const Grid* grid = grids + grid_of(listed);
-#ifdef TILES_IN_SPLAT
-#ifdef WRITES_ALL_LANES
-        if (grid->is_part && !is_visible) continue;
-#endif
-        const uint touched = tiles_in_lists(listed.tiles, kept, grid);
-#else
-        const uint touched = tiles_of(listed, *grid);
-        tiles[slot] = touched;
-#endif
-        count_in_tiles(touched, kept, grid, is_visible, count, &waiting);
+        list_splat(listed, kept, grids + grid_of(listed), is_visible, count, tiles + slot,
+                   &waiting);
 #endif
         slot += is_visible;
 #ifdef COPIES
@@ -161,10 +198,8 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #ifdef COUNT_TILES
   count_waiting(&waiting, count);
 #endif
-  counts[numbered].visible = slot - first_slot;
-  counts[numbered].bad = bad_count;
-  counts[numbered].too_sharp = too_sharp_count;
-  counts[numbered].around = around_count;
+  of_block.visible = slot - first_slot;
+  counts[p.first_block + block] = of_block;
 #ifdef COUNT_KEYS
   key_bins[block] = bins;
 #endif
@@ -182,7 +217,6 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e, PRO
   const uint block = piece_of_item(blocks_of(p));
   if (block == NO_PIECE) return;
   project_block(block, &p, &e, NUMBERS_OF_LANES, positions, smoothing_lengths, weights, colors,
-                intensities, sort_fields, offsets, counts, splats, keys, key_ends, order,
-                width_needs,
+                intensities, sort_fields, offsets, counts, splats, keys, key_ends, width_needs,
                 left_out OWN_COLORS_ARGUMENT EXTENDED_ARGUMENTS KEY_ARGUMENTS TILE_ARGUMENTS);
 }

@@ -2,8 +2,32 @@
 // group, and when these counts have been scanned a second one writes the splats without gaps, in
 // the order of the file.
 
+INLINED SplatLanes no_splat(void) {
+  SplatLanes none;
+  none.visible = none.bad = none.unclear = none.too_sharp = 0;
+#ifdef CLOUDS_AROUND
+  none.around = 0;
+#endif
+  return none;
+}
+
+// Particle i, with what its depth key decides.
+INLINED SplatLanes project_particle(uint i, const ProjectParameters p,
+                                    __global const WidthNeeds* width_needs,
+                                    const ExtendedParameters e, const Columns columns) {
+  SplatLanes lanes = project_lanes(i, p.end_particle, p, width_needs, e, columns);
+  const int unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
+  if (unclear) {
+    const int within = are_within_limits(i, p.end_particle, unclear, columns, p);
+    lanes.visible &= within;
+    lanes.too_sharp &= within;
+  }
+  return lanes;
+}
+
 // As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
-// that counts, and counts[0] those of all groups. left_out[b] is that of a launch's group b.
+// that counts, and counts[0] those of all groups. left_out[b] is that of a launch's group b, whose
+// items meet every barrier all the same.
 __kernel OF_GROUPS void project(
     const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
@@ -15,6 +39,7 @@ __kernel OF_GROUPS void project(
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+  const uint bad_and_one = p.leaves_out_blocks ? left_out[get_group_id(0)] : 0;
 #ifdef COUNT_KEYS
   __local KeyBins bins;
   if (item == 0) {
@@ -22,34 +47,16 @@ __kernel OF_GROUPS void project(
     bins.most = 0;
   }
 #endif
-  if (p.leaves_out_blocks && left_out[get_group_id(0)] != 0) {
-#ifndef OUTPUT_SPLATS
-    if (item == 0) {
-      offsets[group] = 0;
-      if (left_out[get_group_id(0)] > 1) atomic_add(&counts->bad, left_out[get_group_id(0)] - 1);
-#ifdef COUNT_KEYS
-      key_bins[get_group_id(0)] = bins;
-#endif
-    }
-#endif
-    return;
+  if (item == 0) {
+    of_group.visible = of_group.too_sharp = of_group.around = 0;
+    of_group.bad = bad_and_one > 0 ? bad_and_one - 1 : 0;
   }
-  if (item == 0) of_group.visible = of_group.bad = of_group.too_sharp = of_group.around = 0;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields OWN_COLORS_ARGUMENT);
-  // Items beyond the last particle look at it once more: all of them meet every barrier.
-  const uint wanted = p.first_particle + get_global_id(0);
-  const uint i = min(wanted, p.end_particle - 1u);
-  const int exists = wanted < p.end_particle;
-  SplatLanes lanes = project_lanes(i, p.end_particle, p, width_needs, e, columns);
-  lanes.visible &= exists;
-  lanes.too_sharp &= exists;
-  const int unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
-  if (unclear) {
-    const int within = are_within_limits(i, p.end_particle, unclear, columns, p);
-    lanes.visible &= within;
-    lanes.too_sharp &= within;
-  }
+  const uint i = p.first_particle + get_global_id(0);
+  SplatLanes lanes = no_splat();
+  if (i < p.end_particle && bad_and_one == 0)
+    lanes = project_particle(i, p, width_needs, e, columns);
   uint count = lanes.visible != 0;
 #ifdef SORT_KEYS
   ulong key = 0;
@@ -114,7 +121,7 @@ __kernel OF_GROUPS void project(
   }
 #else
   group_scan(count, sums, &total);
-  if (lanes.bad & exists) atomic_inc(&of_group.bad);
+  if (lanes.bad) atomic_inc(&of_group.bad);
   if (lanes.too_sharp) atomic_inc(&of_group.too_sharp);
 #ifdef COUNT_KEYS
   if (count > 0) {
@@ -125,7 +132,7 @@ __kernel OF_GROUPS void project(
   }
 #endif
 #ifdef CLOUDS_AROUND
-  if (lanes.around & exists) atomic_inc(&of_group.around);
+  if (lanes.around) atomic_inc(&of_group.around);
 #endif
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {

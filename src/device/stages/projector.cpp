@@ -121,10 +121,9 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
       .arg(targets.counts)
       .arg(targets.splats.splats)
       .arg(targets.keys)
-      .arg(targets.key_ends)
-      .arg(targets.order)
-      .arg(width_needs_)
-      .arg(left_out_buffer);
+      .arg(targets.key_ends);
+  if (scan_) launch.arg(targets.order);
+  launch.arg(width_needs_).arg(left_out_buffer);
   if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
   if (context_.specialization.is_extended()) {
     launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
