@@ -16,6 +16,7 @@
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
+#include "scene/picked_particles.h"
 #include "scene/plan/light_structure.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
@@ -29,34 +30,6 @@ constexpr double negligible = 1e-14;
 
 // Of what clouds around the camera may err by, what all of them together lose by ending.
 constexpr double share_of_ends = 1e-3;
-
-// These particles' values. What is made as it is wanted is made for them alone.
-Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
-  if (!column.is_array() || column.size() == 0) return column;
-  const auto source = column.source();
-  std::vector<float> values(width * places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t first = width * static_cast<std::size_t>(places[k]);
-    float* const to = values.data() + width * k;
-    if (source) {
-      source->make(first, first + width, to);
-    } else {
-      std::copy_n(column.data() + first, width, to);
-    }
-  }
-  return Column::owning(std::move(values));
-}
-
-Particles picked(const Particles& particles, const std::vector<std::uint64_t>& places) {
-  Particles some = particles;
-  some.count = places.size();
-  for (Column* const column : {&some.position, &some.color_vector})
-    *column = picked(*column, 3, places);
-  for (Column* const column :
-       {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
-    *column = picked(*column, 1, places);
-  return some;
-}
 
 [[noreturn]] void refuse(const DeviceContext& device, std::uint64_t counted, std::uint64_t listed) {
   throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
@@ -207,7 +180,7 @@ void Surroundings::append(std::uint32_t c, const std::vector<Found>& found,
   for (const Found& one : within)
     places.push_back(one.particle);
   DrawnComponent component = frame.components[c];
-  component.particles = picked(component.particles, places);
+  component.particles = picked_particles(component.particles, places);
   const double widest = widest_angle(frame);
   for (std::size_t k = 0; k < within.size(); ++k) {
     CloudAround cloud = cloud_around(component, frame, k);
