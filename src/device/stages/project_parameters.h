@@ -17,6 +17,9 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   const ParticleChunk& chunk,
                                                   const ParticleBuffers& particles);
 
+// Blocks of the particles of a launch.
+std::uint32_t block_count(const shared::ProjectParameters& parameters);
+
 // The buffers that a chunk lies in, without the values of blocks that are known to be out of view
 // where these are made as they are wanted.
 ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& particles,

@@ -15,11 +15,6 @@
 namespace splotchcl {
 namespace {
 
-std::uint32_t block_count(const shared::ProjectParameters& parameters) {
-  return ceil_divide(parameters.end_particle - parameters.first_particle,
-                     parameters.block_particles);
-}
-
 // Of all groups, added up on the device.
 Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
   Buffer<shared::BlockCounts> counts = device.pool.get<shared::BlockCounts>(1, "counts of splats");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "device/frame/column_arguments.h"
+#include "device/frame/float_pair.h"
 #include "device/frame/key_windows.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
@@ -98,8 +99,9 @@ void carry_row(const double* depths, std::size_t count, bool keeps_transmittance
 // Numbers as pairs of floats.
 void split(const double* values, std::size_t count, float* high, float* low) {
   for (std::size_t i = 0; i < count; ++i) {
-    high[i] = static_cast<float>(values[i]);
-    low[i] = static_cast<float>(values[i] - static_cast<double>(high[i]));
+    const shared::FloatPair pair = pair_of(values[i]);
+    high[i] = pair.high;
+    low[i] = pair.low;
   }
 }
 
