@@ -286,6 +286,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   shared::ProjectParameters p = make_project_parameters(context, chunk.component);
   p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
   p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  p.block_particles = context.device.traits.project_block;
   set_strides(particles, p);
   return p;
 }

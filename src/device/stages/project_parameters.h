@@ -12,7 +12,7 @@ namespace splotchcl {
 // without the particles of a launch and the strides of their columns.
 shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   std::uint32_t component);
-// The same with a chunk of its particles, which lies in `particles`, but for the size of blocks.
+// The same with a chunk of its particles, which lies in `particles`.
 shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   const ParticleChunk& chunk,
                                                   const ParticleBuffers& particles);

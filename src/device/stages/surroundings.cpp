@@ -122,8 +122,7 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
                                                     std::uint64_t most) const {
   DeviceContext& device = context_.device;
   const ParticleChunk& chunk = blocks.chunk;
-  shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
-  p.block_particles = device.traits.project_block;
+  const shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
