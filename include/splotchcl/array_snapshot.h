@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,10 @@ class ArraySnapshot : public Snapshot {
                  int values_per_particle = 1);
   void set_field(int type, const std::string& field, const double* values, std::uint64_t count,
                  int values_per_particle = 1);
+  // Floats that `owner` keeps where they are. It is kept as long as the snapshot or a column that
+  // was read of it has them, and may be let go by any thread that uses one.
+  void set_field(int type, const std::string& field, const float* values, std::uint64_t count,
+                 int values_per_particle, std::shared_ptr<const void> owner);
   // The same mass for all of a type, in the unit that a field "mass" would have. Throws UsageError
   // for a type outside 0 to 31, and for what is no finite number >= 0.
   void set_mass(int type, double mass);

@@ -11,19 +11,15 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <system_error>
 #include <thread>
 
+#include "common/reason.h"
 #include "splotchcl/error.h"
 
 extern char** environ;
 
 namespace splotchcl {
 namespace {
-
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
-}
 
 class FileActions {
  public:

@@ -17,14 +17,11 @@
 #include <vector>
 
 #include "common/folder_of.h"
+#include "common/reason.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
-}
 
 // There is something, but neither a file nor a folder.
 bool is_stream(const std::filesystem::path& path) {

@@ -15,6 +15,7 @@
 #include "common/unfinished_file.h"
 #include "common/word_hash.h"
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
@@ -40,7 +41,7 @@ struct TypeHeader {
 static_assert(sizeof(FileHeader) == 32 && sizeof(TypeHeader) == 24 && sizeof(ParticleBox) == 28);
 
 std::uint64_t blocks_of(std::uint64_t count) {
-  return count / SnapshotIndex::block_particles + (count % SnapshotIndex::block_particles != 0);
+  return ceil_divide(count, SnapshotIndex::block_particles);
 }
 
 // Of all that the boxes follow from: the files, and what of them positions and lengths are.

@@ -175,9 +175,8 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   }
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +
-                    " particles, periodic images counted, are left out of the map: their "
-                    "position, smoothing length, weight or value is not finite, or the length not "
-                    "above 0");
+                    " particles are left out of the map: their position, smoothing length, weight "
+                    "or value is not finite, or the length not above 0");
   }
   if (placed.count() == 0) notes.push_back("no particle reaches the map, which is empty");
   return map;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 
 #include "map/fits_unit.h"
 #include "map/map_files.h"
@@ -10,37 +11,51 @@
 namespace splotchcl {
 namespace {
 
+// What a file in memory lies in, whose library makes it longer.
+struct FileMemory {
+  static constexpr std::size_t block = 2880;
+
+  FileMemory() = default;
+  ~FileMemory() { std::free(data); }
+  FileMemory(const FileMemory&) = delete;
+  FileMemory& operator=(const FileMemory&) = delete;
+
+  std::size_t size = block;
+  void* data = std::malloc(block);
+};
+
+struct CloseFits {
+  void operator()(fitsfile* file) const {
+    int ignored = 0;
+    fits_close_file(file, &ignored);
+  }
+};
+
 // A file in memory, so that what is written to the disk is ours to check.
 class FitsFile {
  public:
   explicit FitsFile(const std::filesystem::path& path) : path_(path) {
-    constexpr std::size_t block = 2880;
-    size_ = block;
-    memory_ = std::malloc(size_);
-    fits_create_memfile(&file_, &memory_, &size_, block, std::realloc, &status_);
+    fitsfile* file = nullptr;
+    fits_create_memfile(&file, &memory_.data, &memory_.size, FileMemory::block, std::realloc,
+                        &status_);
+    file_.reset(file);
     check();
   }
-  ~FitsFile() {
-    int ignored = 0;
-    if (file_ != nullptr) fits_close_file(file_, &ignored);
-    std::free(memory_);
-  }
-  FitsFile(const FitsFile&) = delete;
-  FitsFile& operator=(const FitsFile&) = delete;
 
   void add_image(const Map& map, const std::vector<float>& values) {
     long sides[2] = {map.width, map.height};
     std::vector<float> rows = upside_down(values, map.width);
-    fits_create_img(file_, FLOAT_IMG, 2, sides, &status_);
-    fits_write_img(file_, TFLOAT, 1, static_cast<LONGLONG>(rows.size()), rows.data(), &status_);
+    fits_create_img(file_.get(), FLOAT_IMG, 2, sides, &status_);
+    fits_write_img(file_.get(), TFLOAT, 1, static_cast<LONGLONG>(rows.size()), rows.data(),
+                   &status_);
     check();
   }
   void add_text(const char* key, const std::string& text, const char* comment) {
-    fits_update_key_longstr(file_, key, text.c_str(), comment, &status_);
+    fits_update_key_longstr(file_.get(), key, text.c_str(), comment, &status_);
     check();
   }
   void add_number(const char* key, double value, const char* comment) {
-    fits_update_key(file_, TDOUBLE, key, &value, comment, &status_);
+    fits_update_key(file_.get(), TDOUBLE, key, &value, comment, &status_);
     check();
   }
   // Lines of a header hold printable ASCII only.
@@ -48,21 +63,20 @@ class FitsFile {
     for (char& c : text) {
       if (c < ' ' || c > '~') c = ' ';
     }
-    fits_write_history(file_, text.c_str(), &status_);
+    fits_write_history(file_.get(), text.c_str(), &status_);
     check();
   }
   void announce_long_texts() {
-    fits_write_key_longwarn(file_, &status_);
+    fits_write_key_longwarn(file_.get(), &status_);
     check();
   }
 
   std::vector<unsigned char> bytes() {
     LONGLONG header = 0, data = 0, end = 0;
-    fits_get_hduaddrll(file_, &header, &data, &end, &status_);
-    fits_close_file(file_, &status_);
-    file_ = nullptr;
+    fits_get_hduaddrll(file_.get(), &header, &data, &end, &status_);
+    fits_close_file(file_.release(), &status_);
     check();
-    const auto* const first = static_cast<const unsigned char*>(memory_);
+    const auto* const first = static_cast<const unsigned char*>(memory_.data);
     return {first, first + end};
   }
 
@@ -75,9 +89,8 @@ class FitsFile {
   }
 
   std::filesystem::path path_;
-  fitsfile* file_ = nullptr;
-  void* memory_ = nullptr;
-  std::size_t size_ = 0;
+  FileMemory memory_;  // outlives the file
+  std::unique_ptr<fitsfile, CloseFits> file_;
   int status_ = 0;
 };
 

@@ -59,12 +59,16 @@ void WeightedValues::read_values(const MapQuantity& quantity) {
 void WeightedValues::read_weights(const MapQuantity& quantity) {
   std::vector<double> weights(placed_.count(), 0);
   double sum = 0;
+  // Images of a particle follow each other.
+  const auto is_first_image = [this](std::size_t i) {
+    return i == 0 || placed_.source[i] != placed_.source[i - 1];
+  };
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const auto weight = static_cast<double>(quantity.weight[placed_.source[i]]);
     const bool is_good =
         std::isfinite(weight) && weight >= 0 && (value_.empty() || std::isfinite(value_[i]));
     if (!is_good) {
-      ++bad_;
+      if (is_first_image(i)) ++bad_;
       if (!value_.empty()) value_[i] = 0;
       continue;
     }

@@ -44,6 +44,15 @@ bool is_contiguous(const py::buffer_info& info) {
   return true;
 }
 
+// Lets go of the array with Python's lock, which whoever has its last column may lack.
+std::shared_ptr<const py::buffer_info> shared(py::buffer_info info) {
+  const auto let_go = [](const py::buffer_info* last) {
+    const py::gil_scoped_acquire lock;
+    delete last;
+  };
+  return {new py::buffer_info(std::move(info)), let_go};
+}
+
 template <typename Change>
 void change(Turn& turn, Change&& work) {
   without_python([&] {
@@ -57,7 +66,7 @@ void change(Turn& turn, Change&& work) {
 ParticleArrays::ParticleArrays() : ParticleArrays(std::make_shared<ArraySnapshot>()) {}
 
 void ParticleArrays::set_field(int type, const std::string& field, const py::buffer& values) {
-  auto info = std::make_unique<py::buffer_info>(values.request());
+  const auto info = shared(values.request());
   const int width = values_per_particle(field, *info);
   const auto count = static_cast<std::uint64_t>(info->shape[0]);
   const bool is_float = is_native(info->format, 'f');
@@ -66,15 +75,12 @@ void ParticleArrays::set_field(int type, const std::string& field, const py::buf
     throw UsageError("field " + field + ": values of the kind '" + info->format +
                      "', expected floats or doubles in C order and the machine's endianness");
   }
-  std::unique_ptr<py::buffer_info> freed;  // with Python's lock, at the end
   change(turn(), [&] {
     if (is_float) {
-      arrays_->set_field(type, field, static_cast<const float*>(info->ptr), count, width);
-      freed = std::move(info);
+      arrays_->set_field(type, field, static_cast<const float*>(info->ptr), count, width, info);
     } else {
       arrays_->set_field(type, field, static_cast<const double*>(info->ptr), count, width);
     }
-    owners_[{type, field}].swap(freed);
   });
 }
 
@@ -83,15 +89,7 @@ void ParticleArrays::set_mass(int type, double mass) {
 }
 
 void ParticleArrays::clear(int type) {
-  decltype(owners_) freed;  // with Python's lock, at the end
-  change(turn(), [&] {
-    arrays_->clear(type);
-    for (auto owner = owners_.begin(); owner != owners_.end();) {
-      const auto next = std::next(owner);
-      if (owner->first.first == type) freed.insert(owners_.extract(owner));
-      owner = next;
-    }
-  });
+  change(turn(), [&] { arrays_->clear(type); });
 }
 
 void ParticleArrays::set_box_size(double size) {

@@ -2,7 +2,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -38,8 +37,9 @@ class Source {
   mutable Turn turn_;
 };
 
-// Arrays of Python as a snapshot. Each is kept, with its buffer exported, until another takes its
-// place, so that neither `del` nor a resize takes away what is drawn.
+// Arrays of Python as a snapshot. Each is kept, with its buffer exported, as long as a column has
+// it, so that neither `del`, nor a resize, nor another in its place takes away what is drawn or
+// what was read.
 class ParticleArrays : public Source {
  public:
   ParticleArrays();
@@ -60,7 +60,6 @@ class ParticleArrays : public Source {
       : Source(arrays), arrays_(arrays) {}
 
   std::shared_ptr<ArraySnapshot> arrays_;
-  std::map<std::pair<int, std::string>, std::unique_ptr<py::buffer_info>> owners_;
 };
 
 // Adds Source, Particles and what opens snapshots to the module.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
@@ -106,9 +107,15 @@ void ArraySnapshot::add_field(int type, const std::string& field, std::uint64_t 
 
 void ArraySnapshot::set_field(int type, const std::string& field, const float* values,
                               std::uint64_t count, int values_per_particle) {
+  set_field(type, field, values, count, values_per_particle, nullptr);
+}
+
+void ArraySnapshot::set_field(int type, const std::string& field, const float* values,
+                              std::uint64_t count, int values_per_particle,
+                              std::shared_ptr<const void> owner) {
   check(type, field, values_per_particle, values, count);
   const auto size = static_cast<std::size_t>(count) * static_cast<std::size_t>(values_per_particle);
-  add_field(type, field, count, values_per_particle, Column(nullptr, values, size));
+  add_field(type, field, count, values_per_particle, Column(std::move(owner), values, size));
 }
 
 void ArraySnapshot::set_field(int type, const std::string& field, const double* values,

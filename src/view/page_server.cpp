@@ -4,6 +4,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -29,6 +30,7 @@ using Response = http::response<http::string_body>;
 constexpr std::chrono::seconds request_timeout{30};
 constexpr std::uint32_t longest_request_header = 16 * 1024;
 constexpr int most_connections = 64;
+constexpr std::chrono::milliseconds pause_after_failure{100};
 // A page that reads so little is given up.
 constexpr std::size_t most_waiting_messages = 64;
 
@@ -269,7 +271,8 @@ struct PageServer::State {
   void accept() {
     acceptor.async_accept([this](boost::system::error_code error, Tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
-      if (!error && shared.connections < most_connections) {
+      if (error) return accept_later();
+      if (shared.connections < most_connections) {
         boost::system::error_code ignored;
         socket.set_option(Tcp::no_delay(true), ignored);
         std::make_shared<HttpConnection>(std::move(socket), shared)->read();
@@ -278,10 +281,19 @@ struct PageServer::State {
     });
   }
 
+  // What fails for want of files would fail again at once, and again.
+  void accept_later() {
+    pause.expires_after(pause_after_failure);
+    pause.async_wait([this](boost::system::error_code error) {
+      if (!error) accept();
+    });
+  }
+
   Shared shared;  // before the context, whose connections refer to it
   net::io_context context{1};
   net::signal_set signals;
   Tcp::acceptor acceptor;
+  net::steady_timer pause{context};
 };
 
 PageServer::PageServer(const std::string& address, std::uint16_t port, AccessRules rules,

@@ -41,6 +41,25 @@ TEST_P(ChangedArrays, AreDrawnAsTheyAreNow) {
   EXPECT_EQ(sum_of_light(draw_next(device, store, frame)), 0);
 }
 
+TEST(ParticleStore, KeepsNoBufferOfAValueThatNoFrameAsksFor) {
+  DeviceContext device(choose_device(""));
+  ParticleStore store(device);
+  Particles particles;
+  particles.count = 1;
+  const auto draw_with = [&](float weight) {
+    store.begin_frame();
+    particles.weight = Column::uniform(weight);
+    const compute::buffer buffer = store.get(particles, {0, 0, 1}).weight;
+    store.end_frame();
+    return buffer;
+  };
+  const compute::buffer first = draw_with(5);
+  EXPECT_EQ(draw_with(5), first);
+  const auto users = first.reference_count();
+  draw_with(6);
+  EXPECT_EQ(first.reference_count(), users - 1);
+}
+
 TEST_F(PictureTest, AfterValuesThatAreNoNumbersIsAsBefore) {
   Frame frame = frame_of(16, 12, {component_of(std::vector<Cloud>(100, Cloud{}), two_colors())});
   const Image before = draw(frame);

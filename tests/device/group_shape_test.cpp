@@ -9,6 +9,7 @@
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "device/stages/group_binner.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl::test {
 namespace {
@@ -73,6 +74,16 @@ TEST_F(GroupShape, DrawsTheSamePictureInBandsOfTilesBitForBit) {
     EXPECT_GT(in_bands.counts().tile_entries, 2 * 3000u) << "the lists must not fit";
     EXPECT_EQ(whole.pixels, banded.pixels);
   }
+}
+
+// Boxes are made around blocks, and left out by the number of a group.
+TEST_F(GroupShape, RefusesBlocksOfOtherSizesThanItsGroups) {
+  choose_shape(device().traits, false);
+  const DeviceTraits traits = device().traits;
+  device().traits.project_block = GROUP_ITEMS / 2;
+  EXPECT_THROW(draw_once(device(), clouds(LightPlan::emission, 1e-3), CompositeShape::groups),
+               DeviceError);
+  device().traits = traits;
 }
 
 TEST_F(GroupShape, DrawsTheSameBitsAgain) {

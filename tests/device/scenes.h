@@ -61,6 +61,11 @@ inline DrawnComponent random_clouds(const CloudSetup& setup) {
   return component;
 }
 
+// Of errors, where one that is not a number is larger than any.
+inline double larger(double largest, double error) {
+  return std::isfinite(error) ? std::max(largest, error) : 1e300;
+}
+
 // The largest |frame - oracle| / max(1, |oracle|) over pixels and colours: what
 // `tolerance` bounds.
 inline double largest_error(const Image& image, const ReferenceImage& exact) {
@@ -69,7 +74,7 @@ inline double largest_error(const Image& image, const ReferenceImage& exact) {
     if (i % 4 == 3) continue;
     const double error = std::abs(static_cast<double>(image.pixels[i]) - exact.pixels[i]);
     const double relative = error / std::max(1.0, std::abs(exact.pixels[i]));
-    largest = std::isfinite(relative) ? std::max(largest, relative) : 1e300;
+    largest = larger(largest, relative);
   }
   return largest;
 }

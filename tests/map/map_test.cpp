@@ -18,6 +18,7 @@ using test::Gas;
 using test::map_of;
 using test::map_on_device;
 using test::map_scene;
+using test::one_particle;
 using test::random_gas;
 
 const double sigma_of_h = KernelSettings().width;
@@ -274,6 +275,19 @@ TEST(Map, LeavesOutAndCountsParticlesWithoutAValue) {
   const Map map = map_of(scene, gas.snapshot(), &notes);
   EXPECT_EQ(map.bad_particles, 2U);
   EXPECT_THAT(notes, testing::Contains(testing::HasSubstr("2 particles")));
+}
+
+TEST(Map, CountsAParticleWithoutAValueOnceWhateverItsImages) {
+  Gas gas = one_particle({{0, 0, 0}}, 1);
+  gas.add({{8, 0, 0}}, 1, 1, std::nanf(""));
+  auto snapshot = gas.snapshot();
+  snapshot.set_box_size(16);
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  scene.map.periodic = true;
+  const Map map = map_of(scene, snapshot);
+  EXPECT_GT(map.images, 4U);
+  EXPECT_EQ(map.bad_particles, 1U);
 }
 
 TEST(Map, IsEmptyWhereNoParticleReachesIt) {

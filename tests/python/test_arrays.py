@@ -1,6 +1,7 @@
 """Arrays as they come: borrowed or copied once, never changed, and refused where they are wrong."""
 
 import mmap
+import weakref
 
 import numpy as np
 import pytest
@@ -136,6 +137,30 @@ def test_a_mapped_file_stays_open_while_it_is_drawn(renderer, arrays, expected, 
 def test_the_particles_outlive_a_field_that_was_read(arrays):
     field = Particles().gas(**arrays)["gas"]["mass"]
     assert np.array_equal(field, arrays["mass"])
+
+
+@pytest.mark.parametrize(
+    "take_away",
+    [
+        lambda particles: particles.gas(mass=np.zeros(500, np.float32)),
+        lambda particles: particles.clear("gas"),
+        lambda particles: None,
+    ],
+    ids=["another in its place", "clear", "del"],
+)
+def test_a_field_that_was_read_outlives_its_array(take_away):
+    mass = np.arange(500, dtype=np.float32)
+    array = mass.copy()
+    kept = weakref.ref(array)
+    particles = Particles().gas(mass=array)
+    field = particles["gas"]["mass"]
+    del array
+    take_away(particles)
+    del particles
+    assert kept() is not None
+    assert np.array_equal(field, mass)
+    del field
+    assert kept() is None
 
 
 def test_double_positions_keep_their_digits_by_an_origin(renderer, arrays, expected):

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "splotchcl/error.h"
@@ -20,6 +22,18 @@ TEST(ArraySnapshot, FloatsAreBorrowed) {
   position[4] = 50;
   EXPECT_EQ(snapshot.read(0, "position")[4], 50);
   EXPECT_EQ(snapshot.info().find_type(0)->count, 2u);
+}
+
+TEST(ArraySnapshot, AnOwnerIsKeptAsLongAsItsValuesAreHad) {
+  auto owner = std::make_shared<const std::vector<float>>(2, 5.0F);
+  ArraySnapshot snapshot;
+  snapshot.set_field(0, "mass", owner->data(), 2, 1, owner);
+  Column column = snapshot.read(0, "mass");
+  const std::weak_ptr<const std::vector<float>> kept = std::exchange(owner, nullptr);
+  snapshot.clear(0);
+  EXPECT_EQ(column[1], 5);
+  column = {};
+  EXPECT_TRUE(kept.expired());
 }
 
 TEST(ArraySnapshot, AFilesNamesForAFieldFindIt) {

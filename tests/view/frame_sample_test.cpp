@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <set>
+
+#include "device/counted_column.h"
 
 namespace splotchcl::view {
 namespace {
@@ -65,6 +68,17 @@ TEST(FrameSample, IsGatheredOnceForTheSameColumns) {
   Frame other = frame;
   other.components[0].particles.color = Column::uniform(6);
   EXPECT_EQ(sampler.sample(other, 100).components[0].particles.color.uniform_value(), 6);
+}
+
+TEST(FrameSample, MakesOfColumnsThatAreStreamedItsOwnValuesOnly) {
+  FrameSampler sampler;
+  Frame frame = frame_of(1000);
+  Particles& particles = frame.components[0].particles;
+  const auto sizes = std::make_shared<const test::CountedColumn>(particles.smoothing_length);
+  particles.smoothing_length = Column::made_by(sizes);
+  sampler.sample(frame, 100);
+  EXPECT_EQ(sampler.sample(frame, 100).components[0].particles.smoothing_length.size(), 100u);
+  EXPECT_EQ(sizes->made(), 100u);
 }
 
 TEST(FrameSample, LeavesNoComponentOut) {

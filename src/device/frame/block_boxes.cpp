@@ -10,6 +10,7 @@
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
+#include "scene/same_columns.h"
 
 namespace splotchcl {
 namespace {
@@ -19,21 +20,6 @@ bool are_of_one_moment(const Particles& particles) {
   const auto columns = particles.columns();
   return std::any_of(columns.begin(), columns.end(),
                      [](const Column* column) { return column->source() != nullptr; });
-}
-
-bool is_same(const Column& a, const Column& b) {
-  if (a.is_array() || b.is_array()) return a.data() == b.data() && a.size() == b.size();
-  if (a.is_uniform() || b.is_uniform()) {
-    return a.is_uniform() && b.is_uniform() && a.uniform_value() == b.uniform_value();
-  }
-  return true;
-}
-
-bool are_same(const Particles& a, const Particles& b) {
-  const auto first = a.columns(), second = b.columns();
-  return a.count == b.count &&
-         std::equal(first.begin(), first.end(), second.begin(),
-                    [](const Column* x, const Column* y) { return is_same(*x, *y); });
 }
 
 BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
@@ -60,7 +46,7 @@ const BlockBoxes::Boxes* BlockBoxes::find(DeviceContext& device, const Particles
                                           const ParticleBuffers& buffers, std::uint64_t frame) {
   if (particles.count == 0 || are_of_one_moment(particles)) return nullptr;
   const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& entry) {
-    return are_same(entry.particles, particles);
+    return have_same_columns(entry.particles, particles);
   });
   if (known == known_.end()) {
     known_.push_back({particles, frame, frame, {}});

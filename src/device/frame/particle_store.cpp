@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -25,16 +26,21 @@ void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
 
 }  // namespace
 
+compute::buffer ParticleStore::new_constant(float value) const {
+  compute::buffer buffer(device_.context, sizeof(float));
+  device_.queue.enqueue_write_buffer(buffer, 0, sizeof(float), &value);
+  return buffer;
+}
+
 compute::buffer ParticleStore::constant(float value) {
   // By its bits: what is not a number is no key, as it is not less than any.
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof(bits));
-  const auto found = constants_.find(bits);
-  if (found != constants_.end()) return found->second;
-  compute::buffer buffer(device_.context, sizeof(float));
-  device_.queue.enqueue_write_buffer(buffer, 0, sizeof(float), &value);
-  constants_.emplace(bits, buffer);
-  return buffer;
+  auto found = constants_.find(bits);
+  if (found == constants_.end())
+    found = constants_.emplace(bits, Constant{new_constant(value)}).first;
+  found->second.frame = frame_;
+  return found->second.buffer;
 }
 
 void ParticleStore::require_room(std::size_t bytes) const {
@@ -305,6 +311,10 @@ ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece
 
 void ParticleStore::end_frame() {
   boxes_.forget_all_but(frame_);
+  for (auto constant = constants_.begin(); constant != constants_.end();) {
+    const bool is_asked_for = constant->second.frame == frame_;
+    constant = is_asked_for ? std::next(constant) : constants_.erase(constant);
+  }
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     if (entry->second.frame == frame_) {
       ++entry;

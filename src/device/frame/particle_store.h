@@ -65,6 +65,10 @@ class ParticleStore {
     std::uint64_t use = 0;  // grows from one to the next
     Kind kind = Kind::given;
   };
+  struct Constant {
+    compute::buffer buffer;
+    std::uint64_t frame = 0;
+  };
   // Where it lies and how many bytes it has; of what the device makes, its source and 0; of a
   // column that it has put in another order, where it lies and the order.
   using Key = std::tuple<const void*, std::size_t, const IdMatch*>;
@@ -83,6 +87,7 @@ class ParticleStore {
   void list_seen(const Particles& particles, const Piece& chunk, const ViewBounds* bounds);
   void make_room(std::size_t bytes);
   compute::buffer constant(float value);
+  compute::buffer new_constant(float value) const;
   // That of an entry, which is wanted by this frame then; null where there is none.
   const compute::buffer* find(const Key& key);
   compute::buffer keep(const Key& key, std::shared_ptr<const void> owner);
@@ -97,9 +102,9 @@ class ParticleStore {
   DeviceContext& device_;
   bool columns_stay_;
   std::map<Key, Entry> entries_;
-  std::map<std::uint32_t, compute::buffer> constants_;  // by the bits of their value
-  std::vector<Buffer<float>> streamed_;                 // of the last chunk
-  std::vector<Piece> seen_;                             // stretches of it that are in view
+  std::map<std::uint32_t, Constant> constants_;  // by the bits of their value
+  std::vector<Buffer<float>> streamed_;          // of the last chunk
+  std::vector<Piece> seen_;                      // stretches of it that are in view
   BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;
   std::uint64_t frame_ = 0;

@@ -1,6 +1,7 @@
 #include "device/opencl/device_traits.h"
 
 #include "device/opencl/program_text.h"
+#include "kernels/common/group.h"
 
 namespace splotchcl {
 namespace {
@@ -25,7 +26,7 @@ void take_sizes_of_rows(DeviceTraits& traits) {
 }
 
 void take_sizes_of_groups(DeviceTraits& traits) {
-  traits.project_block = 256;
+  traits.project_block = GROUP_ITEMS;
   traits.chunk_blocks = 4096;
   traits.leaf_chunks = 8;
   // Every chunk launches some twenty kernels.

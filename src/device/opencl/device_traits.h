@@ -17,7 +17,7 @@ struct DeviceTraits {
   bool double_numbers = false;       // extended numbers are double precision, not pairs
   std::uint64_t largest_buffer = 0;  // bytes
   std::uint32_t threads = 1;         // only memory follows from them
-  std::uint32_t project_block = 0;   // particles per work-item of a projection
+  std::uint32_t project_block = 0;   // particles per work-item of a projection, or per group
   std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum
   std::uint32_t leaf_chunks = 0;     // such chunks per leaf of a sum (chunks.h)
   std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted

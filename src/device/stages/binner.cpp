@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 std::vector<TileBand> cut_in_bands(const std::vector<std::uint32_t>& lengths,
@@ -92,9 +93,9 @@ void Binner::cut_in_blocks(CountedSplats& counted) const {
   shared::BinParameters& parameters = counted.parameters;
   const std::uint32_t count = parameters.end - parameters.first;
   const std::uint32_t wanted = context_.device.traits.bin_blocks;
-  parameters.stride = std::max(1u, count / wanted + (count % wanted != 0));
+  parameters.stride = std::max(1u, ceil_divide(count, wanted));
   parameters.length = parameters.stride;
-  parameters.block_count = count / parameters.stride + (count % parameters.stride != 0);
+  parameters.block_count = ceil_divide(count, parameters.stride);
   const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
   counted.in_order = context_.device.pool.get<std::byte>(
       slots * context_.specialization.splat_bytes(), "splats in order");
@@ -138,8 +139,7 @@ TileLists Binner::measure_lists(const std::vector<std::uint32_t>& lengths,
       ++grid;
     const std::uint32_t length = lengths[tile];
     if (length == 0) continue;
-    const std::uint32_t by = parameters_.segment_length;
-    const std::uint32_t segments = length / by + (length % by != 0);
+    const std::uint32_t segments = ceil_divide(length, parameters_.segment_length);
     lists.entry_count += length;
     lists.segment_count += segments;
     if (grid == 0) lists.picture_segments += segments;

@@ -6,20 +6,10 @@
 #include "device/opencl/launch.h"
 #include "device/stages/binner.h"
 #include "device/stages/clear_memory.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
-
-std::uint32_t groups_of(std::uint32_t items) {
-  return items / GROUP_ITEMS + (items % GROUP_ITEMS != 0 ? 1 : 0);
-}
-
-std::uint32_t bits_of(std::uint32_t value) {
-  std::uint32_t bits = 0;
-  for (; value != 0; value >>= 1)
-    ++bits;
-  return bits;
-}
 
 std::uint32_t slots_of(const shared::BinParameters& parameters) {
   return parameters.end - parameters.first;
@@ -87,7 +77,7 @@ void GroupBinner::count(CountedSplats& counted) const {
       .arg(*counted.blocks)
       .arg(counted.tiles_of_slots)
       .arg(counted.tile_counts)
-      .run_groups(groups_of(slots), GROUP_ITEMS);
+      .run_groups(ceil_divide(slots, GROUP_ITEMS), GROUP_ITEMS);
   counted.lengths =
       lengths_of_lists(device.pool.download(counted.tile_counts, counters), context_.layout);
 }
@@ -104,7 +94,7 @@ Buffer<std::uint32_t> GroupBinner::find_entries(
       .arg(*counted.blocks)
       .arg(counted.tiles_of_slots)
       .arg(first_entries)
-      .run_groups(groups_of(slots), GROUP_ITEMS);
+      .run_groups(ceil_divide(slots, GROUP_ITEMS), GROUP_ITEMS);
   scan_.scan("bin", first_entries, slots);
   return first_entries;
 }
@@ -123,7 +113,7 @@ KeyedValues GroupBinner::emit(const CountedSplats& counted,
       .arg(first_entries)
       .arg(pairs.keys)
       .arg(pairs.values)
-      .run_groups(groups_of(parameters.entry_count), GROUP_ITEMS);
+      .run_groups(ceil_divide(parameters.entry_count, GROUP_ITEMS), GROUP_ITEMS);
   return pairs;
 }
 
@@ -150,7 +140,7 @@ void GroupBinner::make_lists(const CountedSplats& counted, const TileBand& band,
       .arg(context_.colors.components)
       .arg(context_.colors.knots)
       .arg(lists.entries)
-      .run_groups(groups_of(parameters.entry_count), GROUP_ITEMS);
+      .run_groups(ceil_divide(parameters.entry_count, GROUP_ITEMS), GROUP_ITEMS);
 }
 
 }  // namespace splotchcl

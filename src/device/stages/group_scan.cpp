@@ -5,6 +5,7 @@
 #include "device/frame/shared.h"
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 
@@ -16,7 +17,7 @@ GroupScan::GroupScan(DeviceContext& device)
 void GroupScan::scan(const char* stage, const Buffer<std::uint32_t>& values,
                      std::uint32_t count) const {
   shared::ScanParameters parameters{count, 0};
-  const std::uint32_t groups = count / SCAN_STRETCH + (count % SCAN_STRETCH != 0 ? 1 : 0);
+  const std::uint32_t groups = ceil_divide(count, SCAN_STRETCH);
   // An empty list has a sum, too.
   if (groups <= 1) {
     Launch(device_, stage, program_.create_kernel("scan_stretches"))

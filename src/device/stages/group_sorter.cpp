@@ -12,13 +12,6 @@ namespace {
 
 static_assert(SORT_DIGITS == GROUP_ITEMS, "an item of a group has a digit");
 
-std::uint32_t bits_of(std::uint32_t value) {
-  std::uint32_t bits = 0;
-  for (; value != 0; value >>= 1)
-    ++bits;
-  return bits;
-}
-
 static_assert(std::uint64_t{SORT_DIGITS} * ((~0u / SORT_STRETCH) + 1) < ~0u,
               "kernels count digits of all groups in 32 bits");
 
@@ -38,6 +31,13 @@ SortSizes sizes_of_sort(std::uint32_t count) {
   sizes.pair_bytes = std::uint64_t{count} * 2 * sizeof(std::uint32_t);
   sizes.counter_bytes = (sizes.counters + 1) * sizeof(std::uint32_t);
   return sizes;
+}
+
+std::uint32_t bits_of(std::uint32_t value) {
+  std::uint32_t bits = 0;
+  for (; value != 0; value >>= 1)
+    ++bits;
+  return bits;
 }
 
 DigitPlan digits_of_bits(std::uint32_t bits) {

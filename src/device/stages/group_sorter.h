@@ -24,6 +24,8 @@ struct DigitPlan {
   std::vector<Digit> digits;
 };
 
+// How many a value has without zeros in front.
+std::uint32_t bits_of(std::uint32_t value);
 // The fewest digits of at most 8 bits for keys below 2^bits.
 DigitPlan digits_of_bits(std::uint32_t bits);
 // The fewest for keys in this range: those in which keys differ, or those of what they are above

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "device/frame/column_arguments.h"
+#include "device/frame/float_pair.h"
+#include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
@@ -58,11 +60,9 @@ float smallest_float_from(double limit) {
 
 void split_in_two(const Vec3& from, float (&high)[3], float (&low)[3]) {
   for (int axis = 0; axis < 3; ++axis) {
-    // Volatile, since GCC 12 at -O3 takes a vectorised double -> float -> double for the
-    // identity, and so finds that nothing is left for the low part.
-    const volatile float nearest = static_cast<float>(from.a[axis]);
-    high[axis] = nearest;
-    low[axis] = static_cast<float>(from.a[axis] - static_cast<double>(nearest));
+    const shared::FloatPair pair = pair_of(from.a[axis]);
+    high[axis] = pair.high;
+    low[axis] = pair.low;
   }
 }
 
@@ -286,8 +286,14 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   shared::ProjectParameters p = make_project_parameters(context, chunk.component);
   p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
   p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  p.block_particles = context.device.traits.project_block;
   set_strides(particles, p);
   return p;
+}
+
+std::uint32_t block_count(const shared::ProjectParameters& parameters) {
+  return ceil_divide(parameters.end_particle - parameters.first_particle,
+                     parameters.block_particles);
 }
 
 ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& particles,

@@ -12,10 +12,13 @@ namespace splotchcl {
 // without the particles of a launch and the strides of their columns.
 shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   std::uint32_t component);
-// The same with a chunk of its particles, which lies in `particles`, but for the size of blocks.
+// The same with a chunk of its particles, which lies in `particles`.
 shared::ProjectParameters make_project_parameters(const StageContext& context,
                                                   const ParticleChunk& chunk,
                                                   const ParticleBuffers& particles);
+
+// Blocks of the particles of a launch.
+std::uint32_t block_count(const shared::ProjectParameters& parameters);
 
 // The buffers that a chunk lies in, without the values of blocks that are known to be out of view
 // where these are made as they are wanted.

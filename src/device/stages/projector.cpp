@@ -1,6 +1,7 @@
 #include "device/stages/projector.h"
 
 #include <algorithm>
+#include <string>
 
 #include "device/frame/block_counts.h"
 #include "device/frame/column_arguments.h"
@@ -10,15 +11,10 @@
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
 #include "device/stages/projector_targets.h"
-#include "scene/ceil_divide.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-std::uint32_t block_count(const shared::ProjectParameters& parameters) {
-  return ceil_divide(parameters.end_particle - parameters.first_particle,
-                     parameters.block_particles);
-}
 
 // Of all groups, added up on the device.
 Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
@@ -37,6 +33,15 @@ void take_window(const KeyWindow& window, shared::ProjectParameters& parameters)
   parameters.window_end = wide(window.end);
 }
 
+// A group has an item for each particle of a block, and boxes around blocks are made beforehand.
+void check_blocks_of_groups(const DeviceTraits& traits) {
+  if (traits.project_block == GROUP_ITEMS) return;
+  throw DeviceError(
+      "found blocks of " + std::to_string(traits.project_block) +
+      " particles in the shape for GPUs, expected as many as its groups have items, " +
+      std::to_string(GROUP_ITEMS) + "; leave their size to choose_shape");
+}
+
 }  // namespace
 
 Projector::Projector(const StageContext& context)
@@ -49,6 +54,7 @@ Projector::Projector(const StageContext& context)
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
   if (!rows) {
+    check_blocks_of_groups(context.device.traits);
     scan_.emplace(context.device);
     programs.get(context.specialization.project(ProjectOutput::counts));
   } else if (parts_) {
@@ -62,13 +68,6 @@ Projector::Projector(const StageContext& context)
   } else {
     programs.get(context.specialization.project(ProjectOutput::splats));
   }
-}
-
-shared::ProjectParameters Projector::parameters_for(const ParticleChunk& chunk,
-                                                    const ParticleBuffers& particles) const {
-  shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
-  p.block_particles = scan_ ? GROUP_ITEMS : context_.device.traits.project_block;
-  return p;
 }
 
 Buffer<shared::WidthNeeds> Projector::upload_needs() const {
@@ -147,7 +146,7 @@ SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers
 SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
                                          const ParticleBuffers& particles) const {
   BufferPool& pool = context_.device.pool;
-  const shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  const shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
   const std::uint32_t groups = block_count(parameters);
   SplatBlocks blocks;
   blocks.block_count = 1;
@@ -167,7 +166,7 @@ SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
 SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
                                          const ParticleBuffers& particles) const {
   BufferPool& pool = context_.device.pool;
-  const shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  const shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
   SplatBlocks blocks;
   blocks.stride =
       parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
@@ -205,7 +204,7 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
   AllParticles all;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
-    all.components.push_back(parameters_for({c, 0, count}, particles[c]));
+    all.components.push_back(make_project_parameters(context_, {c, 0, count}, particles[c]));
     all.components.back().first_block = all.blocks;
     all.blocks += block_count(all.components.back());
     all.left_out.push_back(left_out_blocks(all.components.back(), particles[c]));
@@ -350,7 +349,7 @@ ChunkKeys Projector::count_keys(const ParticleChunk& chunk, const ParticleBuffer
                                 const KeyWindow& window, int shift,
                                 const Buffer<std::uint32_t>& key_counts) const {
   BufferPool& pool = context_.device.pool;
-  shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
   take_window(window, parameters);
   parameters.bin_shift = shift;
   const std::uint32_t blocks = block_count(parameters);
@@ -369,7 +368,7 @@ std::uint32_t Projector::project_window(const ParticleChunk& chunk,
                                         const ParticleBuffers& particles, const KeyWindow& window,
                                         const std::vector<std::uint32_t>& without,
                                         const KeyedSplats& keyed, std::uint32_t first_slot) const {
-  shared::ProjectParameters parameters = parameters_for(chunk, particles);
+  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
   take_window(window, parameters);
   parameters.first_slot = first_slot;
   return scan_ ? project_window_in_groups(parameters, particles, without, keyed)

@@ -70,8 +70,6 @@ class Projector {
   Buffer<shared::BlockCounts> counts_of(std::uint32_t blocks) const;
   ParticleCounts download_counts(const Buffer<shared::BlockCounts>& counts,
                                  std::uint32_t blocks) const;
-  shared::ProjectParameters parameters_for(const ParticleChunk& chunk,
-                                           const ParticleBuffers& particles) const;
   SplatBlocks project_in_blocks(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
   SplatBlocks project_in_groups(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
   // Writes from parameters.first_slot on; how many.

@@ -5,6 +5,7 @@
 #include "device/frame/block_counts.h"
 #include "device/frame/chunks.h"
 #include "device/stages/part_placer.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/projector.h"
 #include "device/stages/projector_targets.h"
 #include "scene/ceil_divide.h"
@@ -18,16 +19,11 @@ struct BlockRange {
   std::uint32_t first = 0, count = 0;  // of the component
 };
 
-std::uint32_t blocks_of(const shared::ProjectParameters& of_component) {
-  return ceil_divide(of_component.end_particle - of_component.first_particle,
-                     of_component.block_particles);
-}
-
 std::vector<BlockRange> cut_in_ranges(const std::vector<shared::ProjectParameters>& components,
                                       std::uint32_t blocks_at_a_time) {
   std::vector<BlockRange> ranges;
   for (std::uint32_t c = 0; c < components.size(); ++c) {
-    const std::uint32_t blocks = blocks_of(components[c]);
+    const std::uint32_t blocks = block_count(components[c]);
     for (std::uint32_t first = 0; first < blocks; first += blocks_at_a_time)
       ranges.push_back({c, first, std::min(blocks_at_a_time, blocks - first)});
   }

@@ -31,6 +31,11 @@ Image image_on_large_pages(int width, int height) {
 // Rows of eight, or of a strip, may reach beyond the last plane.
 constexpr std::size_t padding_of_rows = 2 * STRIP;
 
+// Strips of eight pixels that a row of a part is cut into (kernels/resolve/slab.cl).
+std::size_t strips_of_eight(const shared::GridPart& part) {
+  return ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8);
+}
+
 // Pairs of an even row and the next that a part touches.
 std::size_t row_pairs(const shared::GridPart& part) {
   return ceil_divide(static_cast<std::size_t>(part.bottom - (part.top & ~1)), 2);
@@ -40,7 +45,7 @@ std::size_t row_pairs(const shared::GridPart& part) {
 // that is refined begins with an even column, and has the rows that its taps look at.
 std::size_t blurred_floats(const shared::GridPart& part, int reach) {
   const auto height = static_cast<std::size_t>(part.bottom - part.top + 2 * reach);
-  return height * 8 * ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8);
+  return height * 8 * strips_of_eight(part);
 }
 
 std::size_t refined_rows(const shared::GridPart& part) {
@@ -204,8 +209,7 @@ void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
   static_assert(most_blur_weights == MOST_BLUR_WEIGHTS);
   std::copy(weights.begin(), weights.end(), parameters.weights);
 
-  const std::size_t width_strips =
-      ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8);
+  const std::size_t width_strips = strips_of_eight(part);
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
   const std::size_t plane_count = context_.specialization.planes();
@@ -256,21 +260,20 @@ void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
   shared::RefineParameters parameters = refine_parameters(coarse.grid, fine.grid, part);
   parameters.add = add;
   refine_columns(coarse, parameters, columns);
-  const auto width = static_cast<std::size_t>(part.right_end - part.left);
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(*fine.memory)
       .arg(columns)
-      .run_grid(ceil_divide(width, 8), row_pairs(part), context_.specialization.planes());
+      .run_grid(strips_of_eight(part), row_pairs(part), context_.specialization.planes());
 }
 
 SlabLight Resolver::start_slabs() const {
   const shared::Grid& grid = context_.layout.grids.front();
   const shared::GridPart& part = context_.layout.wanted.front();
   const std::uint64_t floats = std::uint64_t{context_.specialization.planes()} * grid.plane_size;
-  const std::size_t eights = ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8) *
-                             static_cast<std::size_t>(part.bottom - part.top);
+  const std::size_t eights =
+      strips_of_eight(part) * static_cast<std::size_t>(part.bottom - part.top);
   SlabLight slab;
   // Rows of eight may reach beyond the last plane.
   slab.before = context_.device.pool.get<float>(floats + 8, "planes before a slab");
@@ -296,8 +299,7 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
       .arg(slab.room.columns)
       .arg(slab.before)
       .arg(slab.errors)
-      .run_grid(ceil_divide(static_cast<std::size_t>(part.right_end - part.left), 8),
-                row_pairs(part), 1);
+      .run_grid(strips_of_eight(part), row_pairs(part), 1);
   planes.used_grids = picture;
   return planes;
 }
@@ -314,7 +316,7 @@ void Resolver::begin_slab(const Planes& planes, const SlabLight& slab) const {
 }
 
 std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
-  const auto eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
+  const std::size_t eights = strips_of_eight(context_.layout.wanted.front());
   const auto rows = static_cast<std::size_t>(parameters_.height);
   const std::vector<float> of_eights = context_.device.pool.download(slab.errors, eights * rows);
   constexpr std::size_t side = BlockErrors::block_pixels;

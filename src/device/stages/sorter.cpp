@@ -7,6 +7,7 @@
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
 #include "device/stages/part_sorter.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -24,8 +25,8 @@ std::uint32_t differing_bits(const std::vector<shared::KeyBits>& blocks) {
 shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted_blocks) {
   shared::SortParameters parameters{};
   parameters.count = count;
-  parameters.block_length = std::max(1024u, count / wanted_blocks + (count % wanted_blocks != 0));
-  parameters.block_count = count / parameters.block_length + (count % parameters.block_length != 0);
+  parameters.block_length = std::max(1024u, ceil_divide(count, wanted_blocks));
+  parameters.block_count = ceil_divide(count, parameters.block_length);
   return parameters;
 }
 

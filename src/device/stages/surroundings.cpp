@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "device/frame/column_arguments.h"
+#include "device/frame/float_pair.h"
 #include "device/frame/key_windows.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
@@ -16,6 +17,7 @@
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
+#include "scene/picked_particles.h"
 #include "scene/plan/light_structure.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
@@ -29,34 +31,6 @@ constexpr double negligible = 1e-14;
 
 // Of what clouds around the camera may err by, what all of them together lose by ending.
 constexpr double share_of_ends = 1e-3;
-
-// These particles' values. What is made as it is wanted is made for them alone.
-Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
-  if (!column.is_array() || column.size() == 0) return column;
-  const auto source = column.source();
-  std::vector<float> values(width * places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t first = width * static_cast<std::size_t>(places[k]);
-    float* const to = values.data() + width * k;
-    if (source) {
-      source->make(first, first + width, to);
-    } else {
-      std::copy_n(column.data() + first, width, to);
-    }
-  }
-  return Column::owning(std::move(values));
-}
-
-Particles picked(const Particles& particles, const std::vector<std::uint64_t>& places) {
-  Particles some = particles;
-  some.count = places.size();
-  for (Column* const column : {&some.position, &some.color_vector})
-    *column = picked(*column, 3, places);
-  for (Column* const column :
-       {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
-    *column = picked(*column, 1, places);
-  return some;
-}
 
 [[noreturn]] void refuse(const DeviceContext& device, std::uint64_t counted, std::uint64_t listed) {
   throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
@@ -125,8 +99,9 @@ void carry_row(const double* depths, std::size_t count, bool keeps_transmittance
 // Numbers as pairs of floats.
 void split(const double* values, std::size_t count, float* high, float* low) {
   for (std::size_t i = 0; i < count; ++i) {
-    high[i] = static_cast<float>(values[i]);
-    low[i] = static_cast<float>(values[i] - static_cast<double>(high[i]));
+    const shared::FloatPair pair = pair_of(values[i]);
+    high[i] = pair.high;
+    low[i] = pair.low;
   }
 }
 
@@ -147,8 +122,7 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
                                                     std::uint64_t most) const {
   DeviceContext& device = context_.device;
   const ParticleChunk& chunk = blocks.chunk;
-  shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
-  p.block_particles = device.traits.project_block;
+  const shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
@@ -207,7 +181,7 @@ void Surroundings::append(std::uint32_t c, const std::vector<Found>& found,
   for (const Found& one : within)
     places.push_back(one.particle);
   DrawnComponent component = frame.components[c];
-  component.particles = picked(component.particles, places);
+  component.particles = picked_particles(component.particles, places);
   const double widest = widest_angle(frame);
   for (std::size_t k = 0; k < within.size(); ++k) {
     CloudAround cloud = cloud_around(component, frame, k);

@@ -98,13 +98,13 @@ void FilmScene::check_words() {
 }
 
 // The first frame in which there is something of a component to be seen decides; only so many
-// are tried, over all of the film.
+// later ones are tried, over all of the film.
 void FilmScene::decide_components() {
-  constexpr int most_tries = 16;
+  constexpr int most_later = 16;
   const int last = path_->frame_count() - 1;
   std::vector<std::string> ignored;
-  for (int i = 0; i <= most_tries; ++i) {
-    const Scene scene = scene_at(static_cast<int>(std::int64_t{last} * i / most_tries));
+  for (int i = 0; i <= most_later; ++i) {
+    const Scene scene = scene_at(static_cast<int>(std::int64_t{last} * i / most_later));
     scene_ = fixed_scene(splotchcl::decide(scene, *snapshot_at(scene), i == 0 ? notes_ : ignored));
     if (is_decided(scene_) || last == 0) return;
   }

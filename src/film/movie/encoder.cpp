@@ -14,9 +14,9 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 #include "common/child_process.h"
+#include "common/reason.h"
 #include "common/words.h"
 #include "splotchcl/error.h"
 
@@ -115,10 +115,6 @@ std::vector<std::string> arguments(const std::filesystem::path& path, const Movi
   all.emplace_back("-y");
   all.push_back(as_file(unfinished));
   return all;
-}
-
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
 }
 
 std::string one_line(std::string text) {

@@ -103,8 +103,10 @@ class StreamedDatasets final : public ColumnSource {
       const std::uint64_t width = part.dataset.values_per_row();
       const std::uint64_t row = (wanted - first) / width / rows_of_piece * rows_of_piece;
       const std::uint64_t rows = std::min(rows_of_piece, part.dataset.rows() - row);
-      piece_.resize(rows * width);
-      reader_.read(file, part.dataset, row, rows, piece_.data());
+      std::vector<float> values(rows * width);
+      reader_.read(file, part.dataset, row, rows, values.data());
+      // Both or, where the read throws, neither.
+      piece_ = std::move(values);
       piece_begin_ = first + row * width;
       return;
     }

@@ -66,6 +66,28 @@ TEST_F(Hdf5Storage, IsReadPieceByPieceToTheSameValues) {
   EXPECT_THAT(values_of(moved), ElementsAre(0, 4, 6, 6, 10, 12, 0, 4, 6, 6, 10, 12));
 }
 
+// The field's first value is another, which its checksum tells.
+std::string damage_field(std::string file) {
+  const float values[] = {7, 8};
+  file.at(file.find(std::string(reinterpret_cast<const char*>(values), sizeof(values)))) ^= 1;
+  return file;
+}
+
+TEST_F(Hdf5Storage, APieceThatCouldNotBeReadIsReadAgain) {
+  const hsize_t chunk = 2;
+  H5Pset_chunk(properties_.id(), 1, &chunk);
+  H5Pset_fletcher32(properties_.id());
+  write_field(properties_.id());
+  file_ = Hdf5Output();
+  const Column fields = read_streamed_column({{path_, Hdf5File(path_).dataset("PartType0/Field")}});
+  const std::string whole = read_text(path_);
+  write_bytes(path_, damage_field(whole));
+  EXPECT_THROW(fields[0], DataError);
+  EXPECT_THROW(fields[1], DataError);
+  write_bytes(path_, whole);
+  EXPECT_EQ(fields[0], 7);
+}
+
 TEST_F(Hdf5Storage, ChunksMayBePackedAndHaveChecksums) {
   const hsize_t chunk = 2;
   H5Pset_chunk(properties_.id(), 1, &chunk);

@@ -3,7 +3,11 @@ browser, by the same requests that one sends."""
 
 import http.client
 import json
+import resource
 import socket
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
@@ -62,6 +66,27 @@ def test_requests_that_are_none_do_not_end_the_server(view):
                     b"GET / HTTP/1.1\r\nContent-Length: 9999999999\r\n\r\n"):
         with socket.create_connection(("127.0.0.1", opened.port), timeout=30) as connection:
             connection.sendall(request)
+    assert get(opened, f"/{opened.token}/")[0] == 200
+
+
+def is_asleep(process):
+    """Whether the first thread, which serves, waits for something."""
+    status = Path(f"/proc/{process}/task/{process}/stat").read_text()
+    return status.rsplit(")", 1)[1].split()[0] == "S"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs prlimit and /proc")
+def test_a_server_without_files_for_connections_waits_until_it_has_some(view):
+    opened = view()
+    most = resource.prlimit(opened.process.pid, resource.RLIMIT_NOFILE)
+    resource.prlimit(opened.process.pid, resource.RLIMIT_NOFILE, (3, most[1]))
+    with socket.create_connection(("127.0.0.1", opened.port), timeout=30):
+        looks = []
+        for _ in range(20):
+            time.sleep(0.02)
+            looks.append(is_asleep(opened.process.pid))
+        assert any(looks)
+    resource.prlimit(opened.process.pid, resource.RLIMIT_NOFILE, most)
     assert get(opened, f"/{opened.token}/")[0] == 200
 
 
