@@ -133,8 +133,18 @@ std::map<fs::path, std::vector<fs::path>> find_sets(const fs::path& folder) {
   return sets;
 }
 
+// Of a snapshot beside it.
+void leave_out_maps(std::map<fs::path, std::vector<fs::path>>& sets) {
+  for (auto set = sets.begin(); set != sets.end() && sets.size() > 1;) {
+    const fs::path& file = set->second.front();
+    const SnapshotFormat* const format = find_format(file);
+    set = format != nullptr && format->is_map(file) ? sets.erase(set) : std::next(set);
+  }
+}
+
 std::unique_ptr<Snapshot> open_folder(const fs::path& folder, const SnapshotOptions& options) {
   auto sets = find_sets(folder);
+  leave_out_maps(sets);
   if (sets.empty()) {
     throw DataError(fmt::format("{}: no snapshot in this folder; give the path of a snapshot file",
                                 folder.string()));

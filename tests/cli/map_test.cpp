@@ -52,6 +52,15 @@ TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
   expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
 }
 
+TEST_F(MapCommand, LeavesTheFolderOfASnapshotWhatItWas) {
+  std::filesystem::create_directory(folder_ / "run");
+  std::filesystem::rename(folder_ / "u", folder_ / "run/u");
+  EXPECT_EQ(map("run -o run/s.hdf5 -o run/s.npy -o run/s.fits -o run/s.png --size 64x64 --noise")
+                .exit_code,
+            0);
+  EXPECT_EQ(splotchcl_in(folder_, "info run").exit_code, 0);
+}
+
 TEST_F(MapCommand, KnowsTheSkyWhereItKnowsLengths) {
   const std::string sky = "u --size 64x64 --distance '10 Mpc' --sky 187.7,12.4 -o s.fits";
   expect_wrong_call(sky, "map.length_unit");
