@@ -19,6 +19,8 @@ using test::map_of;
 using test::map_on_device;
 using test::map_scene;
 using test::random_gas;
+using ::testing::Each;
+using ::testing::Ge;
 
 const double sigma_of_h = KernelSettings().width;
 
@@ -370,6 +372,33 @@ TEST_F(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
     scene.tolerance = 1e-3;
     EXPECT_NEAR(mass_in_map(scene, gas) / mass, 1, 1e-3) << h;
   }
+}
+
+// Few wide kernels on coarse grids, which ring around them.
+TEST_F(MapOnTheDevice, HasNothingBelowZeroOfWhatIsAboveIt) {
+  const Gas gas = random_gas(200, 4, 4, 8);
+  Scene scene = map_scene();
+  scene.image.width = 640;
+  scene.image.height = 480;
+  scene.tolerance = 1e-3;
+  for (const char* const quantity : {"surface_density", "temperature"}) {
+    scene.map.quantity = quantity;
+    const bool is_field = scene.map.quantity == "temperature";
+    scene.map.statistic = is_field ? MapStatistic::integral : MapStatistic::mean;
+    EXPECT_THAT(map(scene, gas.snapshot()).values, Each(Ge(0.0F))) << quantity;
+  }
+}
+
+TEST_F(MapOnTheDevice, HasIntegralsOfBothSigns) {
+  Gas gas;
+  gas.add({{-16, 0, 0}}, 3, 1, 100, {{2, 0, 0}});
+  gas.add({{16, 0, 0}}, 3, 1, 100, {{-2, 0, 0}});
+  Scene scene = map_scene();
+  scene.map.quantity = "velocity_x";
+  scene.map.statistic = MapStatistic::integral;
+  const Map drawn = map(scene, gas.snapshot());
+  EXPECT_GT(at(drawn, 16, 24), 0.01F);
+  EXPECT_NEAR(at(drawn, 48, 24), -at(drawn, 15, 24), 1e-5F);
 }
 
 TEST_F(MapOnTheDevice, KeepsTheToleranceOfItsSums) {
