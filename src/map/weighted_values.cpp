@@ -123,7 +123,7 @@ std::vector<double> WeightedValues::means(const PixelSums& sums) const {
   std::vector<double> means(sums[denominator].size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < means.size(); ++i) {
     const double weight = sums[denominator][i];
-    if (weight >= white_ && weight > 0) means[i] = (sums[above][i] - sums[below][i]) / weight;
+    if (is_known(weight)) means[i] = (sums[above][i] - sums[below][i]) / weight;
   }
   return means;
 }

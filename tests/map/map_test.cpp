@@ -329,6 +329,26 @@ TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
   EXPECT_NEAR(effective(47, 23), 5, 0.05);
 }
 
+TEST(Map, DoesNotTellOfParticlesWhereThereIsTooLittleMatter) {
+  Gas gas;
+  gas.add({{-19.5, 0.5, 0}}, 0.5F, 2, 100);
+  Scene scene = map_scene();
+  scene.map.noise = true;
+  const Map map = map_of(scene, gas.snapshot());
+  EXPECT_TRUE(std::isnan(map.effective_particles[23 * 64 + 60]));
+}
+
+TEST(Map, NeverTellsOfMoreParticlesThanThereAre) {
+  const Gas gas = random_gas(40, 25, 0.05F, 8);
+  Scene scene = map_scene();
+  scene.map.noise = true;
+  for (const float effective : map_of(scene, gas.snapshot()).effective_particles) {
+    if (!std::isnan(effective)) {
+      ASSERT_LE(effective, 40.0F);
+    }
+  }
+}
+
 // Maps by OpenCL.
 class MapOnTheDevice : public testing::Test {
  protected:
