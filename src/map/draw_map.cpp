@@ -77,6 +77,20 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   return matter;
 }
 
+// A map of nothing but bad particles would look like one of empty space.
+void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
+                    const ComponentFields& fields) {
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (matter.is_good(i) && quantity.is_good(i)) return;
+  }
+  if (matter.count == 0) return;
+  throw DataError(fmt::format(
+      "{}: {}: none of its {} particles can be mapped: all have a position, smoothing length, "
+      "weight or value that is not finite, a smoothing length not above 0, or a weight below 0; "
+      "splotchcl info tells which",
+      fields.snapshot_info().files.front().string(), fields.label(), matter.count));
+}
+
 int first_type(const Component& component, const SnapshotInfo& info) {
   for (const int type : component.types) {
     if (info.find_type(type) != nullptr) return type;
@@ -147,6 +161,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   const MapMatter matter = read_matter(component, settings.center_at, fields);
   const MapGeometry geometry = decide_geometry(one, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
+  refuse_all_bad(matter, quantity, fields);
   const MapUnits units = decide_units(settings, fields.snapshot_info(),
                                       first_type(component, fields.snapshot_info()), quantity.kind);
 
@@ -176,8 +191,8 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +
                     " particles, periodic images counted, are left out of the map: their "
-                    "position, smoothing length, weight or value is not finite, or the length not "
-                    "above 0");
+                    "position, smoothing length, weight or value is not finite, the length not "
+                    "above 0, or the weight below 0");
   }
   if (placed.count() == 0) notes.push_back("no particle reaches the map, which is empty");
   return map;

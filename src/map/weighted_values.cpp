@@ -60,15 +60,13 @@ void WeightedValues::read_weights(const MapQuantity& quantity) {
   std::vector<double> weights(placed_.count(), 0);
   double sum = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const auto weight = static_cast<double>(quantity.weight[placed_.source[i]]);
-    const bool is_good =
-        std::isfinite(weight) && weight >= 0 && (value_.empty() || std::isfinite(value_[i]));
-    if (!is_good) {
+    if (!quantity.is_good(placed_.source[i])) {
       ++bad_;
       if (!value_.empty()) value_[i] = 0;
       continue;
     }
-    weights[i] = weight * (is_slice_ ? placed_.in_plane[i] : 1);
+    weights[i] = static_cast<double>(quantity.weight[placed_.source[i]]) *
+                 (is_slice_ ? placed_.in_plane[i] : 1);
     sum += weights[i];
   }
   if (sum > 0) weight_unit_ = sum / static_cast<double>(weights.size());

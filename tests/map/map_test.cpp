@@ -19,8 +19,11 @@ using test::map_of;
 using test::map_on_device;
 using test::map_scene;
 using test::random_gas;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::Ge;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 const double sigma_of_h = KernelSettings().width;
 
@@ -347,6 +350,21 @@ TEST(Map, NeverTellsOfMoreParticlesThanThereAre) {
       ASSERT_LE(effective, 40.0F);
     }
   }
+}
+
+TEST(Map, OfNothingButBadParticlesIsRefused) {
+  Gas gas = random_gas(20, 10, 1, 2);
+  std::fill(gas.mass.begin(), gas.mass.end(), std::nanf(""));
+  EXPECT_THAT([&] { map_of(map_scene(), gas.snapshot()); },
+              ThrowsMessage<DataError>(HasSubstr("none of its 20 particles can be mapped")));
+}
+
+TEST(Map, TellsOfParticlesWhoseWeightLiesBelowZero) {
+  Gas gas = random_gas(20, 10, 1, 2);
+  gas.mass[3] = -1;
+  std::vector<std::string> notes;
+  map_of(map_scene(), gas.snapshot(), &notes);
+  EXPECT_THAT(notes, Contains(HasSubstr("or the weight below 0")));
 }
 
 // Maps by OpenCL.
