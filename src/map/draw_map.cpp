@@ -159,7 +159,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   ComponentFields& fields = open.fields().front();
   fields.select();
   const MapMatter matter = read_matter(component, settings.center_at, fields);
-  const MapGeometry geometry = decide_geometry(one, matter, box);
+  const MapGeometry geometry = decide_geometry(one, snapshot, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   refuse_all_bad(matter, quantity, fields);
   const MapUnits units = decide_units(settings, fields.snapshot_info(),

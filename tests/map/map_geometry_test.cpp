@@ -185,6 +185,33 @@ TEST(MapGeometry, ShowsTheWholeBoxInAPictureOfAnyShape) {
   EXPECT_NEAR(map_of(scene, snapshot).pixel, 1, 1e-12);
 }
 
+TEST(MapGeometry, HasTheMiddleOfTheBoxWhateverIsSelected) {
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  auto snapshot = test::random_gas(200, 32, 0.5F, 1).snapshot();
+  snapshot.set_box_size(64);
+  scene.components.front().select.where = {"position_x > 5 and position_y > 5", "position_z > 5"};
+  EXPECT_EQ(map_of(scene, snapshot).center.a[0], 0);
+}
+
+// Stars in one corner of it.
+TEST(MapGeometry, HasTheMiddleOfABoxThatOtherParticlesTell) {
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  const Gas stars = one_particle({{3, 4, 5}});
+  for (const double first : {-32.0, 0.0}) {
+    Gas gas = one_particle({{first + 1, first + 1, first + 1}});
+    gas.add({{first + 63, first + 63, first + 63}}, 0.5F, 1, 100);
+    auto snapshot = gas.snapshot();
+    snapshot.add(4, "position", stars.position, 3);
+    snapshot.add(4, "smoothing_length", stars.h);
+    snapshot.add(4, "mass", stars.mass);
+    snapshot.set_box_size(64);
+    scene.components.front().types = {4};
+    EXPECT_EQ(map_of(scene, snapshot).center.a[0], first + 32);
+  }
+}
+
 TEST(MapGeometry, FindsTheDensestPlace) {
   Gas gas = test::random_gas(50, 20, 1, 4);
   gas.add({{3, -4, 5}}, 4, 1, 100, {{0, 0, 0}}, 50);
