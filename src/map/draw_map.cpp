@@ -65,6 +65,7 @@ bool has_densities(const Component& component, const SnapshotInfo& info) {
 MapMatter read_matter(const Component& component, MapCenter center, const ComponentFields& fields) {
   MapMatter matter;
   matter.count = fields.count();
+  matter.before_selecting = fields.count_before_selecting();
   matter.origin = fields.origin();
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
@@ -194,7 +195,8 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
                     "position, smoothing length, weight or value is not finite, the length not "
                     "above 0, or the weight below 0");
   }
-  if (placed.count() == 0) notes.push_back("no particle reaches the map, which is empty");
+  if (matter.count > 0 && placed.count() == 0)
+    notes.push_back("no particle reaches the map, which is empty");
   return map;
 }
 

@@ -173,6 +173,20 @@ double choose_width(const Scene& scene, const MapMatter& matter, const MapGeomet
   throw UsageError("key map.width: all particles lie in one place, expected the key to be set");
 }
 
+// Nothing can be found by particles that a selection leaves out.
+void check_place_without_matter(const MapSettings& map, const MapMatter& matter, double box) {
+  const bool is_by_camera = map.view == MapView::camera;
+  const bool has_center =
+      map.center || (map.center_at == MapCenter::box && (box > 0 || is_by_camera));
+  const bool has_width = map.width || box > 0 || is_by_camera;
+  if (has_center && has_width) return;
+  throw UsageError(fmt::format(
+      "keys map.center and map.width: select and exclude leave none of {} particles, expected some "
+      "to find the map's place by; set {}{}{}",
+      matter.before_selecting, has_center ? "" : "map.center",
+      has_center || has_width ? "" : " and ", has_width ? "" : "map.width"));
+}
+
 }  // namespace
 
 Vec3 MapMatter::position_of(std::size_t i) const {
@@ -208,6 +222,7 @@ MapGeometry decide_geometry(const Scene& scene, const Snapshot& snapshot, const 
   geometry.height = scene.image.height;
   geometry.box = box;
   set_axes(scene, geometry);
+  if (matter.count == 0) check_place_without_matter(scene.map, matter, box);
   geometry.center = choose_center(scene, snapshot, matter, geometry);
   const double width = choose_width(scene, matter, geometry);
   geometry.pixel = width / geometry.width;

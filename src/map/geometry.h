@@ -11,6 +11,7 @@ namespace splotchcl {
 // be absent.
 struct MapMatter {
   std::size_t count = 0;
+  std::size_t before_selecting = 0;
   Vec3 origin = {{0, 0, 0}};
   Column position, smoothing_length, mass, density;
   double size_factor = 1;

@@ -52,6 +52,12 @@ TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
   expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
 }
 
+TEST_F(MapCommand, OfAnEmptySelectionWithoutABoxAsksForItsPlace) {
+  const std::string none = "u --set map.periodic=false --select 'temperature > 1e20' -o s.npy";
+  expect_wrong_call(none, "set map.center and map.width");
+  EXPECT_EQ(map(none + " --center 1,1,1 --width 1 --size 64x64").exit_code, 0);
+}
+
 TEST_F(MapCommand, LeavesTheFolderOfASnapshotWhatItWas) {
   std::filesystem::create_directory(folder_ / "run");
   std::filesystem::rename(folder_ / "u", folder_ / "run/u");
