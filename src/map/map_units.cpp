@@ -180,8 +180,8 @@ MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
   units.name = found.name;
   set_lengths(data, units);
   if (settings.unit.empty() || settings.unit == found.name) return units;
-  if (!found.is_known) refuse_unknown(settings.unit, found);
   const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
+  if (!found.is_known) refuse_unknown(settings.unit, found);
   if (!same_dimension(wanted, found.unit)) {
     throw UsageError(fmt::format(
         "key map.unit: found \"{}\", expected a unit of the same dimension as the map's, {}",

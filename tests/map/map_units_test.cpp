@@ -1,3 +1,4 @@
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,6 +53,12 @@ TEST(MapUnits, AreNeverGuessed) {
   Scene scene = map_scene();
   scene.map.unit = "Msun/pc^2";
   EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
+}
+
+TEST(MapUnits, ThatDoNotExistAreToldBeforeUnitsThatAreMissing) {
+  Scene scene = map_scene();
+  scene.map.unit = "furlong";
+  EXPECT_THAT(refusal(scene), HasSubstr("found 'furlong'"));
 }
 
 TEST(MapUnits, RefuseAnotherDimension) {
