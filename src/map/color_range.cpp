@@ -106,7 +106,11 @@ void check_color_limits(const MapSettings& settings) {
     check_limit(settings.minimum, "min");
     check_limit(settings.maximum, "max");
   }
-  if (settings.minimum && settings.maximum) check_order(*settings.minimum, *settings.maximum);
+  if (!settings.minimum || !settings.maximum || *settings.minimum < *settings.maximum) return;
+  throw UsageError(
+      fmt::format("keys map.min and map.max: found {:.6g} and {:.6g}, expected the first to lie "
+                  "below the second",
+                  *settings.minimum, *settings.maximum));
 }
 
 ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,

@@ -266,6 +266,7 @@ TEST(MapFigure, HasItsLimitsRefusedBeforeAnythingIsDrawn) {
 
 TEST(MapColors, RefuseLimitsOutOfOrder) {
   EXPECT_THROW(MapColors({}, settings(MapScaling::linear, 2, 1)), UsageError);
+  EXPECT_THROW(MapColors({}, settings(MapScaling::log, 1e-9, 1e-9)), UsageError);
 }
 
 TEST(Contours, LieWhereTheMapHasTheirValue) {
