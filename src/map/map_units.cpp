@@ -172,6 +172,14 @@ void set_lengths(const DataUnits& data, MapUnits& units) {
 
 }  // namespace
 
+std::string name_of_density(const ParticleTypeInfo& type) {
+  const FieldInfo *const mass = find_field(type, "mass"), *const position =
+                                                              find_field(type, "position");
+  if (mass == nullptr || position == nullptr || mass->unit.empty() || position->unit.empty())
+    return {};
+  return DataUnits::product({mass->unit, true, {}}, {position->unit, true, {}}, -3).name;
+}
+
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
                       MapQuantity::Kind kind) {
   const DataUnits data(settings, snapshot, type);
