@@ -49,7 +49,11 @@ TEST_F(MapCommand, TakesItsSettingsFromTheSceneToo) {
 
 TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
   EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").exit_code, 0);
-  expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
+  expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "found boundary, of which");
+}
+
+TEST_F(MapCommand, DoesNotTellOfTypesThatItIsNotAskedFor) {
+  EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").err.find("not drawn"), std::string::npos);
 }
 
 TEST_F(MapCommand, OfAnEmptySelectionWithoutABoxAsksForItsPlace) {
