@@ -43,9 +43,11 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
     const float8 own = sum;
 #elif defined(LIGHT_EMISSION)
     const float8 transmittance = (float8)(1.0f);
-    const float8 own = sum;
+    // Coarse grids ring by a part of the tolerance: a sum may be slightly negative. No particle's
+    // weight or color is.
+    const float8 own = max(sum, (float8)(0.0f));
 #else
-    // Coarse grids ring by a part of the tolerance: a sum may be slightly negative.
+    // As above.
     const float8 depth = max(sum, (float8)(0.0f));
     const float8 phi = phi_full(depth), opacity = depth * phi;
     // What is behind may be so bright that it shows through an opacity close to 1.

@@ -10,6 +10,7 @@
 #include "cli/json_answer.h"
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
+#include "map/map_units.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
@@ -39,6 +40,7 @@ std::string unit_of_derived(const ParticleTypeInfo& type, const std::string& nam
                                     [&](const FieldInfo& info) { return info.name == field; });
     return found == type.fields.end() ? std::string() : found->unit;
   };
+  if (name == "density") return name_of_density(type);
   if (name == "speed") return unit_of("velocity");
   if (name == "radius" || name == "smoothing_length") return unit_of("position");
   const FieldInfo* const vectors = find_axis(type, name).first;

@@ -9,7 +9,9 @@
 #include "common/output_files.h"
 #include "common/quiet_errors.h"
 #include "open_scene/input_files.h"
+#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
+#include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/renderer.h"
@@ -74,13 +76,31 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   return settings;
 }
 
-void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
+// The component of the map; null where there is none, which draw_map refuses.
+Component* find_component(Scene& scene) {
   for (Component& component : scene.components) {
-    if (!scene.map.component.empty() && component.name != scene.map.component) continue;
-    component.select.where.insert(component.select.where.end(), conditions.begin(),
-                                  conditions.end());
-    return;
+    if (scene.map.component.empty() || component.name == scene.map.component) return &component;
   }
+  return nullptr;
+}
+
+void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
+  Component* const component = find_component(scene);
+  if (component == nullptr) return;
+  component->select.where.insert(component->select.where.end(), conditions.begin(),
+                                 conditions.end());
+}
+
+// The component that was suggested for other types has their name, and another one perhaps the name
+// of these: it stays alone, as the map's.
+void name_by_types(const MapOptions& options, SceneWithSnapshot& source) {
+  Scene& scene = source.scene;
+  if (options.types.empty() || !source.suggested || !scene.map.component.empty()) return;
+  std::vector<std::string> names;
+  for (const int type : scene.components.front().types)
+    names.push_back(particle_type_name(type));
+  scene.components.resize(1);
+  scene.components.front().name = fmt::format("{}", fmt::join(names, " and "));
 }
 
 DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) {
@@ -114,15 +134,19 @@ int run_map(const MapOptions& options, Console& console) {
   for (const std::filesystem::path& output : options.outputs)
     check_map_path(output);
   SceneWithSnapshot source = open_scene(options.scene, settings_of_map(options));
+  // A map is of one component, whatever else there is.
+  const std::string not_drawn = tell_not_drawn(source.scene, *source.snapshot);
   add_selection(options.select, source.scene);
+  name_by_types(options, source);
   std::vector<OutputFile> outputs;
   for (const std::filesystem::path& output : options.outputs) {
     check_map_output(output, source.scene, source.snapshot->info());
     outputs.push_back({output, "--output"});
   }
   check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
-  for (const std::string& note : source.notes)
-    console.note(note);
+  for (const std::string& note : source.notes) {
+    if (note != not_drawn) console.note(note);
+  }
   console.status("starting the device");
   std::optional<Renderer> renderer;
   const DrawFrame draw = drawing(options, renderer);

@@ -25,8 +25,12 @@ struct FamiliarFile {
   const char* what;
 };
 
-// What a file that is no snapshot is, where its first bytes tell, and what to do.
-std::string describe_other(const fs::path& path) {
+std::string_view content_of(const MappedFile& file) {
+  return {reinterpret_cast<const char*>(file.data()), file.size()};
+}
+
+// What a file of another kind is by its signature, and what to do; null where it has none.
+const char* find_familiar(std::string_view content) {
   using namespace std::string_view_literals;
   static constexpr FamiliarFile known[] = {
       {"\x1f\x8b"sv, "a gzip archive; unpack it first"},
@@ -42,15 +46,19 @@ std::string describe_other(const fs::path& path) {
       {"%PDF"sv, "a PDF document"},
       {"\x7f\x45LF"sv, "a program"},
       {"SIMPLE  ="sv, "a FITS file; convert it to HDF5 or to a NumPy array"}};
-  const auto file = MappedFile::open(path);
-  const std::string_view content(reinterpret_cast<const char*>(file->data()), file->size());
   for (const FamiliarFile& other : known) {
     if (content.substr(0, other.start.size()) == other.start) return other.what;
   }
   constexpr std::size_t tar_mark = 257;
-  if (content.size() >= tar_mark + 5 && content.substr(tar_mark, 5) == "ustar") {
-    return "a tar archive; unpack it first";
-  }
+  const bool is_tar = content.size() >= tar_mark + 5 && content.substr(tar_mark, 5) == "ustar";
+  return is_tar ? "a tar archive; unpack it first" : nullptr;
+}
+
+// What a file that is no snapshot is, where its bytes tell, and what to do.
+std::string describe_other(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  const std::string_view content = content_of(*file);
+  if (const char* const familiar = find_familiar(content)) return familiar;
   const std::string_view start = content.substr(0, 4096);
   const bool is_text = std::all_of(start.begin(), start.end(), [](char c) {
     return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 32;
@@ -125,8 +133,18 @@ std::map<fs::path, std::vector<fs::path>> find_sets(const fs::path& folder) {
   return sets;
 }
 
+// Of a snapshot beside it.
+void leave_out_maps(std::map<fs::path, std::vector<fs::path>>& sets) {
+  for (auto set = sets.begin(); set != sets.end() && sets.size() > 1;) {
+    const fs::path& file = set->second.front();
+    const SnapshotFormat* const format = find_format(file);
+    set = format != nullptr && format->is_map(file) ? sets.erase(set) : std::next(set);
+  }
+}
+
 std::unique_ptr<Snapshot> open_folder(const fs::path& folder, const SnapshotOptions& options) {
-  const auto sets = find_sets(folder);
+  auto sets = find_sets(folder);
+  leave_out_maps(sets);
   if (sets.empty()) {
     throw DataError(fmt::format("{}: no snapshot in this folder; give the path of a snapshot file",
                                 folder.string()));
@@ -159,6 +177,8 @@ std::vector<const SnapshotFormat*> snapshot_formats() {
 const SnapshotFormat* find_format(const fs::path& path) {
   const auto file = MappedFile::open(path);
   for (const SnapshotFormat* const format : snapshot_formats()) {
+    // Binary files may have three numbers before their first line ends.
+    if (format == &text_table_format() && find_familiar(content_of(*file)) != nullptr) continue;
     if (format->recognizes(file)) return format;
   }
   return nullptr;

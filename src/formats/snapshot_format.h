@@ -24,6 +24,10 @@ class SnapshotFormat {
   virtual std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
                                          const SnapshotOptions& options) const = 0;
 
+  // Whether a file that it recognizes is a map or an image, which a folder of a snapshot may hold
+  // beside it. Damaged files are not.
+  virtual bool is_map(const std::filesystem::path&) const { return false; }
+
   // Whether SnapshotOptions::columns means something for it.
   virtual bool has_columns() const { return false; }
 };

@@ -15,6 +15,7 @@
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
+#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -56,6 +57,10 @@ Column joined(const std::vector<Part>& parts, std::size_t width, bool is_shared)
   return make_column(total * width, streams, make);
 }
 
+std::string number_and_name(int type) {
+  return fmt::format("{} ({})", type, particle_type_name(type));
+}
+
 }  // namespace
 
 ComponentFields::ComponentFields(const Component& component, std::size_t number,
@@ -75,7 +80,7 @@ ComponentFields::ComponentFields(const Component& component, std::size_t number,
           own, *info, label(), component.center, [this](const std::string& text) { note(text); },
           sizes);
     } else if (component.types.size() > 1) {
-      note(fmt::format("the snapshot has no particles of type {}", type));
+      note(fmt::format("the snapshot has no particles of type {}", number_and_name(type)));
     }
   }
   if (types_.empty()) refuse_types();
@@ -83,12 +88,14 @@ ComponentFields::ComponentFields(const Component& component, std::size_t number,
 }
 
 void ComponentFields::refuse_types() const {
-  std::vector<int> present;
+  std::vector<std::string> wanted, present;
+  for (const int type : component_.types)
+    wanted.push_back(number_and_name(type));
   for (const ParticleTypeInfo& type : snapshot_.info().types)
-    present.push_back(type.type);
+    present.push_back(number_and_name(type.type));
   throw UsageError(
       fmt::format("{}: {} has no particles of type {}, expected types with particles: {}", label(),
-                  snapshot_.info().files.front().string(), fmt::join(component_.types, " or "),
+                  snapshot_.info().files.front().string(), fmt::join(wanted, " or "),
                   fmt::join(present, ", ")));
 }
 

@@ -36,6 +36,7 @@ class ComponentFields {
 
   const SnapshotInfo& snapshot_info() const { return snapshot_.info(); }
   std::size_t count() const;  // particles of all types together
+  std::size_t count_before_selecting() const;
   // Over all of them.
   ParticlePass pass() const;
   // As they are placed in the scene: origin() + positions().
@@ -76,7 +77,6 @@ class ComponentFields {
   void add_up_counts(std::size_t type);
   std::size_t count_of(std::size_t type) const;
   std::size_t own_count_of(std::size_t type) const;
-  std::size_t count_before_selecting() const;
   std::string particles_key() const;
   [[noreturn]] void refuse_types() const;
 

@@ -114,19 +114,30 @@ std::optional<Target> find_cube(Sample sample) {
   return box_target(center, largest);
 }
 
+// Of particles whose coordinates span this along an axis: whether the middle of the box lies at the
+// origin, as some programs have it.
+bool is_around_zero(const ValueRange& most, double side) {
+  return most.minimum < -0.1 * side;
+}
+
+Vec3 cube_middle(bool is_at_zero, double side) {
+  const double middle = is_at_zero ? 0 : 0.5 * side;
+  return {{middle, middle, middle}};
+}
+
+constexpr double few_outside = 0.01;  // of the particles, out of a box on either side
+
 // The box of the header, where the particles are spread over it.
 std::optional<Target> find_periodic_box(Sample sample, const SnapshotInfo& info) {
   if (!info.box_size || !(*info.box_size > 0)) return std::nullopt;
   const double side = *info.box_size;
   bool reaches_below_zero = false;
   for (std::vector<double>& values : sample) {
-    const ValueRange most = extent(values, 0.01);
+    const ValueRange most = extent(values, few_outside);
     if (most.maximum - most.minimum < 0.7 * side) return std::nullopt;
-    reaches_below_zero = reaches_below_zero || most.minimum < -0.1 * side;
+    reaches_below_zero = reaches_below_zero || is_around_zero(most, side);
   }
-  // Some programs put the middle of the box at the origin.
-  const double center = reaches_below_zero ? 0 : 0.5 * side;
-  return box_target({{center, center, center}}, side);
+  return box_target(cube_middle(reaches_below_zero, side), side);
 }
 
 // Whether counts of particles in cells differ by little more than chance has them differ.
@@ -263,6 +274,25 @@ Target find_target(const Snapshot& snapshot, const std::vector<int>& types, doub
   Target target = long_axis ? bar_target(*long_axis) : object_target();
   fit_to_picture(target, sample, aspect);
   return target;
+}
+
+Vec3 middle_of_box(const Snapshot& snapshot, const std::vector<int>& types, double side) {
+  for (const int type : types) {
+    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
+    if (info == nullptr) continue;
+    Sample sample;
+    sample_type(snapshot, type,
+                sample_stride(static_cast<std::size_t>(info->count), position_limit), sample);
+    bool reaches_beyond_half = false;
+    for (std::vector<double>& values : sample) {
+      if (values.empty()) continue;
+      const ValueRange most = extent(values, few_outside);
+      if (is_around_zero(most, side)) return cube_middle(true, side);
+      reaches_beyond_half = reaches_beyond_half || most.maximum > 0.6 * side;
+    }
+    if (reaches_beyond_half) break;
+  }
+  return cube_middle(false, side);
 }
 
 }  // namespace splotchcl

@@ -82,14 +82,14 @@ ColorRange range_of_logarithm(const MapSettings& settings, std::vector<double> v
 }
 
 // Whether the scaling that the settings leave open is to show values of 0 and below. Pixels of 0
-// are empty, and few pixels below 0 are roundings.
-bool is_signed(const MapSettings& settings, std::vector<double> values) {
+// are empty.
+bool is_signed(const MapSettings& settings, std::vector<double> values, double error) {
   if (settings.scaling) return *settings.scaling != MapScaling::log;
   const auto is_not_above_zero = [](const std::optional<double>& said) {
     return said && *said <= 0;
   };
   return is_not_above_zero(settings.minimum) || is_not_above_zero(settings.maximum) ||
-         low_percentile(settings, values) < 0;
+         low_percentile(settings, values) < -error;
 }
 
 void check_order(double low, double high) {
@@ -106,13 +106,17 @@ void check_color_limits(const MapSettings& settings) {
     check_limit(settings.minimum, "min");
     check_limit(settings.maximum, "max");
   }
-  if (settings.minimum && settings.maximum) check_order(*settings.minimum, *settings.maximum);
+  if (!settings.minimum || !settings.maximum || *settings.minimum < *settings.maximum) return;
+  throw UsageError(
+      fmt::format("keys map.min and map.max: found {:.6g} and {:.6g}, expected the first to lie "
+                  "below the second",
+                  *settings.minimum, *settings.maximum));
 }
 
 ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,
-                              double floor) {
+                              double floor, double error) {
   check_color_limits(settings);
-  const ColorRange range = is_signed(settings, usable_values(values, false))
+  const ColorRange range = is_signed(settings, usable_values(values, false), error)
                                ? range_of_signed(settings, usable_values(values, false))
                                : range_of_logarithm(settings, usable_values(values, true), floor);
   check_order(range.low, range.high);

@@ -65,6 +65,7 @@ bool has_densities(const Component& component, const SnapshotInfo& info) {
 MapMatter read_matter(const Component& component, MapCenter center, const ComponentFields& fields) {
   MapMatter matter;
   matter.count = fields.count();
+  matter.before_selecting = fields.count_before_selecting();
   matter.origin = fields.origin();
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
@@ -75,6 +76,20 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   matter.size_factor = component.size_fixed ? component.size_factor
                                             : component.size_factor * component.placement.scale;
   return matter;
+}
+
+// A map of nothing but bad particles would look like one of empty space.
+void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
+                    const ComponentFields& fields) {
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (matter.is_good(i) && quantity.is_good(i)) return;
+  }
+  if (matter.count == 0) return;
+  throw DataError(fmt::format(
+      "{}: {}: none of its {} particles can be mapped: all have a position, smoothing length, "
+      "weight or value that is not finite, a smoothing length not above 0, or a weight below 0; "
+      "splotchcl info tells which",
+      fields.snapshot_info().files.front().string(), fields.label(), matter.count));
 }
 
 int first_type(const Component& component, const SnapshotInfo& info) {
@@ -145,8 +160,9 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   ComponentFields& fields = open.fields().front();
   fields.select();
   const MapMatter matter = read_matter(component, settings.center_at, fields);
-  const MapGeometry geometry = decide_geometry(one, matter, box);
+  const MapGeometry geometry = decide_geometry(one, snapshot, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
+  refuse_all_bad(matter, quantity, fields);
   const MapUnits units = decide_units(settings, fields.snapshot_info(),
                                       first_type(component, fields.snapshot_info()), quantity.kind);
 
@@ -176,9 +192,10 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +
                     " particles are left out of the map: their position, smoothing length, weight "
-                    "or value is not finite, or the length not above 0");
+                    "or value is not finite, the length not above 0, or the weight below 0");
   }
-  if (placed.count() == 0) notes.push_back("no particle reaches the map, which is empty");
+  if (matter.count > 0 && placed.count() == 0)
+    notes.push_back("no particle reaches the map, which is empty");
   return map;
 }
 

@@ -10,6 +10,7 @@
 #include "finish/labels.h"
 #include "map/color_range.h"
 #include "splotchcl/palette_file.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 namespace {
@@ -66,7 +67,8 @@ double percent_below(double limit, const Map& map) {
 }  // namespace
 
 Figure plan_figure(const Map& map, const MapSettings& settings) {
-  Figure figure = {map, MapColors(map.values, settings, map.value_floor),
+  const double error = std::max(map.tolerance, extended_tolerance) * map.value_floor;
+  Figure figure = {map, MapColors(map.values, settings, map.value_floor, error),
                    load_palette(settings.palette), label_of(map), settings.contours};
   if (settings.contour_count > 0) figure.levels = figure.colors.even_values(settings.contour_count);
   return figure;

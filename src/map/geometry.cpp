@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "load/periodic_wrap.h"
+#include "load/suggest_target.h"
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "splotchcl/error.h"
@@ -68,13 +69,13 @@ Extent extent_along(const MapMatter& matter, const Vec3& axis) {
   return extent;
 }
 
-// Some programs put the middle of the box at the origin.
-Vec3 middle_of_box(const MapMatter& matter, double box) {
-  double least = 0;
-  for (const Vec3& axis : {Vec3{{1, 0, 0}}, Vec3{{0, 1, 0}}, Vec3{{0, 0, 1}}})
-    least = std::min(least, extent_along(matter, axis).least);
-  const double middle = least < -0.1 * box ? 0 : 0.5 * box;
-  return {{middle, middle, middle}};
+// Those of the component first: they have been read.
+Vec3 middle_of_periodic_box(const Snapshot& snapshot, const Component& component, double box) {
+  std::vector<int> types = component.types;
+  for (const ParticleTypeInfo& type : snapshot.info().types) {
+    if (std::find(types.begin(), types.end(), type.type) == types.end()) types.push_back(type.type);
+  }
+  return middle_of_box(snapshot, types, box);
 }
 
 double mass_of(const MapMatter& matter, std::size_t i) {
@@ -143,13 +144,16 @@ Vec3 densest_place(const MapMatter& matter) {
   throw DataError("key map.center_at: found no density above 0, expected some; set map.center");
 }
 
-Vec3 choose_center(const Scene& scene, const MapMatter& matter, const MapGeometry& geometry) {
+Vec3 choose_center(const Scene& scene, const Snapshot& snapshot, const MapMatter& matter,
+                   const MapGeometry& geometry) {
   const MapSettings& map = scene.map;
   if (map.center) return *map.center;
   if (map.center_at == MapCenter::mass) return center_of_mass(matter, geometry.box);
   if (map.center_at == MapCenter::densest) return densest_place(matter);
   if (map.view == MapView::camera) return camera_of(scene).look_at;
-  if (geometry.box > 0) return middle_of_box(matter, geometry.box);
+  if (geometry.box > 0) {
+    return middle_of_periodic_box(snapshot, scene.components.front(), geometry.box);
+  }
   return extent_along(matter, geometry.right).middle() * geometry.right +
          extent_along(matter, geometry.up).middle() * geometry.up +
          extent_along(matter, geometry.forward).middle() * geometry.forward;
@@ -167,6 +171,20 @@ double choose_width(const Scene& scene, const MapMatter& matter, const MapGeomet
                                 extent_along(matter, geometry.up).span() * aspect);
   if (width > 0) return width;
   throw UsageError("key map.width: all particles lie in one place, expected the key to be set");
+}
+
+// Nothing can be found by particles that a selection leaves out.
+void check_place_without_matter(const MapSettings& map, const MapMatter& matter, double box) {
+  const bool is_by_camera = map.view == MapView::camera;
+  const bool has_center =
+      map.center || (map.center_at == MapCenter::box && (box > 0 || is_by_camera));
+  const bool has_width = map.width || box > 0 || is_by_camera;
+  if (has_center && has_width) return;
+  throw UsageError(fmt::format(
+      "keys map.center and map.width: select and exclude leave none of {} particles, expected some "
+      "to find the map's place by; set {}{}{}",
+      matter.before_selecting, has_center ? "" : "map.center",
+      has_center || has_width ? "" : " and ", has_width ? "" : "map.width"));
 }
 
 }  // namespace
@@ -197,13 +215,15 @@ double side_of_box(const Scene& scene, const Component& component, const Snapsho
                    " does not say the size of a box, expected one; set periodic.box");
 }
 
-MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter, double box) {
+MapGeometry decide_geometry(const Scene& scene, const Snapshot& snapshot, const MapMatter& matter,
+                            double box) {
   MapGeometry geometry;
   geometry.width = scene.image.width;
   geometry.height = scene.image.height;
   geometry.box = box;
   set_axes(scene, geometry);
-  geometry.center = choose_center(scene, matter, geometry);
+  if (matter.count == 0) check_place_without_matter(scene.map, matter, box);
+  geometry.center = choose_center(scene, snapshot, matter, geometry);
   const double width = choose_width(scene, matter, geometry);
   geometry.pixel = width / geometry.width;
   geometry.depth = scene.map.depth;

@@ -11,6 +11,7 @@ namespace splotchcl {
 // be absent.
 struct MapMatter {
   std::size_t count = 0;
+  std::size_t before_selecting = 0;
   Vec3 origin = {{0, 0, 0}};
   Column position, smoothing_length, mass, density;
   double size_factor = 1;
@@ -41,7 +42,8 @@ struct MapGeometry {
 double side_of_box(const Scene& scene, const Component& component, const SnapshotInfo& snapshot);
 
 // `box` as side_of_box() has it. Throws UsageError for what cannot be: a camera that is missing, a
-// width that does not follow.
-MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter, double box);
+// center or a width that does not follow.
+MapGeometry decide_geometry(const Scene& scene, const Snapshot& snapshot, const MapMatter& matter,
+                            double box);
 
 }  // namespace splotchcl

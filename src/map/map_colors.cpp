@@ -11,8 +11,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-MapColors::MapColors(const std::vector<float>& values, const MapSettings& settings, double floor)
-    : range_(decide_color_range(values, settings, floor)),
+MapColors::MapColors(const std::vector<float>& values, const MapSettings& settings, double floor,
+                     double error)
+    : range_(decide_color_range(values, settings, floor, error)),
       exponent_(settings.exponent),
       softening_(decide_softening(settings)) {}
 

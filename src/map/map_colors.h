@@ -14,7 +14,8 @@ namespace splotchcl {
 class MapColors {
  public:
   // Limits are those of decide_color_range. Throws UsageError as it does.
-  MapColors(const std::vector<float>& values, const MapSettings& settings, double floor = 0);
+  MapColors(const std::vector<float>& values, const MapSettings& settings, double floor = 0,
+            double error = 0);
 
   const ColorRange& range() const { return range_; }
   // Not clamped; not a number for a value without one. Of a logarithm 0 for values <= 0.

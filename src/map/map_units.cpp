@@ -172,6 +172,14 @@ void set_lengths(const DataUnits& data, MapUnits& units) {
 
 }  // namespace
 
+std::string name_of_density(const ParticleTypeInfo& type) {
+  const FieldInfo *const mass = find_field(type, "mass"), *const position =
+                                                              find_field(type, "position");
+  if (mass == nullptr || position == nullptr || mass->unit.empty() || position->unit.empty())
+    return {};
+  return DataUnits::product({mass->unit, true, {}}, {position->unit, true, {}}, -3).name;
+}
+
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
                       MapQuantity::Kind kind) {
   const DataUnits data(settings, snapshot, type);
@@ -180,8 +188,8 @@ MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
   units.name = found.name;
   set_lengths(data, units);
   if (settings.unit.empty() || settings.unit == found.name) return units;
-  if (!found.is_known) refuse_unknown(settings.unit, found);
   const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
+  if (!found.is_known) refuse_unknown(settings.unit, found);
   if (!same_dimension(wanted, found.unit)) {
     throw UsageError(fmt::format(
         "key map.unit: found \"{}\", expected a unit of the same dimension as the map's, {}",

@@ -25,6 +25,9 @@ struct MapUnits {
   double length_in_cgs = 0;  // of one of these; 0: not known
 };
 
+// Of a mass per volume in the units that the file names for the type's; empty where it does not.
+std::string name_of_density(const ParticleTypeInfo& type);
+
 // From the first of the types, which must be there. Throws UsageError for a unit that is none, that
 // has another dimension, or that is asked for where the snapshot's is not known.
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,

@@ -1,6 +1,8 @@
 #include "map/noise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/constants.h"
 
@@ -31,10 +33,14 @@ std::vector<float> draw_effective_particles(const PlacedParticles& placed,
   const double white = squares > 0 ? floor * floor * squares / pixels : 1;
   const PixelSums sums =
       draw_sums(placed, size, {std::move(weight), std::move(factors), white}, picture, draw);
-  std::vector<float> effective(sums[0].size(), 0.0F);
+  // Of equal weights all would count: beyond that lies the error of both sums.
+  const auto most = static_cast<double>(std::count_if(
+      weighted.weights().begin(), weighted.weights().end(), [](float w) { return w > 0; }));
+  std::vector<float> effective(sums[0].size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < effective.size(); ++i) {
     const double sum = weighted.weight_sums()[i];
-    if (sums[0][i] > 0) effective[i] = static_cast<float>(sum * sum / sums[0][i]);
+    if (!weighted.is_known(sum) || !(sums[0][i] > 0)) continue;
+    effective[i] = static_cast<float>(std::min(most, sum * sum / sums[0][i]));
   }
   return effective;
 }

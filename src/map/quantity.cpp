@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "splotchcl/error.h"
@@ -83,6 +84,11 @@ MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geom
 }
 
 }  // namespace
+
+bool MapQuantity::is_good(std::size_t i) const {
+  const bool needs_value = kind != Kind::column && kind != Kind::counts;
+  return std::isfinite(weight[i]) && weight[i] >= 0 && (!needs_value || std::isfinite(value[i]));
+}
 
 void check_quantity(const MapSettings& settings) {
   if (settings.slice && settings.quantity == "counts") {

@@ -16,6 +16,9 @@ struct MapQuantity {
   Column weight;  // >= 0: mass, volume, 1, or a field
   Column value;   // of mean, dispersion and integral
   std::string description;
+
+  // Whether a particle has a weight, and a value where that is wanted.
+  bool is_good(std::size_t i) const;
 };
 
 // Reads no particles: refuses settings that contradict each other.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,7 @@ const std::vector<NamedUnit>& known_units() {
       {"Gpc", {1e6 * kpc_in_cm, length}},
       {"R_sun", {6.957e10, length}},
       {"Rsun", {6.957e10, length}},
+      {"solRad", {6.957e10, length}},
       {"g", {1, mass}},
       {"kg", {1e3, mass}},
       {"Msun", {1.988409870698051e33, mass}},
@@ -92,10 +94,11 @@ class Parser {
   }
 
   Unit factor() {
-    Unit unit = base();
-    if (next_ < text_.size() && text_[next_] == '^') {
-      ++next_;
-      unit = power(unit, number());
+    const Unit unit = base();
+    for (const std::string_view mark : {"^", "**"}) {
+      if (text_.compare(next_, mark.size(), mark) != 0) continue;
+      next_ += mark.size();
+      return power(unit, number());
     }
     return unit;
   }
@@ -126,8 +129,9 @@ class Parser {
     const std::string name = text_.substr(next_, end - next_);
     if (name.empty()) refuse("no unit where one should be");
     next_ = end;
-    if (name == "a") return cosmological(name, factors_.scale_factor);
-    if (name == "h") return cosmological(name, factors_.hubble);
+    // The second names are those of our FITS files, as solMass and solRad.
+    if (name == "a" || name == "scale_factor") return cosmological(name, factors_.scale_factor);
+    if (name == "h" || name == "little_h") return cosmological(name, factors_.hubble);
     std::vector<std::string> names;
     for (const NamedUnit& known : known_units()) {
       if (name == known.name) return known.unit;

@@ -64,15 +64,13 @@ void WeightedValues::read_weights(const MapQuantity& quantity) {
     return i == 0 || placed_.source[i] != placed_.source[i - 1];
   };
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const auto weight = static_cast<double>(quantity.weight[placed_.source[i]]);
-    const bool is_good =
-        std::isfinite(weight) && weight >= 0 && (value_.empty() || std::isfinite(value_[i]));
-    if (!is_good) {
+    if (!quantity.is_good(placed_.source[i])) {
       if (is_first_image(i)) ++bad_;
       if (!value_.empty()) value_[i] = 0;
       continue;
     }
-    weights[i] = weight * (is_slice_ ? placed_.in_plane[i] : 1);
+    weights[i] = static_cast<double>(quantity.weight[placed_.source[i]]) *
+                 (is_slice_ ? placed_.in_plane[i] : 1);
     sum += weights[i];
   }
   if (sum > 0) weight_unit_ = sum / static_cast<double>(weights.size());
@@ -127,7 +125,7 @@ std::vector<double> WeightedValues::means(const PixelSums& sums) const {
   std::vector<double> means(sums[denominator].size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < means.size(); ++i) {
     const double weight = sums[denominator][i];
-    if (weight >= white_ && weight > 0) means[i] = (sums[above][i] - sums[below][i]) / weight;
+    if (is_known(weight)) means[i] = (sums[above][i] - sums[below][i]) / weight;
   }
   return means;
 }

@@ -32,6 +32,8 @@ class WeightedValues {
   // As they are drawn.
   const std::vector<float>& weights() const { return weight_; }
   const std::vector<double>& weight_sums() const { return weight_sums_; }  // after draw()
+  // Whether a sum of weights, as it is drawn, reaches the floor.
+  bool is_known(double sum) const { return sum >= white_ && sum > 0; }
 
  private:
   bool needs_values() const;

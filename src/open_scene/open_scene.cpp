@@ -10,6 +10,7 @@
 #include "load/passes.h"
 #include "ranks/agreement.h"
 #include "scene_file/suggested.h"
+#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
@@ -37,6 +38,28 @@ bool sets_types(const std::string& setting) {
          key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+std::string names_of(const std::vector<int>& types) {
+  std::string names;
+  for (const int type : types)
+    names += (names.empty() ? "" : ", ") + particle_type_name(type);
+  return names;
+}
+
+// A component still has the name of the types that it was suggested for, which would only confuse.
+void check_wanted_types(const std::vector<int>& types, std::size_t component,
+                        const Snapshot& snapshot) {
+  std::vector<int> present;
+  for (const ParticleTypeInfo& type : snapshot.info().types)
+    present.push_back(type.type);
+  const bool has_some = std::any_of(types.begin(), types.end(), [&snapshot](int type) {
+    return snapshot.info().find_type(type) != nullptr;
+  });
+  if (has_some) return;
+  throw UsageError("key component." + std::to_string(component) + ".types: found " +
+                   names_of(types) + ", of which " + snapshot.info().files.front().string() +
+                   " has no particles, expected some of " + names_of(present));
+}
+
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
 // and so is the camera.
 Scene with_wanted_types(Scene suggested, const std::vector<std::string>& settings,
@@ -48,6 +71,7 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
   for (std::size_t i = 0; i < wanted.components.size(); ++i) {
     const std::vector<int>& types = wanted.components[i].types;
     if (types == suggested.components[i].types) continue;
+    check_wanted_types(types, i, snapshot);
     const std::string name = suggested.components[i].name;
     suggested.components[i] = suggest_component(snapshot, types);
     suggested.components[i].name = name;

@@ -51,6 +51,14 @@ TEST(Fields, HaveOneLineEachInText) {
   EXPECT_THAT(result.out, ::testing::ContainsRegex("gas +position_z +2 +3 +4 +0"));
 }
 
+TEST(Fields, HaveAUnitOfDensityWhereOtherUnitsTellIt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << "x [kpc],y [kpc],z [kpc],mass [g]\n1,2,3,4\n2,3,4,5\n";
+  const auto gas =
+      fields_by_name(Json::parse(splotchcl_in(folder, "fields table.csv --json").out), 0);
+  EXPECT_EQ(gas.at("density")["unit"], "g/kpc^3");
+}
+
 TEST(Fields, OfAFileThatIsNoSnapshotAreRefused) {
   const TemporaryFolder folder;
   const ProgramResult result = splotchcl_in(folder, "fields missing");

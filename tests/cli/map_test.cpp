@@ -49,7 +49,26 @@ TEST_F(MapCommand, TakesItsSettingsFromTheSceneToo) {
 
 TEST_F(MapCommand, MapsTheTypesThatItIsAskedFor) {
   EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").exit_code, 0);
-  expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "no particles of type");
+  expect_wrong_call("u --types boundary --size 64x64 -o s.npy", "found boundary, of which");
+}
+
+TEST_F(MapCommand, DoesNotTellOfTypesThatItIsNotAskedFor) {
+  EXPECT_EQ(map("u --types stars --size 64x64 -o s.npy").err.find("not drawn"), std::string::npos);
+}
+
+TEST_F(MapCommand, OfAnEmptySelectionWithoutABoxAsksForItsPlace) {
+  const std::string none = "u --set map.periodic=false --select 'temperature > 1e20' -o s.npy";
+  expect_wrong_call(none, "set map.center and map.width");
+  EXPECT_EQ(map(none + " --center 1,1,1 --width 1 --size 64x64").exit_code, 0);
+}
+
+TEST_F(MapCommand, LeavesTheFolderOfASnapshotWhatItWas) {
+  std::filesystem::create_directory(folder_ / "run");
+  std::filesystem::rename(folder_ / "u", folder_ / "run/u");
+  EXPECT_EQ(map("run -o run/s.hdf5 -o run/s.npy -o run/s.fits -o run/s.png --size 64x64 --noise")
+                .exit_code,
+            0);
+  EXPECT_EQ(splotchcl_in(folder_, "info run").exit_code, 0);
 }
 
 TEST_F(MapCommand, KnowsTheSkyWhereItKnowsLengths) {

@@ -48,6 +48,12 @@ TEST_F(BadFiles, ImagesAndArchivesAreNamed) {
   EXPECT_THAT(refusal_of(string(257, '\0') + "ustar\0 and so on"), HasSubstr("a tar archive"));
 }
 
+// Numbers before the first line ends, as bytes of an image may be.
+TEST_F(BadFiles, AFileOfAKnownKindIsNoTableWhateverNumbersItHolds) {
+  EXPECT_THAT(refusal_of("SIMPLE  = T / NAXIS1 = 64 NAXIS2 = 64 BITPIX = -32\n"),
+              HasSubstr("a FITS file; convert"));
+}
+
 TEST_F(BadFiles, TextIsRefused) {
   EXPECT_THAT(refusal_of("It was a dark and stormy night.\n"), HasSubstr("text, but no table"));
 }

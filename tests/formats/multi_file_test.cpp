@@ -1,4 +1,6 @@
+#include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "formats/numpy/numpy_writer.h"
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
 #include "splotchcl/snapshot_file.h"
@@ -166,6 +168,31 @@ TEST(SnapshotFolder, WithoutSnapshotsIsRefused) {
   const TemporaryFolder folder;
   write_bytes(folder / "notes.txt", "not a snapshot");
   EXPECT_THAT(refusal(folder.path()), HasSubstr("no snapshot in this folder"));
+}
+
+void write_map(const std::filesystem::path& path) {
+  const Hdf5Output file = create_hdf5(path);
+  write_values(file, "map", {1, 2, 3, 4}, 2);
+  write_text(file, "map", "quantity", "surface density");
+  write_text(file, "map", "unit", "Msun/pc^2");
+  write_attribute(file, "map", "extent", {0, 1, 0, 1});
+}
+
+TEST(SnapshotFolder, MayHoldMapsBesideItsSnapshot) {
+  const TemporaryFolder folder;
+  write_map(folder / "sigma.hdf5");
+  write_bytes(folder / "sigma.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 64)"), bytes_of(std::vector<float>(128, 1))));
+  write_bytes(folder / "with_noise.npy",
+              numpy_bytes(numpy_header("<f4", "(2, 3, 3)"), bytes_of(std::vector<float>(18, 1))));
+  write_gadget(folder / "snap_001", small_snapshot(), 2);
+  EXPECT_EQ(open_snapshot(folder.path())->info().files.front(), folder / "snap_001");
+}
+
+TEST(SnapshotFolder, OfAMapAloneIsRefusedForWhatItHolds) {
+  const TemporaryFolder folder;
+  write_map(folder / "sigma.hdf5");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("sigma.hdf5: holds a map"));
 }
 
 TEST(SnapshotFolder, SurplusMembersAreNotSilentlyDropped) {

@@ -213,6 +213,16 @@ TEST(MapColors, AreLogarithmicWhereFewValuesLieBelowZero) {
   EXPECT_NEAR(MapColors(values, limits).place(10), 0.5, 1e-9);
 }
 
+// Of values of both signs, whose sums err where there is nothing.
+TEST(MapColors, AreLogarithmicWhereValuesLieBelowZeroByTheirErrorAlone) {
+  std::vector<float> values(1000, -1e-6F);
+  std::fill_n(values.begin(), 500, 10.0F);
+  MapSettings limits;
+  limits.maximum = 100;
+  EXPECT_EQ(MapColors(values, limits, 1e-2, 1e-5).range().scaling, MapScaling::log);
+  EXPECT_NE(MapColors(values, limits, 1e-2, 1e-7).range().scaling, MapScaling::log);
+}
+
 TEST(MapFigure, HasANoteOnPixelsWithoutALogarithm) {
   Map map = even_map(10, 10, 1);
   std::fill_n(map.values.begin(), 25, -1.0F);
@@ -256,6 +266,7 @@ TEST(MapFigure, HasItsLimitsRefusedBeforeAnythingIsDrawn) {
 
 TEST(MapColors, RefuseLimitsOutOfOrder) {
   EXPECT_THROW(MapColors({}, settings(MapScaling::linear, 2, 1)), UsageError);
+  EXPECT_THROW(MapColors({}, settings(MapScaling::log, 1e-9, 1e-9)), UsageError);
 }
 
 TEST(Contours, LieWhereTheMapHasTheirValue) {

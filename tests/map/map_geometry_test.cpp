@@ -16,6 +16,7 @@ using test::Gas;
 using test::map_of;
 using test::map_scene;
 using test::one_particle;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // Which pixel holds most.
@@ -183,6 +184,61 @@ TEST(MapGeometry, ShowsTheWholeBoxInAPictureOfAnyShape) {
   auto snapshot = one_particle({{1, 1, 1}}).snapshot();
   snapshot.set_box_size(48);
   EXPECT_NEAR(map_of(scene, snapshot).pixel, 1, 1e-12);
+}
+
+TEST(MapGeometry, HasTheMiddleOfTheBoxWhateverIsSelected) {
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  auto snapshot = test::random_gas(200, 32, 0.5F, 1).snapshot();
+  snapshot.set_box_size(64);
+  scene.components.front().select.where = {"position_x > 5 and position_y > 5", "position_z > 5"};
+  EXPECT_EQ(map_of(scene, snapshot).center.a[0], 0);
+}
+
+// Stars in one corner of it.
+TEST(MapGeometry, HasTheMiddleOfABoxThatOtherParticlesTell) {
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  const Gas stars = one_particle({{3, 4, 5}});
+  for (const double first : {-32.0, 0.0}) {
+    Gas gas = one_particle({{first + 1, first + 1, first + 1}});
+    gas.add({{first + 63, first + 63, first + 63}}, 0.5F, 1, 100);
+    auto snapshot = gas.snapshot();
+    snapshot.add(4, "position", stars.position, 3);
+    snapshot.add(4, "smoothing_length", stars.h);
+    snapshot.add(4, "mass", stars.mass);
+    snapshot.set_box_size(64);
+    scene.components.front().types = {4};
+    EXPECT_EQ(map_of(scene, snapshot).center.a[0], first + 32);
+  }
+}
+
+TEST(MapGeometry, OfAnEmptySelectionIsThatOfTheBox) {
+  Scene scene = map_scene();
+  scene.map.center.reset();
+  scene.map.width.reset();
+  scene.components.front().select.where = {"temperature > 1e20"};
+  auto snapshot = one_particle({{40, 40, 40}}).snapshot();
+  snapshot.set_box_size(64);
+  std::vector<std::string> notes;
+  const Map map = map_of(scene, snapshot, &notes);
+  EXPECT_EQ(sum(map), 0);
+  EXPECT_EQ(map.center.a[0], 32);
+  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("leave none of its 1 particles")));
+}
+
+TEST(MapGeometry, OfAnEmptySelectionWithoutABoxHasToBeSaid) {
+  Scene scene = map_scene();
+  scene.components.front().select.where = {"temperature > 1e20"};
+  const auto snapshot = one_particle({{40, 40, 40}}).snapshot();
+  EXPECT_NO_THROW(map_of(scene, snapshot));
+  scene.map.width.reset();
+  EXPECT_THAT([&] { map_of(scene, snapshot); },
+              ::testing::ThrowsMessage<UsageError>(HasSubstr("; set map.width")));
+  scene.map.center.reset();
+  EXPECT_THAT([&] { map_of(scene, snapshot); }, ::testing::ThrowsMessage<UsageError>(AllOf(
+                                                    HasSubstr("leave none of 1 particles"),
+                                                    HasSubstr("set map.center and map.width"))));
 }
 
 TEST(MapGeometry, FindsTheDensestPlace) {

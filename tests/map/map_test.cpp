@@ -20,6 +20,11 @@ using test::map_on_device;
 using test::map_scene;
 using test::one_particle;
 using test::random_gas;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::Ge;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 const double sigma_of_h = KernelSettings().width;
 
@@ -341,6 +346,41 @@ TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
   EXPECT_NEAR(effective(47, 23), 5, 0.05);
 }
 
+TEST(Map, DoesNotTellOfParticlesWhereThereIsTooLittleMatter) {
+  Gas gas;
+  gas.add({{-19.5, 0.5, 0}}, 0.5F, 2, 100);
+  Scene scene = map_scene();
+  scene.map.noise = true;
+  const Map map = map_of(scene, gas.snapshot());
+  EXPECT_TRUE(std::isnan(map.effective_particles[23 * 64 + 60]));
+}
+
+TEST(Map, NeverTellsOfMoreParticlesThanThereAre) {
+  const Gas gas = random_gas(40, 25, 0.05F, 8);
+  Scene scene = map_scene();
+  scene.map.noise = true;
+  for (const float effective : map_of(scene, gas.snapshot()).effective_particles) {
+    if (!std::isnan(effective)) {
+      ASSERT_LE(effective, 40.0F);
+    }
+  }
+}
+
+TEST(Map, OfNothingButBadParticlesIsRefused) {
+  Gas gas = random_gas(20, 10, 1, 2);
+  std::fill(gas.mass.begin(), gas.mass.end(), std::nanf(""));
+  EXPECT_THAT([&] { map_of(map_scene(), gas.snapshot()); },
+              ThrowsMessage<DataError>(HasSubstr("none of its 20 particles can be mapped")));
+}
+
+TEST(Map, TellsOfParticlesWhoseWeightLiesBelowZero) {
+  Gas gas = random_gas(20, 10, 1, 2);
+  gas.mass[3] = -1;
+  std::vector<std::string> notes;
+  map_of(map_scene(), gas.snapshot(), &notes);
+  EXPECT_THAT(notes, Contains(HasSubstr("or the weight below 0")));
+}
+
 // Maps by OpenCL.
 class MapOnTheDevice : public testing::Test {
  protected:
@@ -384,6 +424,33 @@ TEST_F(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
     scene.tolerance = 1e-3;
     EXPECT_NEAR(mass_in_map(scene, gas) / mass, 1, 1e-3) << h;
   }
+}
+
+// Few wide kernels on coarse grids, which ring around them.
+TEST_F(MapOnTheDevice, HasNothingBelowZeroOfWhatIsAboveIt) {
+  const Gas gas = random_gas(200, 4, 4, 8);
+  Scene scene = map_scene();
+  scene.image.width = 640;
+  scene.image.height = 480;
+  scene.tolerance = 1e-3;
+  for (const char* const quantity : {"surface_density", "temperature"}) {
+    scene.map.quantity = quantity;
+    const bool is_field = scene.map.quantity == "temperature";
+    scene.map.statistic = is_field ? MapStatistic::integral : MapStatistic::mean;
+    EXPECT_THAT(map(scene, gas.snapshot()).values, Each(Ge(0.0F))) << quantity;
+  }
+}
+
+TEST_F(MapOnTheDevice, HasIntegralsOfBothSigns) {
+  Gas gas;
+  gas.add({{-16, 0, 0}}, 3, 1, 100, {{2, 0, 0}});
+  gas.add({{16, 0, 0}}, 3, 1, 100, {{-2, 0, 0}});
+  Scene scene = map_scene();
+  scene.map.quantity = "velocity_x";
+  scene.map.statistic = MapStatistic::integral;
+  const Map drawn = map(scene, gas.snapshot());
+  EXPECT_GT(at(drawn, 16, 24), 0.01F);
+  EXPECT_NEAR(at(drawn, 48, 24), -at(drawn, 15, 24), 1e-5F);
 }
 
 TEST_F(MapOnTheDevice, KeepsTheToleranceOfItsSums) {

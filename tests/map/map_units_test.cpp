@@ -1,3 +1,5 @@
+#include "map/map_units.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,6 +54,20 @@ TEST(MapUnits, AreNeverGuessed) {
   Scene scene = map_scene();
   scene.map.unit = "Msun/pc^2";
   EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
+}
+
+TEST(MapUnits, ThatDoNotExistAreToldBeforeUnitsThatAreMissing) {
+  Scene scene = map_scene();
+  scene.map.unit = "furlong";
+  EXPECT_THAT(refusal(scene), HasSubstr("found 'furlong'"));
+}
+
+TEST(MapUnits, OfADensityNeedBothUnitsOfTheFile) {
+  ParticleTypeInfo type;
+  type.fields = {{"position", "Coordinates", 3, "kpc"}, {"mass", "Masses", 1, "g"}};
+  EXPECT_EQ(name_of_density(type), "g/kpc^3");
+  type.fields.back().unit.clear();
+  EXPECT_EQ(name_of_density(type), "");
 }
 
 TEST(MapUnits, RefuseAnotherDimension) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "map/fits_unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -43,6 +44,12 @@ TEST(Units, ReadWhatTheReadersWrite) {
   EXPECT_NEAR(ratio("1e10 M_sun Mpc^-3 a^-3", "Msun/pc^3", {0.5, 0}), 8e10 / 1e18, 1e-18);
   EXPECT_NEAR(ratio("(1e10 M_sun)^-0.666667 Mpc^2 (km/s)^2", "Msun^-0.666667 pc^2 cm^2/s^2"),
               std::pow(1e10, -0.666667) * 1e12 * 1e10, 1e12);
+}
+
+TEST(Units, AreReadAsFitsFilesHaveThem) {
+  const UnitFactors factors = {0.25, 0.7};
+  for (const char* const unit : {"1e10 M_sun Mpc^-2", "R_sun^2", "a^-2 kpc/h", "(km/s)^2"})
+    EXPECT_NEAR(ratio(fits_unit(unit), unit, factors), 1, 1e-12) << unit;
 }
 
 TEST(Units, TakeAAndHOfTheSnapshot) {

@@ -29,14 +29,41 @@ std::string last_reason() {
   return reason;
 }
 
-PropertyList access_properties() {
-  PropertyList properties(H5Pcreate(H5P_FILE_ACCESS));
+struct OpenedFile {
+  Hdf5Handle<H5Fclose> file;
+  std::string reason;  // where it is not valid
+};
+
+OpenedFile open_by(const std::filesystem::path& path, const PropertyList& properties) {
+  OpenedFile opened;
+  opened.file = Hdf5Handle<H5Fclose>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.id()));
+  if (!opened.file.is_valid()) opened.reason = last_reason();
+  return opened;
+}
+
 #if H5_VERSION_GE(1, 10, 7)
-  // Reading takes no lock: read-only and network file systems often have none.
-  H5Pset_file_locking(properties.id(), false, true);
-#endif
+PropertyList properties_of_locking(bool locks, bool goes_on_without) {
+  PropertyList properties(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(properties.id(), locks, goes_on_without);
   return properties;
 }
+
+// Reading takes no lock: read-only and network file systems often have none. But a process has a
+// file open by one kind of locking only, and h5py may have opened it by another.
+OpenedFile open_to_read(const std::filesystem::path& path) {
+  OpenedFile opened = open_by(path, properties_of_locking(false, true));
+  for (const bool goes_on_without : {false, true}) {
+    const bool is_refused_for_locking = opened.reason.find("file locking") != std::string::npos;
+    if (is_refused_for_locking)
+      opened = open_by(path, properties_of_locking(true, goes_on_without));
+  }
+  return opened;
+}
+#else
+OpenedFile open_to_read(const std::filesystem::path& path) {
+  return open_by(path, PropertyList(H5Pcreate(H5P_FILE_ACCESS)));
+}
+#endif
 
 std::vector<hsize_t> shape_of(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
@@ -88,9 +115,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path)
     : path_(path), links_(std::make_unique<Hdf5Links>()), rules_(*links_) {
   const Hdf5Silence silence;
   require_regular_file(path);
-  const PropertyList properties = access_properties();
-  file_ = Hdf5Handle<H5Fclose>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.id()));
-  if (!file_.is_valid()) fail("HDF5 cannot open it");
+  OpenedFile opened = open_to_read(path);
+  if (!opened.file.is_valid()) fail("HDF5 cannot open it", opened.reason);
+  file_ = std::move(opened.file);
 }
 
 std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t wanted) const {
@@ -117,9 +144,13 @@ std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t
 }
 
 void Hdf5File::fail(const std::string& what) const {
+  fail(what, last_reason());
+}
+
+void Hdf5File::fail(const std::string& what, const std::string& reason) const {
   throw DataError(
       fmt::format("{}: {}: {}; the file is truncated, damaged or not HDF5: copy or write it again",
-                  path_.string(), what, last_reason()));
+                  path_.string(), what, reason));
 }
 
 bool Hdf5File::has(const std::string& object) const {

@@ -108,6 +108,7 @@ class Hdf5File {
   void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
             void* out) const;
   [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what, const std::string& reason) const;
 
   std::filesystem::path path_;
   std::unique_ptr<Hdf5Links> links_;  // where the rules find it

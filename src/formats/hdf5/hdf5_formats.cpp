@@ -1,10 +1,16 @@
 #include "formats/hdf5/hdf5_formats.h"
 
 #include "formats/snapshot_format.h"
+#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
 namespace splotchcl {
 namespace {
+
+// As splotchcl map writes them.
+bool holds_map(const Hdf5File& file) {
+  return file.text("map", "quantity") && file.text("map", "unit") && file.numbers("map", "extent");
+}
 
 class Hdf5Formats : public SnapshotFormat {
  public:
@@ -15,7 +21,17 @@ class Hdf5Formats : public SnapshotFormat {
                                  const SnapshotOptions&) const override {
     const Hdf5File file(path);
     if (is_phantom_hdf5(file)) return open_phantom_hdf5(path);
-    return is_plain_hdf5(file) ? open_plain_hdf5(path) : open_gadget_hdf5(path);
+    if (is_plain_hdf5(file)) return open_plain_hdf5(path);
+    if (!holds_map(file)) return open_gadget_hdf5(path);
+    throw DataError(path.string() +
+                    ": holds a map, expected particles; give the snapshot that it is a map of");
+  }
+  bool is_map(const std::filesystem::path& path) const override {
+    try {
+      return holds_map(Hdf5File(path));
+    } catch (const DataError&) {
+      return false;
+    }
   }
 };
 

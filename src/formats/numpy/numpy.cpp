@@ -24,6 +24,15 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_columns = 4096;
 
+// Rows of more numbers without names are taken for those of an image.
+constexpr std::uint64_t most_nameless_columns = 32;
+
+bool is_image(const NumpyHeader& header) {
+  if (header.is_structured || header.is_pickled) return false;
+  const std::size_t dimensions = header.shape.size();
+  return dimensions == 3 || (dimensions == 2 && header.shape[1] > most_nameless_columns);
+}
+
 // Where the values of a column lie in an array.
 struct NumpyColumn {
   std::size_t array = 0;
@@ -76,6 +85,7 @@ class NumpyTable : public Table {
  private:
   void open_archive(std::vector<std::string>& notes);
   void refuse_objects() const;
+  void refuse_image() const;
   void read_numbers(SnapshotInfo& info);
   std::vector<TableColumn> arrays_as_columns() const;
   void name_positions(std::vector<std::string>& notes);
@@ -106,6 +116,7 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
     arrays_.push_back(
         {"", read_numpy_header(file_->data(), file_->size(), file_->size(), path.string())});
     refuse_objects();
+    if (names.empty()) refuse_image();
   } else {
     info.format = "NumPy archive";
     open_archive(info.notes);
@@ -166,6 +177,15 @@ void NumpyTable::refuse_objects() const {
       ": holds objects of Python (NumPy's type '|O'), which are not read, expected numbers: save "
       "it again as such, with numpy.save(FILE, array.astype(float)) where they are numbers, or as "
       "an array of records or a numpy.savez archive of an array for each field");
+}
+
+void NumpyTable::refuse_image() const {
+  const NumpyHeader& header = arrays_.front().header;
+  if (!is_image(header)) return;
+  throw DataError(fmt::format(
+      "{}: found an array of {} numbers, as images and maps are, expected particles: rows of x, y, "
+      "z and at most {} more; save array[:, :3] where these are positions",
+      path_.string(), fmt::join(header.shape, " x "), most_nameless_columns - 3));
 }
 
 // Single numbers that say something about the whole.
@@ -356,6 +376,15 @@ class NumpyFormat : public SnapshotFormat {
     info.files = {path};
     auto table = std::make_unique<NumpyTable>(path, options.columns, info);
     return make_table_snapshot(std::move(table), std::move(info));
+  }
+  bool is_map(const fs::path& path) const override {
+    const auto file = MappedFile::open(path);
+    if (!is_numpy_array(file->data(), file->size())) return false;
+    try {
+      return is_image(read_numpy_header(file->data(), file->size(), file->size(), path.string()));
+    } catch (const DataError&) {
+      return false;
+    }
   }
   bool has_columns() const override { return true; }
 };

@@ -177,7 +177,10 @@ def column(
         drawn, more = _core.draw_map(
             what.scene._scene, what.source._source, name, by_reference, progress
         )
-    notes = what.notes + [note for note in more if note not in what.notes]
+    # A map is of one component, whatever else there is.
+    not_drawn = _core.tell_not_drawn(what.scene._scene, what.source._source)
+    notes = [note for note in what.notes if note != not_drawn]
+    notes += [note for note in more if note not in notes]
     return Map(drawn, notes, what.scene, what.source)
 
 

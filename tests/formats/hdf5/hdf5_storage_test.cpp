@@ -1,6 +1,7 @@
 // How HDF5 stores a dataset, and what of it is not there.
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_values.h"
+#include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
 #include "scene/streamed_column.h"
 #include "splotchcl/snapshot_file.h"
@@ -140,6 +141,23 @@ TEST_F(Hdf5Storage, AVirtualDatasetOfFewerPartsThanItClaimsIsRefused) {
   EXPECT_THAT([&] { file.check_complete(file.dataset("/PartType0/Large")); },
               ::testing::ThrowsMessage<DataError>(HasSubstr("not all in the file")));
 }
+
+#if H5_VERSION_GE(1, 10, 7)
+// As h5py does. HDF5 has a file open by one kind of locking only.
+TEST(Hdf5, AFileThatTheProcessHasOpenByAnyLockingIsRead) {
+  const TemporaryFolder folder;
+  write_hdf5(folder / "snap", small_snapshot());
+  for (const bool locks : {false, true}) {
+    for (const bool goes_on_without : {false, true}) {
+      const Properties properties(H5Pcreate(H5P_FILE_ACCESS));
+      H5Pset_file_locking(properties.id(), locks, goes_on_without);
+      const Hdf5Output open(H5Fopen((folder / "snap").c_str(), H5F_ACC_RDONLY, properties.id()));
+      ASSERT_TRUE(open.is_valid());
+      EXPECT_NO_THROW(open_snapshot(folder / "snap")) << locks << goes_on_without;
+    }
+  }
+}
+#endif
 
 // It is never written to: HDF5 itself would follow it without end.
 TEST_F(Hdf5Storage, AVirtualDatasetMadeOfItselfIsRefused) {

@@ -65,6 +65,24 @@ TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
   EXPECT_FALSE(has_field(*named, 0, "column_2"));
 }
 
+TEST(NumpyArray, ThatIsAnImageIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* const shape : {"(6, 64)", "(2, 3, 64)"}) {
+    write_bytes(folder / "a.npy",
+                numpy_bytes(numpy_header("<f4", shape), bytes_of(std::vector<float>(384, 1))));
+    EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("as images and maps are"));
+  }
+}
+
+TEST(NumpyArray, OfManyColumnsIsReadByTheirNames) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.npy",
+              numpy_bytes(numpy_header("<f4", "(6, 64)"), bytes_of(std::vector<float>(384, 1))));
+  std::vector<std::string> names(64, "-");
+  names[0] = "x", names[1] = "y", names[2] = "z";
+  EXPECT_EQ(open_snapshot(folder / "a.npy", {names})->info().find_type(0)->count, 6U);
+}
+
 TEST(NumpyArray, FortranOrderAndBigEndianAreRead) {
   const TemporaryFolder folder;
   std::string data = bytes_of<float>({1, 4, 2, 5, 3, 6});
