@@ -15,6 +15,8 @@ from ._arrays import as_values, unit_of
 from ._core import UsageError
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
+# Some files say by a number below 0 that a particle is in no halo.
+_IDENTIFIERS: dict[str, type[np.generic]] = {"id": np.uint64, "halo_id": np.int64}
 
 
 class ParticleType:
@@ -41,21 +43,36 @@ class ParticleType:
         numpy.ndarray
             float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
             file allows it. Positions that the file holds in double precision are float64.
+            Identifiers of a file are exact: "id" is uint64, "halo_id" int64.
 
         Raises
         ------
         UsageError, DataError
-            For a field that the type does not have, naming those that it has.
+            For a field that the type does not have, naming those that it has, and for identifiers
+            that the file has as no whole numbers.
         """
         if not isinstance(field, str):
             raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
-        number = int(self._described["type"])
-        values: np.ndarray[Any, Any] = np.asarray(self._source.read(number, field))
+        name = self._canonical_name(field)
+        is_of_arrays = isinstance(self._source, _core.ParticleArrays)  # which are floats already
+        if name in _IDENTIFIERS and name in self.fields and not is_of_arrays:
+            exact: np.ndarray[Any, Any] = np.asarray(
+                self._source.read_integers(self._number, field)
+            )
+            return exact.view(_IDENTIFIERS[name])
+        values: np.ndarray[Any, Any] = np.asarray(self._source.read(self._number, field))
         origin = np.array(self._source.position_origin())
-        if origin.any() and self._source.canonical_name(number, field) == "position":
+        if origin.any() and name == "position":
             absolute: np.ndarray[Any, Any] = values + origin
             return absolute
         return values
+
+    @property
+    def _number(self) -> int:
+        return int(self._described["type"])
+
+    def _canonical_name(self, field: str) -> str:
+        return self._source.canonical_name(self._number, field)
 
     def __repr__(self) -> str:
         return f"<splotchcl {self.name}: {len(self)} particles, {', '.join(self.fields)}>"
