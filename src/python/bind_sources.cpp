@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "python/progress.h"
 #include "python/source.h"
@@ -95,6 +96,7 @@ py::dict describe(const ParticleTypeInfo& type) {
   text["count"] = type.count;
   text["mass"] = type.table_mass;
   text["fields"] = fields;
+  text["derived"] = derivable_fields(type);
   return text;
 }
 

@@ -1,4 +1,4 @@
-"""Fields of snapshots: identifiers are exact."""
+"""Types of particles and fields as mappings have keys, and identifiers that are exact."""
 
 import numpy as np
 import pytest
@@ -54,3 +54,30 @@ def test_a_part_of_a_snapshot_has_its_identifiers(tmp_path):
     ids = np.arange(100, dtype=np.int64) + 2**33
     path = write_table(tmp_path / "a.npy", id=ids)
     assert np.array_equal(Snapshot(path, read={"every": 10})["gas"]["id"], ids[::10])
+
+
+def test_a_source_has_types_as_a_mapping_has_keys(universe):
+    snapshot = Snapshot(universe)
+    assert list(snapshot) == list(snapshot.keys()) == ["gas", "stars"]
+    assert len(snapshot) == 2
+    assert "stars" in snapshot and "halo" not in snapshot and 0 not in snapshot
+    assert [len(particles) for particles in dict(snapshot).values()] == [
+        len(snapshot["gas"]), len(snapshot["stars"])
+    ]
+
+
+def test_particles_without_any_are_true():
+    assert Particles() and len(Particles()) == 0
+
+
+def test_a_type_has_fields_as_a_mapping_has_keys(universe):
+    gas = Snapshot(universe)["gas"]
+    assert list(gas) == list(gas.keys()) == list(gas.fields)
+    assert "density" in gas and "RHO" in gas
+    assert "metallicity" not in gas and 0 not in gas
+
+
+def test_a_type_has_what_can_be_derived(universe):
+    gas = Snapshot(universe)["gas"]
+    assert "temperature" in gas and "temperature" in gas.derived and "temperature" not in list(gas)
+    assert gas["temperature"].shape == (len(gas),)
