@@ -84,6 +84,11 @@ TEST_F(Render, OverridesKeysOfTheScene) {
   EXPECT_EQ(image.height, 17);
 }
 
+TEST_F(Render, NamesTheSceneThatHasNoComponent) {
+  std::ofstream(folder_ / "empty.toml") << "snapshot = 'u'\n";
+  expect_wrong_call("empty.toml", "empty.toml: found no component");
+}
+
 TEST_F(Render, SuggestsTheKeyThatWasMeant) {
   expect_wrong_call("u --set image.gama=2", "gamma");
 }
