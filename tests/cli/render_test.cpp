@@ -89,6 +89,11 @@ TEST_F(Render, NamesTheSceneThatHasNoComponent) {
   expect_wrong_call("empty.toml", "empty.toml: found no component");
 }
 
+TEST_F(Render, LooksAlongTheSkyThatWasChosen) {
+  const std::string above = "u --set camera.look_at=[0,0,0] --set camera.position=[0,0,9e4]";
+  EXPECT_EQ(render(above + small).exit_code, 0);
+}
+
 TEST_F(Render, SuggestsTheKeyThatWasMeant) {
   expect_wrong_call("u --set image.gama=2", "gamma");
 }

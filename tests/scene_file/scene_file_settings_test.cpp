@@ -298,6 +298,14 @@ TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
   EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
 }
 
+TEST(SettingsOfASuggestedScene, TurnTheSkyWhereTheCameraLooksAlongIt) {
+  const auto sky = [](const char* position) {
+    return camera_with({position, "camera.look_at=[0, 0, 0]"}).sky;
+  };
+  EXPECT_TRUE(same(sky("camera.position=[0, 9, 0]"), {{0, 0, 1}}));
+  EXPECT_TRUE(same(sky("camera.position=[0, 9, 1]"), {{0, 1, 0}}));
+}
+
 std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
   settings.emplace_back("camera.projection=equirectangular");
   Scene scene;
