@@ -391,6 +391,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
         Refused{"to\nler=1", "key to ler: found an unknown key"}));
 
+TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
+  const std::string panorama =
+      "[image]\nsize = [2048, 1024]\n[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\n"
+      "projection = \"equirectangular\"\n[[component]]\n";
+  EXPECT_THAT(message_for(panorama, {"image.width=256"}),
+              HasSubstr("setting \"image.width=256\": key image.width: found 256 x 1024"));
+}
+
 TEST(Settings, AreRefusedWhenGivenTwice) {
   EXPECT_THAT(message_for(text, {"image.width=1", "image.width=2"}),
               HasSubstr("key image.width: found it for the second time"));
