@@ -107,7 +107,8 @@ TEST_F(Render, RefusesADeviceThatDoesNotExist) {
 }
 
 TEST_F(Render, RefusesAShapeThatDoesNotExist) {
-  expect_wrong_call(std::string("u --shape triangles") + small, "rows");
+  expect_wrong_call(std::string("u --shape triangles") + small,
+                    "found triangles, expected automatic, rows or groups");
 }
 
 TEST_F(Render, DrawsAlikeInBothShapes) {
