@@ -26,10 +26,29 @@ const std::map<std::string, CompositeShape> shape_names = {{"automatic", Composi
                                                            {"rows", CompositeShape::rows},
                                                            {"groups", CompositeShape::groups}};
 
-const CLI::Validator refuse_minus(
-    [](const std::string& size) {
-      return size.rfind('-', 0) == 0 ? "found " + size + ", expected a size such as 1500MB or 2GiB"
-                                     : std::string();
+// From words such as 2GiB to bytes. Further on 0 stands for no limit, and a size below it would be
+// the largest that there is.
+const CLI::Validator size_in_bytes(
+    [](std::string& size) {
+      const std::string refusal = "found " + size + ", expected a size such as 1500MB or 2GiB";
+      if (size.rfind('-', 0) == 0) return refusal;
+      try {
+        if (!CLI::AsSizeValue(true)(size).empty()) return refusal;
+      } catch (const CLI::ValidationError&) {
+        return refusal;
+      }
+      return size == "0" ? refusal : std::string();
+    },
+    "");
+
+// From its name to its number.
+const CLI::Validator shape_by_name(
+    [](std::string& name) {
+      const auto shape = shape_names.find(CLI::detail::to_lower(name));
+      if (shape == shape_names.end())
+        return "found " + name + ", expected automatic, rows or groups";
+      name = std::to_string(static_cast<int>(shape->second));
+      return std::string();
     },
     "");
 
@@ -80,8 +99,7 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
              "Memory of the device for drawing, such as 1500MB or 2GiB. Ordered pictures of more "
              "particles than fit are drawn in parts of their depth. Default: what there "
              "is room for"))
-      ->transform(CLI::AsSizeValue(true))
-      ->transform(refuse_minus)  // the other one would wrap it around; this is asked first
+      ->transform(size_in_bytes)
       ->type_name("SIZE");
   sub.add_option("--stats", options.stats,
                  wrapped("Write times in seconds, counts and memory as JSON"))
@@ -113,7 +131,7 @@ void add_render(CLI::App& app, Run& run, Console& console) {
   sub->add_option("--shape", options->shape,
                   wrapped("Which kernels draw: rows, those for processors, or groups, those for "
                           "GPUs. Default: automatic, by the device's type"))
-      ->transform(CLI::CheckedTransformer(shape_names, CLI::ignore_case))
+      ->transform(shape_by_name)
       ->type_name("SHAPE");
   sub->add_option("--error-map", options->error_map,
                   wrapped("Certify, and write the bound of each pixel's error, over its light "

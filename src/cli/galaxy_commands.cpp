@@ -37,8 +37,9 @@ void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
                          "so many deviations of its noise"))
       ->type_name("K")
       ->capture_default_str();
-  sub.add_flag("--keep-stars{false}", s.removes_stars,
-               wrapped("Keep the points of light that are taken for stars of the Milky Way"));
+  sub.add_flag_callback(
+      "--keep-stars", [&s] { s.removes_stars = false; },
+      wrapped("Keep the points of light that are taken for stars of the Milky Way"));
 }
 
 void add_matter_options(CLI::App& sub, GalaxySettings& s) {

@@ -121,6 +121,14 @@ std::shared_ptr<const Snapshot> open_given_snapshot(const std::filesystem::path&
   }
 }
 
+void check_components(const Scene& scene, const std::filesystem::path& path) {
+  if (!scene.components.empty()) return;
+  throw UsageError(
+      path.string() +
+      ": found no component, expected at least one; add a [[component]] with its types, "
+      "such as types = \"gas\"");
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings,
                                 const std::shared_ptr<Communicator>& ranks) {
@@ -130,6 +138,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result.snapshot = SnapshotSource().at(result.scene);
   } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
     result.scene = read_scene_file(path, settings);
+    check_components(result.scene, path);
     result.snapshot = SnapshotSource().at(result.scene);
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));

@@ -149,35 +149,64 @@ void translate_component(int number, Translation& t) {
   translate_absorption(keys, t);
 }
 
+int component_count(Translation& t) {
+  constexpr int most = 100;
+  return t.par.integer("ptypes", 1, most).value_or(1);
+}
+
+// The block of numbers that all components name by this key; nothing where they differ.
+std::optional<std::string> block_of_all(Translation& t, const std::string& key) {
+  const int count = component_count(t);
+  const std::optional<std::string> block = ComponentKeys(t.par, 0).block(key);
+  for (int number = 0; number < count; ++number) {
+    ComponentKeys keys(t.par, number);
+    if (keys.block(key) != block) return std::nullopt;
+    if (key == "color_label" && keys.flag("color_is_vector", false)) return std::nullopt;
+  }
+  return block;
+}
+
+struct ParOrder {
+  const char* key;       // of the components
+  const char* in_front;  // what is drawn last lies in front
+  const char* what;
+};
+
+void translate_order_by(int type, const ParOrder& order, Translation& t) {
+  const std::optional<std::string> field = block_of_all(t, order.key);
+  if (!field) {
+    t.note(
+        fmt::format("sort_type {}, {}, is not carried over, as the components have no {}N in "
+                    "common: the nearest lies in front",
+                    type, order.what, order.key));
+    return;
+  }
+  t.scene.set_text("sort.by", *field);
+  t.scene.set_text("sort.order", order.in_front);
+  t.note(fmt::format("sort_type: clouds are ordered by the field {} instead of {}", *field,
+                     order.what));
+}
+
 }  // namespace
 
 void translate_components(Translation& t) {
-  constexpr int most = 100;
-  const int count = t.par.integer("ptypes", 1, most).value_or(1);
+  const int count = component_count(t);
   for (int number = 0; number < count; ++number)
     translate_component(number, t);
 }
 
 // The picture is only then one of order where absorption is not emission.
 void translate_order(Translation& t) {
-  const int order = t.par.integer("sort_type", 0, 4).value_or(1);
+  const int type = t.par.integer("sort_type", 0, 4).value_or(1);
   const bool is_ordered = !t.par.boolean("a_eq_e").value_or(true);
-  if (order == 1 || !is_ordered) return;
-  ComponentKeys first(t.par, 0);
-  const auto color = first.block("color_label"), size = first.block("size_label");
-  const auto sort_by = [&t](const std::optional<std::string>& field, const char* in_front,
-                            const std::string& what) {
-    if (!field) t.par.refuse("sort_type", "a type that needs no field, such as 1");
-    t.scene.set_text("sort.by", *field);
-    t.scene.set_text("sort.order", in_front);
-    t.note(
-        fmt::format("sort_type: clouds are ordered by the field {} instead of {}", *field, what));
-  };
-  // What is drawn last lies in front.
-  if (order == 2) sort_by(color, "ascending", "the red of their colour");
-  if (order == 3) sort_by(color, "descending", "the red of their colour");
-  if (order == 4) sort_by(size, "ascending", "their size in the picture");
-  if (order == 0) {
+  if (type == 1 || !is_ordered) return;
+  const char* const red = "the red of their colour";
+  if (type == 2) translate_order_by(type, {"color_label", "ascending", red}, t);
+  if (type == 3) translate_order_by(type, {"color_label", "descending", red}, t);
+  if (type == 4) {
+    translate_order_by(type, {"size_label", "ascending", "their size in the picture"}, t);
+  }
+  if (type == 0) {
     t.note("sort_type 0, the order of the file, is not carried over: the nearest lies in front");
   }
 }

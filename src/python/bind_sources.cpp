@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "python/progress.h"
 #include "python/source.h"
@@ -67,6 +68,23 @@ Values read_field(const Source& source, int type, const std::string& name) {
   return values;
 }
 
+// Identifiers, which floats would not hold.
+struct Integers {
+  std::vector<std::uint64_t> values;
+};
+
+py::buffer_info buffer_of(const Integers& integers) {
+  constexpr bool is_read_only = true;
+  return {const_cast<std::uint64_t*>(integers.values.data()),  // read-only all the same
+          static_cast<py::ssize_t>(integers.values.size()), is_read_only};
+}
+
+Integers read_integers(const Snapshot& snapshot, int type, const std::string& name) {
+  const FieldInfo* const field = find_field(require_type(snapshot.info(), type), name);
+  if (field != nullptr && field->name == "id") return {snapshot.read_ids(type)};
+  return {snapshot.read_integers(type, name)};
+}
+
 py::dict describe(const ParticleTypeInfo& type) {
   py::dict fields;
   for (const FieldInfo& field : type.fields) {
@@ -78,6 +96,7 @@ py::dict describe(const ParticleTypeInfo& type) {
   text["count"] = type.count;
   text["mass"] = type.table_mass;
   text["fields"] = fields;
+  text["derived"] = derivable_fields(type);
   return text;
 }
 
@@ -107,7 +126,11 @@ Vec3 vector_of(const std::array<double, 3>& values) {
 }
 
 void bind_values(py::module_& module) {
-  py::class_<Values>(module, "Values", py::buffer_protocol()).def_buffer(&buffer_of);
+  py::class_<Values>(module, "Values", py::buffer_protocol()).def_buffer([](const Values& values) {
+    return buffer_of(values);
+  });
+  py::class_<Integers>(module, "Integers", py::buffer_protocol())
+      .def_buffer([](const Integers& integers) { return buffer_of(integers); });
 }
 
 void bind_particles(py::module_& module) {
@@ -149,6 +172,13 @@ void bind_sources(py::module_& module) {
                  const FieldInfo* const field = find_field(require_type(s.info(), type), name);
                  return field == nullptr ? name : field->name;
                });
+             });
+           })
+      .def("read_integers",
+           [](const Source& source, int type, const std::string& name) {
+             return without_python([&] {
+               return source.in_turn(
+                   [&](const Snapshot& s) { return read_integers(s, type, name); });
              });
            })
       .def("read", [](const Source& source, int type, const std::string& name) {

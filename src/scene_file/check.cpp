@@ -19,6 +19,14 @@ namespace {
 // Four floats each: 4 GiB.
 constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;
 
+// The key that says the picture's size last: one of its sides may have changed it.
+std::string size_label(const Origins& origins) {
+  for (const char* const side : {"image.width", "image.height"}) {
+    if (origins.contains(side)) return side;
+  }
+  return "image.size";
+}
+
 void check_image(const ImageSettings& image, const Origins& origins) {
   if (image.dither.value_or(false) && image.convention == PixelConvention::original) {
     refuse(origins.at("image.dither"), "image.dither",
@@ -26,9 +34,7 @@ void check_image(const ImageSettings& image, const Origins& origins) {
   }
   const std::int64_t pixels = std::int64_t{image.width} * image.height;
   if (pixels <= largest_pixel_count) return;
-  const char* label = origins.contains("image.width")    ? "image.width"
-                      : origins.contains("image.height") ? "image.height"
-                                                         : "image.size";
+  const std::string label = size_label(origins);
   refuse(origins.at(label), label,
          fmt::format("{} x {}, which is {} pixels", image.width, image.height, pixels),
          fmt::format("at most {} pixels", largest_pixel_count));
@@ -41,7 +47,9 @@ void check_at(const Origins& origins, const std::function<void()>& check) {
   } catch (const UsageError& error) {
     const std::string message = error.what();
     const std::string label = message.substr(0, message.find(':'));
-    throw UsageError(fmt::format("{}: key {}", origins.at(label), message));
+    const std::string given = label == "image.size" ? size_label(origins) : label;
+    throw UsageError(
+        fmt::format("{}: key {}{}", origins.at(given), given, message.substr(label.size())));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -32,6 +33,24 @@ void give_way(const Camera& before, const Camera& suggested, const IsGiven& is_g
     camera.field_of_view_degrees.reset();
 }
 
+// Whether nothing tells how the picture is turned.
+bool looks_along_its_sky(const Camera& camera) {
+  using namespace boost::qvm;
+  constexpr double almost = 1e-6;
+  const Vec3 view = camera.look_at - camera.position;
+  return mag(cross(view, camera.sky)) <= almost * mag(view) * mag(camera.sky);
+}
+
+// The sky that was suggested is one of two axes; where the camera now looks along it, it is the
+// other one.
+void turn_sky(const Camera& before, const Camera& suggested, const IsGiven& is_given,
+              Camera& camera) {
+  const bool is_suggested = before.sky == suggested.sky && !is_given("camera.sky");
+  if (!is_suggested || !looks_along_its_sky(camera)) return;
+  camera.sky = {{0, 1, 0}};
+  if (looks_along_its_sky(camera)) camera.sky = {{0, 0, 1}};
+}
+
 // No panorama reaches beyond the poles: sides that were suggested make room for one of so many
 // degrees.
 void give_way(const ImageSettings& before, const ImageSettings& suggested, const IsGiven& is_given,
@@ -53,8 +72,10 @@ void give_way(const ImageSettings& before, const ImageSettings& suggested, const
 }  // namespace
 
 void give_way(const Scene& before, const Scene& suggested, const IsGiven& is_given, Scene& scene) {
-  if (before.camera && suggested.camera)
+  if (before.camera && suggested.camera) {
     give_way(*before.camera, *suggested.camera, is_given, *scene.camera);
+    turn_sky(*before.camera, *suggested.camera, is_given, *scene.camera);
+  }
   if (scene.camera && scene.camera->projection == Projection::equirectangular) {
     const double degrees = field_of_view_degrees(*scene.camera);
     give_way(before.image, suggested.image, is_given, degrees, scene.image);

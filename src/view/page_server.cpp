@@ -247,6 +247,17 @@ Tcp::endpoint endpoint_of(const std::string& address, std::uint16_t port) {
   return {parsed, port};
 }
 
+[[noreturn]] void refuse_to_listen(const std::string& address, std::uint16_t port,
+                                   const boost::system::error_code& code) {
+  if (code == boost::system::errc::address_not_available) {
+    throw UsageError("--bind: found " + address +
+                     ", expected an address of this machine, such as 127.0.0.1, or 0.0.0.0 for all "
+                     "that it has");
+  }
+  throw DataError("--port: cannot listen on " + address + " port " + std::to_string(port) + ": " +
+                  code.message() + "; another port, or 0 for any that is free");
+}
+
 }  // namespace
 
 struct PageServer::State {
@@ -259,8 +270,7 @@ struct PageServer::State {
       acceptor.bind(endpoint);
       acceptor.listen();
     } catch (const boost::system::system_error& error) {
-      throw DataError("--port: cannot listen on " + address + " port " + std::to_string(port) +
-                      ": " + error.code().message() + "; another port, or 0 for any that is free");
+      refuse_to_listen(address, port, error.code());
     }
     signals.async_wait([this](boost::system::error_code error, int) {
       if (!error) context.stop();

@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // A wrong call ends with 2, one line on standard error, and nothing else.
@@ -40,6 +41,15 @@ TEST_P(Commands, HaveHelpWithAnExample) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, AllOf(HasSubstr("Example"), HasSubstr("  splotchcl ")));
+}
+
+TEST(Arguments, AreDescribedWithoutMarksOfTheirParser) {
+  const TemporaryFolder folder;
+  for (const std::string command : {"render", "movie", "galaxy"}) {
+    const std::string help = splotchcl_in(folder, command + " --help").out;
+    for (const char* const mark : {"->", "{false}", "(=1000b)"})
+      EXPECT_THAT(help, Not(HasSubstr(mark))) << command;
+  }
 }
 
 TEST_P(Commands, SuggestTheOptionThatWasMeant) {

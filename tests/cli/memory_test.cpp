@@ -39,10 +39,10 @@ TEST_F(Memory, DrawsTheSamePictureInLittleOfIt) {
 }
 
 TEST_F(Memory, IsASizeWithAUnit) {
-  for (const std::string size : {"much", "-1", "5XB"}) {
+  for (const std::string size : {"much", "-1", "5XB", "0", "0GB"}) {
     const ProgramResult result = draw("-o a.png --memory " + size);
     EXPECT_EQ(result.exit_code, 2) << size;
-    EXPECT_THAT(result.err, HasSubstr("--memory"));
+    EXPECT_THAT(result.err, HasSubstr("--memory: found " + size + ", expected a size such as"));
   }
 }
 

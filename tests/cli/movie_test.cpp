@@ -10,6 +10,7 @@
 namespace splotchcl::testing {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 // A thousand particles, some small frames, and the renderer that needs no device.
@@ -235,6 +236,8 @@ TEST_F(Movie, RefusesToMixFramesOfTwoFilms) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(is_one_line(other.err));
   EXPECT_THAT(other.err, HasSubstr("film.mp4.frames/movie.txt: found frames of another film"));
+  std::filesystem::last_write_time(folder_ / "halo.gadget", {});
+  EXPECT_THAT(movie("-o film.mp4").err, ContainsRegex(" bytes, of 2[0-9]+-.*:.* UTC"));
   EXPECT_THAT(other.err, HasSubstr("brightness = 1"));
 }
 

@@ -84,6 +84,16 @@ TEST_F(Render, OverridesKeysOfTheScene) {
   EXPECT_EQ(image.height, 17);
 }
 
+TEST_F(Render, NamesTheSceneThatHasNoComponent) {
+  std::ofstream(folder_ / "empty.toml") << "snapshot = 'u'\n";
+  expect_wrong_call("empty.toml", "empty.toml: found no component");
+}
+
+TEST_F(Render, LooksAlongTheSkyThatWasChosen) {
+  const std::string above = "u --set camera.look_at=[0,0,0] --set camera.position=[0,0,9e4]";
+  EXPECT_EQ(render(above + small).exit_code, 0);
+}
+
 TEST_F(Render, SuggestsTheKeyThatWasMeant) {
   expect_wrong_call("u --set image.gama=2", "gamma");
 }
@@ -97,7 +107,8 @@ TEST_F(Render, RefusesADeviceThatDoesNotExist) {
 }
 
 TEST_F(Render, RefusesAShapeThatDoesNotExist) {
-  expect_wrong_call(std::string("u --shape triangles") + small, "rows");
+  expect_wrong_call(std::string("u --shape triangles") + small,
+                    "found triangles, expected automatic, rows or groups");
 }
 
 TEST_F(Render, DrawsAlikeInBothShapes) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "galaxy/galaxy_picture.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
@@ -37,6 +38,20 @@ TEST(GalaxyFile, OurReaderReadsWhatIsWritten) {
   EXPECT_EQ(values(snapshot->read(5, "Opacity")), galaxy.dust.color);
   EXPECT_EQ(snapshot->read_ids(0).front(), 1u);
   EXPECT_EQ(snapshot->read_ids(2).front(), galaxy.gas.count() + 1);
+}
+
+TEST(GalaxyFile, LengthsAndVelocitiesNameTheirUnits) {
+  const TemporaryFolder folder;
+  write_galaxy(folder / "galaxy.hdf5", make_galaxy(DiskPicture().draw(), small_settings()));
+  const auto snapshot = open_snapshot(folder / "galaxy.hdf5");
+  const auto unit = [&](const char* field) {
+    return find_field(*snapshot->info().find_type(0), field)->unit;
+  };
+  EXPECT_EQ(unit("position"), "kpc");
+  EXPECT_EQ(unit("smoothing_length"), "kpc");
+  EXPECT_EQ(unit("OrbitRadius"), "kpc");
+  EXPECT_EQ(unit("velocity"), "km/s");
+  EXPECT_EQ(unit("mass"), "");
 }
 
 TEST(GalaxyFile, NothingIsLeftWhereItCannotBeWritten) {

@@ -185,6 +185,20 @@ TEST_F(ParScenes, SayWhereTheirOrderDiffers) {
   EXPECT_THAT(notes_, IsEmpty());
 }
 
+TEST_F(ParScenes, AreOrderedByDepthWhereComponentsHaveOtherFields) {
+  const std::string stars =
+      "a_eq_e=F\nptypes=2\nptype1=4\nsize_fix1=1\ncolor_label1=AGE\npalette1=a.pal\n";
+  for (const std::string order : {"2", "3", "4"}) {
+    EXPECT_EQ(read(stars + "sort_type=" + order + "\n").sort.field, "");
+    EXPECT_THAT(notes_, Contains(HasSubstr("sort_type " + order + ", ")));
+    EXPECT_THAT(notes_, Contains(HasSubstr("the nearest lies in front")));
+  }
+}
+
+TEST_F(ParScenes, AreOrderedByDepthWhereColorsAreVectors) {
+  EXPECT_EQ(read("a_eq_e=F\nsort_type=2\ncolor_is_vector0=T\n").sort.field, "");
+}
+
 TEST_F(ParScenes, FindPalettesBesideTheFile) {
   EXPECT_EQ(read("palette0=palettes/a.pal\n").components[0].palette, path("a.pal"));
 }

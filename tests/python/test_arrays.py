@@ -83,6 +83,13 @@ def test_a_copy_is_noted(renderer, arrays, form):
     assert any("copied" in note for note in notes)
 
 
+def test_a_list_is_noted_as_one(arrays):
+    arrays["position"] = arrays["position"].tolist()
+    notes = Particles().gas(**arrays).notes
+    assert len(notes) == 1
+    assert "of the type list, not a numpy array" in notes[0]
+
+
 def test_half_precision_is_taken(renderer, arrays):
     arrays["temperature"] = (arrays["temperature"] / 100).astype(np.float16)
     particles = Particles().gas(**arrays)

@@ -22,6 +22,12 @@ def test_a_map_has_the_bits_of_the_command_line(program, universe, tmp_path):
     assert np.array_equal(drawn.values, np.load(tmp_path / "map.npy"), equal_nan=True)
 
 
+def test_types_are_a_word_with_commas_or_a_list(universe):
+    by_word = splotchcl.column(universe, types="gas, stars", size=(16, 16))
+    by_list = splotchcl.column(universe, types=["gas", "stars"], size=(16, 16))
+    assert np.array_equal(by_word.values, by_list.values)
+
+
 def test_a_saved_map_is_its_values(universe, tmp_path):
     drawn = splotchcl.column(universe, types="gas", size=(32, 32))
     drawn.save(tmp_path / "map.npy")

@@ -93,6 +93,36 @@ def test_what_is_iterated_can_be_got(scene):
     assert all(key in scene for key in scene)
 
 
+def test_a_scene_is_made_of_keys_joined_by_dots(scene):
+    made = Scene(
+        {
+            "image.size": [40, 30],
+            "component.0.name": "hot.gas",
+            "component.0.types": ["gas"],
+            "component.hot.gas.color.field": "temperature",
+        }
+    )
+    assert made == scene
+    assert Scene(dict(scene)) == scene
+
+
+def test_keys_joined_by_dots_come_after_tables():
+    scene = Scene({"image": {"size": [4, 4]}, "image.width": 8, "component": [{"types": ["gas"]}]})
+    assert scene.size == (8, 4)
+
+
+def test_a_sequence_is_named_by_a_key_joined_by_dots():
+    assert "snapshot" not in Scene({"time.snapshots": "s_%d", "component.0.types": ["gas"]})
+
+
+def test_a_scene_of_an_unknown_key_names_the_nearest():
+    for keys in ({"image.sizes": [1, 1]}, {"image": {"sizes": [1, 1]}}):
+        with pytest.raises(UnknownKey, match="did you mean image.size"):
+            Scene(keys)
+    with pytest.raises(UsageError, match="component.1"):
+        Scene({"component.1.types": ["gas"]})
+
+
 def test_a_copy_is_a_scene_of_its_own(scene):
     for other in (scene.copy(), copy.copy(scene), copy.deepcopy(scene), Scene.from_toml(str(scene))):
         assert other == scene
@@ -111,6 +141,17 @@ def test_a_saved_scene_is_read_from_any_folder(universe, tmp_path, monkeypatch):
     scene.save(tmp_path / "scene.toml")
     monkeypatch.chdir("/")
     assert Scene.from_file(tmp_path / "scene.toml")["snapshot"] == str(universe)
+
+
+@pytest.mark.parametrize("size", ["64x48", (64, 48), [64.0, 48]])
+def test_a_size_is_two_numbers_or_a_word(particles, size):
+    assert splotchcl.suggest(particles, size=size)["image.size"] == [64, 48]
+
+
+@pytest.mark.parametrize("size", ["64", "64x", 64, (64,), ("a", "b")])
+def test_another_size_is_refused(particles, size):
+    with pytest.raises(UsageError, match="size: found .* expected width and height"):
+        splotchcl.suggest(particles, size=size)
 
 
 def test_an_orbit_comes_round(particles):

@@ -298,6 +298,14 @@ TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
   EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
 }
 
+TEST(SettingsOfASuggestedScene, TurnTheSkyWhereTheCameraLooksAlongIt) {
+  const auto sky = [](const char* position) {
+    return camera_with({position, "camera.look_at=[0, 0, 0]"}).sky;
+  };
+  EXPECT_TRUE(same(sky("camera.position=[0, 9, 0]"), {{0, 0, 1}}));
+  EXPECT_TRUE(same(sky("camera.position=[0, 9, 1]"), {{0, 1, 0}}));
+}
+
 std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
   settings.emplace_back("camera.projection=equirectangular");
   Scene scene;
@@ -382,6 +390,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"component.1.name=gas", "which another component has"},
         Refused{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
         Refused{"to\nler=1", "key to ler: found an unknown key"}));
+
+TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
+  const std::string panorama =
+      "[image]\nsize = [2048, 1024]\n[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\n"
+      "projection = \"equirectangular\"\n[[component]]\n";
+  EXPECT_THAT(message_for(panorama, {"image.width=256"}),
+              HasSubstr("setting \"image.width=256\": key image.width: found 256 x 1024"));
+}
 
 TEST(Settings, AreRefusedWhenGivenTwice) {
   EXPECT_THAT(message_for(text, {"image.width=1", "image.width=2"}),

@@ -1,8 +1,9 @@
 #include "film/frames/film_manifest.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -16,12 +17,12 @@ namespace fs = std::filesystem;
 
 std::string describe(const fs::path& file) {
   std::error_code error;
-  const auto size = fs::file_size(file, error);
+  struct stat found = {};
   // A base name, whose files have lines of their own.
-  if (error) return file.string();
-  const auto time = fs::last_write_time(file, error).time_since_epoch();
-  return fmt::format("{}, {} bytes, time {}", fs::absolute(file, error).string(), size,
-                     std::chrono::duration_cast<std::chrono::milliseconds>(time).count());
+  if (::stat(file.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return file.string();
+  return fmt::format("{}, {} bytes, of {:%Y-%m-%d %H:%M:%S}.{:03} UTC",
+                     fs::absolute(file, error).string(), found.st_size,
+                     fmt::gmtime(found.st_mtim.tv_sec), found.st_mtim.tv_nsec / 1'000'000);
 }
 
 std::vector<std::string> lines_of(const InputFiles& inputs) {

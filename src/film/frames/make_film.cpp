@@ -212,8 +212,28 @@ class Film {
     const FrameFiles::Lock lock(files_);
     if (!lock) return result(FilmState::joined_by_another);
     if (files_.is_film()) join();
-    files_.close(frames_);
+    if (is_within_interrupted_film()) {
+      tell_what_stays();
+    } else {
+      files_.close(frames_);
+    }
     return result(FilmState::complete);
+  }
+
+  // Whether a longer film, of which these are some of the frames, still needs what was drawn of it.
+  // Numbered images need nothing more where all are there.
+  bool is_within_interrupted_film() const {
+    const std::vector<int> all = select_frames("", scene_.path().frame_count());
+    const std::size_t lacking = missing(all).size();
+    const bool has_others = all.size() - lacking > frames_.size();
+    return has_others && (files_.is_film() || lacking > 0);
+  }
+
+  void tell_what_stays() const {
+    if (!report_.note) return;
+    report_.note(files_.kept().string() +
+                 " stays: other frames of this film are drawn, too, and the command without "
+                 "--frames goes on with them; remove it if they are not wanted");
   }
 
   void join() const {

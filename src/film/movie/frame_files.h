@@ -24,6 +24,8 @@ class FrameFiles {
   std::filesystem::path film(const std::string& suffix) const;
   std::filesystem::path picture(int frame, const std::string& suffix) const;
   const std::filesystem::path& folder() const { return folder_; }
+  // What lies beside the output until close(): the folder of a film's frames, or the manifest.
+  const std::filesystem::path& kept() const { return is_film_ ? folder_ : manifest_; }
 
   // All that is written and stays for a time, but for the frames of a film.
   std::vector<std::filesystem::path> outputs(const std::vector<int>& frames) const;

@@ -33,6 +33,18 @@ void write_header(const Hdf5Writer& writer, const WrittenSnapshot& snapshot) {
   writer.write_number(header.id(), "UnitVelocity_in_cm_per_s", km_s_in_cm_s);
 }
 
+// As Gadget 4 does. Masses are areas, and colors and axes have no unit.
+void write_unit(const Hdf5Writer& writer, hid_t dataset, const std::string& name) {
+  const bool is_length =
+      name == "Coordinates" || name == "SmoothingLength" || name == "OrbitRadius";
+  const bool is_velocity = name == "Velocities";
+  if (!is_length && !is_velocity) return;
+  writer.write_number(dataset, "length_scaling", is_length ? 1 : 0);
+  writer.write_number(dataset, "velocity_scaling", is_velocity ? 1 : 0);
+  for (const char* const power : {"mass_scaling", "a_scaling", "h_scaling"})
+    writer.write_number(dataset, power, 0);
+}
+
 void write_type(const Hdf5Writer& writer, const WrittenType& type) {
   const OpenGroup group = writer.create_group("PartType" + std::to_string(type.type));
   for (const WrittenField& field : type.fields) {
@@ -43,7 +55,9 @@ void write_type(const Hdf5Writer& writer, const WrittenType& type) {
     const float* const values = field.values.is_uniform() ? same.data() : field.values.data();
     std::vector<hsize_t> shape = {type.count};
     if (columns > 1) shape.push_back(columns);
-    writer.write_dataset(group.id(), field.name, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, shape, values);
+    const OpenDataset dataset = writer.write_dataset(group.id(), field.name, H5T_IEEE_F32LE,
+                                                     H5T_NATIVE_FLOAT, shape, values);
+    write_unit(writer, dataset.id(), field.name);
   }
   if (!type.ids.empty()) {
     writer.write_dataset(group.id(), "ParticleIDs", H5T_STD_U64LE, H5T_NATIVE_UINT64, {type.count},

@@ -10,7 +10,8 @@
 namespace splotchcl {
 
 struct WrittenField {
-  std::string name;             // of the dataset, such as Coordinates
+  // Of the dataset, such as Coordinates. Lengths and velocities get their units by it.
+  std::string name;
   int values_per_particle = 1;  // 1 or 3
   Column values;
 };

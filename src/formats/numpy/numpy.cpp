@@ -267,7 +267,7 @@ void NumpyTable::add_array(std::size_t array, const std::vector<std::string>& na
     left_out_.push_back(arrays_[array].name);
   } else if (header.is_structured) {
     if (!names.empty()) {
-      throw DataError(path_.string() + ": its columns have names; leave read.columns out");
+      throw UsageError(path_.string() + ": its columns have names; leave read.columns out");
     }
     add_members(array);
   } else if (!header.members.front().is_usable) {
@@ -316,7 +316,7 @@ void NumpyTable::add_named(std::size_t array, const std::vector<std::string>& na
   const NumpyHeader& header = arrays_[array].header;
   const std::uint64_t width = header.shape.size() > 1 ? header.shape[1] : 1;
   if (names.size() != width) {
-    throw DataError(
+    throw UsageError(
         fmt::format("{}: an array of {} columns, but read.columns names {}; name each of "
                     "them (\"-\" for those that are not needed)",
                     path_.string(), width, names.size()));

@@ -281,7 +281,7 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, const std::vector<s
         path, width));
   }
   if (wanted.size() != width) {
-    throw DataError(fmt::format(
+    throw UsageError(fmt::format(
         "{}: line {} has {} columns, but read.columns names {}; name each of them (\"-\" for those "
         "that are not needed)",
         path, layout_.lines_before + 1, width, wanted.size()));

@@ -65,13 +65,21 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
     # What 32 bits cannot hold goes as doubles, from which the library subtracts the origin.
     is_narrow = plain.dtype.kind == "b" or np.can_cast(plain.dtype, np.float32, "safe")
     wanted = np.dtype(np.float32 if is_narrow else np.float64)
-    note = _copy_note(field, plain)
+    note = _copy_note(field, values, plain)
     if plain.dtype == wanted and plain.flags.c_contiguous and plain.flags.aligned:
         is_borrowed = wanted == np.float32 and isinstance(values, np.ndarray)
         return plain, None if is_borrowed else note
     return np.require(plain, wanted, ["C", "A"]), note
 
 
-def _copy_note(field: str, given: np.ndarray[Any, Any]) -> str:
-    order = "" if given.flags.c_contiguous else ", not in C order"
-    return f"field {field} was copied as 32-bit floats (it has dtype {given.dtype.str}{order})"
+def _copy_note(field: str, values: Any, given: np.ndarray[Any, Any]) -> str:
+    reasons = []
+    if not isinstance(values, np.ndarray):
+        reasons.append(f"it is of the type {type(values).__name__}, not a numpy array")
+    if given.dtype != np.float32:
+        reasons.append(f"it has dtype {given.dtype.str}")
+    if not given.flags.c_contiguous:
+        reasons.append("it is not in C order")
+    if not given.flags.aligned:
+        reasons.append("it is not aligned in memory")
+    return f"field {field} was copied as 32-bit floats ({', '.join(reasons)})"

@@ -112,7 +112,7 @@ def column(
     center: Sequence[float] | str | None = None,
     width: float | None = None,
     depth: float | None = None,
-    size: tuple[int, int] | None = None,
+    size: tuple[int, int] | str | None = None,
     unit: str | None = None,
     noise: bool = False,
     tolerance: float | None = None,
@@ -132,7 +132,7 @@ def column(
     weight : str, optional
         Of means: "mass" (None says the same; of slices "volume"), "volume", or a field.
     types : str or sequence, optional
-        Particle types, such as "gas", that the first component has in place of its own.
+        Particle types, such as "gas" or "gas,stars", that the first component has in place of its own.
     statistic : {"mean", "dispersion", "integral"}, optional
     slice : bool
         In the plane through the center, instead of along the line.
@@ -167,7 +167,7 @@ def column(
     if noise:
         keys["map.noise"] = True
     if types is not None:
-        names = [types] if isinstance(types, str) else list(types)
+        names = [word.strip() for word in types.split(",")] if isinstance(types, str) else list(types)
         keys[f"component.{keys.get('map.component', 0)}.types"] = names
     what = open_drawable(scene, particles, keys)
     what.notes.extend(_use_carried_units(what.scene, what.source))

@@ -31,7 +31,7 @@ def movie(
     scene: Scene | str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
-    size: tuple[int, int] | None = None,
+    size: tuple[int, int] | str | None = None,
     tolerance: float | None = None,
     device: str | None = None,
     frames: str = "",

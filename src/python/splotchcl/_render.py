@@ -31,7 +31,7 @@ class Drawable:
 def suggest(
     source: Source | str | os.PathLike[str],
     *,
-    size: tuple[int, int] | None = None,
+    size: tuple[int, int] | str | None = None,
     settings: Mapping[str, Any] | None = None,
 ) -> Scene:
     """A scene that suits the data: camera, components, fields and palettes, all as numbers.
@@ -39,8 +39,8 @@ def suggest(
     Parameters
     ----------
     source : Snapshot, Particles or path-like
-    size : (int, int), optional
-        Width and height in pixels; 1024 x 1024 otherwise.
+    size : (int, int) or str, optional
+        Width and height in pixels, ``(640, 480)`` or ``"640x480"``; 1024 x 1024 otherwise.
     settings : mapping, optional
         Scene keys that override what was chosen.
 
@@ -52,15 +52,26 @@ def suggest(
 
 
 def keys_of(
-    size: tuple[int, int] | None, tolerance: float | None, settings: Mapping[str, Any] | None
+    size: tuple[int, int] | str | None, tolerance: float | None, settings: Mapping[str, Any] | None
 ) -> dict[str, Any]:
     """What arguments say as scene keys."""
     keys = dict(settings or {})
     if size is not None:
-        keys["image.size"] = [int(side) for side in size]
+        keys["image.size"] = _sides(size)
     if tolerance is not None:
         keys["tolerance"] = float(tolerance)
     return keys
+
+
+def _sides(size: Any) -> list[int]:
+    try:
+        width, height = size.split("x") if isinstance(size, str) else size
+        return [int(width), int(height)]
+    except (TypeError, ValueError):
+        raise UsageError(
+            f"size: found {size!r}, expected width and height in pixels, such as (640, 480) or "
+            "'640x480'"
+        ) from None
 
 
 def open_drawable(
@@ -146,7 +157,7 @@ class Renderer:
         scene: Scene | Source | str | os.PathLike[str],
         particles: Source | None = None,
         *,
-        size: tuple[int, int] | None = None,
+        size: tuple[int, int] | str | None = None,
         tolerance: float | None = None,
         settings: Mapping[str, Any] | None = None,
         progress: Progress | None = None,
@@ -160,7 +171,7 @@ class Renderer:
         scene: Scene | Source | str | os.PathLike[str],
         particles: Source | None = None,
         *,
-        size: tuple[int, int] | None = None,
+        size: tuple[int, int] | str | None = None,
         tolerance: float | None = None,
         settings: Mapping[str, Any] | None = None,
         progress: Progress | None = None,
@@ -193,7 +204,7 @@ def render(
     scene: Scene | Source | str | os.PathLike[str],
     particles: Source | None = None,
     *,
-    size: tuple[int, int] | None = None,
+    size: tuple[int, int] | str | None = None,
     tolerance: float | None = None,
     device: str | None = None,
     certify: bool = False,
@@ -209,8 +220,8 @@ def render(
         scene is chosen from the data.
     particles : Particles or Snapshot, optional
         What a scene shows; None: the snapshot that it names.
-    size : (int, int), optional
-        Width and height in pixels.
+    size : (int, int) or str, optional
+        Width and height in pixels, ``(640, 480)`` or ``"640x480"``.
     tolerance : float, optional
         Of every pixel and channel, as the scene's key: 1e-3 of the display's white unless said
         otherwise; 0 is the most exact.
@@ -245,7 +256,7 @@ def reference(
     scene: Scene | Source | str | os.PathLike[str],
     particles: Source | None = None,
     *,
-    size: tuple[int, int] | None = None,
+    size: tuple[int, int] | str | None = None,
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> Image:

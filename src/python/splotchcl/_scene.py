@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,8 @@ class Scene(MutableMapping[str, Any]):
     Parameters
     ----------
     keys : mapping, optional
-        Tables as in a scene file, ``{"component": [{"types": ["gas"]}], ...}``.
+        Tables as in a scene file, ``{"component": [{"types": ["gas"]}], ...}``, and keys joined by
+        dots, ``{"image.size": [640, 480], "component.0.types": ["gas"]}``, which come after them.
 
     Raises
     ------
@@ -41,8 +43,14 @@ class Scene(MutableMapping[str, Any]):
     """
 
     def __init__(self, keys: Mapping[str, Any] | None = None) -> None:
-        tables = dict(keys or {})
-        self._scene = _core.parse_scene(_toml.document(tables), _settings_for_arrays(tables))
+        tables = {key: value for key, value in (keys or {}).items() if "." not in key}
+        joined = {key: value for key, value in (keys or {}).items() if "." in key}
+        _add_numbered_components(tables, joined)
+        settings = [_toml.setting(key, value) for key, value in joined.items()]
+        with _unknown_keys():
+            self._scene = _core.parse_scene(
+                _toml.document(tables), _settings_for_arrays({**tables, **joined}) + settings
+            )
         self._suggested: _core.Scene | None = None
 
     # `suggested`: as what the scene began, of which another field or projection has no use.
@@ -168,12 +176,8 @@ class Scene(MutableMapping[str, Any]):
         return self.to_toml()
 
     def _change(self, settings: list[str]) -> None:
-        try:
+        with _unknown_keys():
             self._scene = self._scene.with_settings(settings, self._suggested)
-        except UsageError as error:
-            if "an unknown key" in str(error):
-                raise UnknownKey(str(error)) from None
-            raise
 
     # The table that holds the key, and its name there; tables of components by number or name.
     def _find(
@@ -232,8 +236,30 @@ def _toml_or_empty(text: str) -> dict[str, Any]:
 # A scene whose particles are the caller's needs no file of them.
 def _settings_for_arrays(tables: Mapping[str, Any]) -> list[str]:
     time = tables.get("time")
-    has_data = "snapshot" in tables or (isinstance(time, Mapping) and "snapshots" in time)
-    return [] if has_data else [_FROM_ARRAYS]
+    has_sequence = "time.snapshots" in tables or (isinstance(time, Mapping) and "snapshots" in time)
+    return [] if "snapshot" in tables or has_sequence else [_FROM_ARRAYS]
+
+
+# Settings change components; those that keys number after the given ones are to be there before.
+def _add_numbered_components(tables: dict[str, Any], keys: Mapping[str, Any]) -> None:
+    words = [key.split(".") for key in keys]
+    numbers = {int(w[1]) for w in words if w[0] == "component" and w[1].isdecimal()}
+    given = tables.get("component", [])
+    added = 0
+    while isinstance(given, Sequence) and len(given) + added in numbers:
+        added += 1
+    if added:
+        tables["component"] = [*given, *({} for _ in range(added))]
+
+
+@contextmanager
+def _unknown_keys() -> Iterator[None]:
+    try:
+        yield
+    except UsageError as error:
+        if "an unknown key" in str(error):
+            raise UnknownKey(str(error)) from None
+        raise
 
 
 def _flat(tables: Mapping[str, Any], before: str = "") -> list[str]:

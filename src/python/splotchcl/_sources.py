@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, KeysView, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,16 @@ from ._arrays import as_values, unit_of
 from ._core import UsageError
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
+# Some files say by a number below 0 that a particle is in no halo.
+_IDENTIFIERS: dict[str, type[np.generic]] = {"id": np.uint64, "halo_id": np.int64}
 
 
 class ParticleType:
-    """The particles of one type of a snapshot; ``particles["density"]`` reads a field."""
+    """The particles of one type of a snapshot; ``particles["density"]`` reads a field.
+
+    Iterating gives the names of the fields, but for `derived` ones; ``len(particles)`` is the
+    number of particles.
+    """
 
     def __init__(self, source: _core.Source, name: str, described: dict[str, Any]) -> None:
         self._source = source
@@ -33,6 +39,24 @@ class ParticleType:
         """Names of the fields, and their units ("" where the file does not say)."""
         return {name: field[2] for name, field in self._described["fields"].items()}
 
+    @property
+    def derived(self) -> list[str]:
+        """Names of what follows from the fields and can be read as they are ("temperature")."""
+        return list(self._described["derived"])
+
+    def keys(self) -> KeysView[str]:
+        """Names of the fields."""
+        return self.fields.keys()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.fields)
+
+    def __contains__(self, field: object) -> bool:
+        """Whether there is such a field, by its name here or in the file, or it can be derived."""
+        if not isinstance(field, str):
+            return False
+        return self._canonical_name(field) in self.fields or field in self.derived
+
     def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
         """A field, stored or derived ("temperature"), in the snapshot's unit.
 
@@ -41,28 +65,43 @@ class ParticleType:
         numpy.ndarray
             float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
             file allows it. Positions that the file holds in double precision are float64.
+            Identifiers of a file are exact: "id" is uint64, "halo_id" int64.
 
         Raises
         ------
         UsageError, DataError
-            For a field that the type does not have, naming those that it has.
+            For a field that the type does not have, naming those that it has, and for identifiers
+            that the file has as no whole numbers.
         """
         if not isinstance(field, str):
             raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
-        number = int(self._described["type"])
-        values: np.ndarray[Any, Any] = np.asarray(self._source.read(number, field))
+        name = self._canonical_name(field)
+        is_of_arrays = isinstance(self._source, _core.ParticleArrays)  # which are floats already
+        if name in _IDENTIFIERS and name in self.fields and not is_of_arrays:
+            exact: np.ndarray[Any, Any] = np.asarray(
+                self._source.read_integers(self._number, field)
+            )
+            return exact.view(_IDENTIFIERS[name])
+        values: np.ndarray[Any, Any] = np.asarray(self._source.read(self._number, field))
         origin = np.array(self._source.position_origin())
-        if origin.any() and self._source.canonical_name(number, field) == "position":
+        if origin.any() and name == "position":
             absolute: np.ndarray[Any, Any] = values + origin
             return absolute
         return values
+
+    @property
+    def _number(self) -> int:
+        return int(self._described["type"])
+
+    def _canonical_name(self, field: str) -> str:
+        return self._source.canonical_name(self._number, field)
 
     def __repr__(self) -> str:
         return f"<splotchcl {self.name}: {len(self)} particles, {', '.join(self.fields)}>"
 
 
 class Source:
-    """What Snapshot and Particles have in common."""
+    """What Snapshot and Particles have in common: types of particles by name."""
 
     _source: _core.Source
 
@@ -75,11 +114,28 @@ class Source:
         types = self._describe()["types"]
         return {name: ParticleType(self._source, name, types[name]) for name in types}
 
+    def keys(self) -> KeysView[str]:
+        """Names of the types that have particles."""
+        return self.types.keys()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.types)
+
+    def __len__(self) -> int:
+        return len(self.types)
+
+    # Of no types it is particles all the same, to which some may be added.
+    def __bool__(self) -> bool:
+        return True
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a type of this name, or another word for it, has particles."""
+        return isinstance(name, str) and _type_name(name) in self.types
+
     def __getitem__(self, name: str) -> ParticleType:
         types = self.types
-        number = _core.find_particle_type(name) if isinstance(name, str) else None
-        if number is not None:
-            name = _core.particle_type_name(number)
+        if isinstance(name, str):
+            name = _type_name(name)
         if name not in types:
             raise UsageError(f"particle type {name!r}: expected a name, one of {', '.join(types)}")
         return types[name]
@@ -302,6 +358,11 @@ class Particles(Source):
                 f"field {field}: the unit {unit}, expected {known} as for other particles; convert "
                 "one of them"
             )
+
+
+def _type_name(word: str) -> str:
+    number = _core.find_particle_type(word)
+    return word if number is None else _core.particle_type_name(number)
 
 
 def _is_number(value: Any) -> bool:

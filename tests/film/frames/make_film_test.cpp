@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -107,6 +108,46 @@ TEST_F(Films, AreMadeInParts) {
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
   options_.only_join = true;
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete_before);
+}
+
+// Frames 0 and 1 are drawn of a film that was stopped, then 0 alone is asked for.
+class FilmsOfAnInterruptedOne : public Films {
+ protected:
+  void draw_two_frames_then_the_first() {
+    report_.is_stopped = [this] { return frames_.size() == 2; };
+    EXPECT_THROW(make_film(options_, report_), DataError);
+    report_.is_stopped = {};
+    options_.frames = "0";
+    EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
+    options_.frames = "";
+  }
+};
+
+TEST_F(FilmsOfAnInterruptedOne, LeaveItItsFrames) {
+  if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
+  options_.output = folder_ / "film.mp4";
+  draw_two_frames_then_the_first();
+  EXPECT_TRUE(has("film.mp4"));
+  EXPECT_THAT(notes_, ElementsAre(HasSubstr("film.mp4.frames stays")));
+  EXPECT_EQ(make_film(options_, report_).frames, 4U);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+  EXPECT_FALSE(has("film.mp4.frames"));
+}
+
+TEST_F(FilmsOfAnInterruptedOne, LeaveItItsNumberedImages) {
+  draw_two_frames_then_the_first();
+  EXPECT_THAT(notes_, ElementsAre(HasSubstr("movie.txt stays")));
+  make_film(options_, report_);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+  EXPECT_FALSE(has("frame_%d.png.movie.txt"));
+}
+
+TEST_F(FilmsOfAnInterruptedOne, LeaveNothingBesideAllNumberedImages) {
+  draw_two_frames_then_the_first();
+  options_.frames = "2:4";
+  make_film(options_, report_);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+  EXPECT_FALSE(has("frame_%d.png.movie.txt"));
 }
 
 // A film of two snapshots whose pattern leaves out the number of their files.

@@ -264,6 +264,13 @@ TEST_P(NumpyArchive, ADamagedArchiveIsRefused) {
       DataError);
 }
 
+TEST(NumpyArray, NamesThatDoNotFitItsColumnsAreAWrongCall) {
+  const TemporaryFolder folder;
+  const std::vector<float> values = {1, 2, 3, 4, 5, 6};
+  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of(values)));
+  EXPECT_THROW(open_snapshot(folder / "a.npy", {{"x", "y"}}), UsageError);
+}
+
 TEST(NumpyArchives, AZipWithoutArraysIsRefused) {
   const TemporaryFolder folder;
   write_zip(folder / "a.zip", {{"readme.txt", "nothing"}}, true);

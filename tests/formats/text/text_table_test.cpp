@@ -25,7 +25,7 @@ class TextTable : public ::testing::Test {
       const auto snapshot = open(text, columns);
       for (const FieldInfo& field : snapshot->info().types.front().fields)
         snapshot->read(0, field.name);
-    } catch (const DataError& error) {
+    } catch (const Error& error) {
       return error.what();
     }
     return {};
@@ -123,6 +123,7 @@ TEST_F(TextTable, ColumnsMayBeNamedByTheScene) {
   EXPECT_EQ(snapshot->info().types[0].fields.size(), 2U);
   EXPECT_THAT(positions(*open("a,b,c\n1,2,3\n", {"z", "y", "x"})), ElementsAre(3, 2, 1));
   EXPECT_THAT(refusal_of(rows, {"x", "y", "z"}), HasSubstr("line 1 has 5 columns"));
+  EXPECT_THROW(open(rows, {"x", "y", "z"}), UsageError);  // it is the call that is wrong
 }
 
 TEST_F(TextTable, MissingValuesAreNotANumber) {

@@ -5,6 +5,7 @@ import http.client
 import json
 import resource
 import socket
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -32,6 +33,13 @@ def is_exact_of_opened(message):
 def test_the_address_is_one_line_with_a_token_on_this_machine_only(view):
     assert view().address.startswith("http://127.0.0.1:")
     assert len(view().token) == 32
+
+
+def test_an_address_of_another_machine_is_refused(program, snapshot):
+    words = [program, "view", str(snapshot), "--bind", "192.0.2.1", "--port", "0"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2
+    assert "--bind: found 192.0.2.1, expected an address of this machine" in done.stderr
 
 
 def test_the_page_is_for_those_who_know_the_token(view):

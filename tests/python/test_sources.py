@@ -1,0 +1,83 @@
+"""Types of particles and fields as mappings have keys, and identifiers that are exact."""
+
+import numpy as np
+import pytest
+
+from conftest import make_arrays
+from splotchcl import DataError, Particles, Snapshot, UsageError
+
+
+def write_table(path, **columns):
+    count = 100
+    kinds = [("x", "f4"), ("y", "f4"), ("z", "f4")]
+    table = np.zeros(count, kinds + [(name, v.dtype) for name, v in columns.items()])
+    for name in "xyz":
+        table[name] = np.random.default_rng(1).random(count)
+    for name, values in columns.items():
+        table[name] = values
+    np.save(path, table)
+    return path
+
+
+def test_identifiers_of_a_file_are_exact(tmp_path):
+    ids = np.arange(100, dtype=np.uint64) + 2**63 + 1
+    gas = Snapshot(write_table(tmp_path / "a.npy", id=ids))["gas"]
+    assert gas["id"].dtype == np.uint64
+    assert np.array_equal(gas["id"], ids)
+    assert np.array_equal(gas["ID"], ids)
+
+
+def test_haloes_are_exact_and_may_be_below_0(tmp_path):
+    haloes = np.arange(100, dtype=np.int64) * 2**40 - 1
+    gas = Snapshot(write_table(tmp_path / "a.npy", halo_id=haloes))["gas"]
+    assert np.array_equal(gas["halo_id"], haloes)
+
+
+def test_identifiers_that_are_no_whole_numbers_are_refused(tmp_path):
+    gas = Snapshot(write_table(tmp_path / "a.npy", id=np.linspace(0, 1, 100)))["gas"]
+    with pytest.raises(DataError, match="id"):
+        gas["id"]
+
+
+def test_a_file_without_identifiers_names_its_fields(tmp_path):
+    gas = Snapshot(write_table(tmp_path / "a.npy", density=np.ones(100)))["gas"]
+    with pytest.raises(UsageError, match="expected one of position, density"):
+        gas["id"]
+
+
+def test_identifiers_of_arrays_are_floats():
+    particles = Particles().gas(**make_arrays(3), id=[1, 2, 3])
+    assert particles["gas"]["id"].dtype == np.float32
+
+
+def test_a_part_of_a_snapshot_has_its_identifiers(tmp_path):
+    ids = np.arange(100, dtype=np.int64) + 2**33
+    path = write_table(tmp_path / "a.npy", id=ids)
+    assert np.array_equal(Snapshot(path, read={"every": 10})["gas"]["id"], ids[::10])
+
+
+def test_a_source_has_types_as_a_mapping_has_keys(universe):
+    snapshot = Snapshot(universe)
+    assert list(snapshot) == list(snapshot.keys()) == ["gas", "stars"]
+    assert len(snapshot) == 2
+    assert "stars" in snapshot and "halo" not in snapshot and 0 not in snapshot
+    assert [len(particles) for particles in dict(snapshot).values()] == [
+        len(snapshot["gas"]), len(snapshot["stars"])
+    ]
+
+
+def test_particles_without_any_are_true():
+    assert Particles() and len(Particles()) == 0
+
+
+def test_a_type_has_fields_as_a_mapping_has_keys(universe):
+    gas = Snapshot(universe)["gas"]
+    assert list(gas) == list(gas.keys()) == list(gas.fields)
+    assert "density" in gas and "RHO" in gas
+    assert "metallicity" not in gas and 0 not in gas
+
+
+def test_a_type_has_what_can_be_derived(universe):
+    gas = Snapshot(universe)["gas"]
+    assert "temperature" in gas and "temperature" in gas.derived and "temperature" not in list(gas)
+    assert gas["temperature"].shape == (len(gas),)
