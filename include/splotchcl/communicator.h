@@ -31,7 +31,7 @@ class Communicator {
 
   // Collective: all ranks have the root's bytes afterwards.
   virtual void broadcast(void* data, std::size_t bytes, int root) = 0;
-  // Collective: every rank has what all ranks gave, by rank. For little: 2 GB in all.
+  // Collective: every rank has what all ranks gave, by rank. For little.
   virtual std::vector<Bytes> gather(const Bytes& own) = 0;
   // Collective: each value becomes the sum of all ranks'.
   virtual void add_up(std::vector<std::uint64_t>& values) = 0;

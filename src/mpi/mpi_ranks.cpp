@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <utility>
@@ -87,24 +88,8 @@ class MpiRanks final : public Communicator {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallgather(&bytes, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, all_, &request);
     finish(request);
-    std::vector<int> counts, places;
-    std::uint64_t total = 0;
-    for (const std::uint64_t size : sizes) {
-      counts.push_back(static_cast<int>(size));
-      places.push_back(static_cast<int>(total));
-      total += size;
-    }
-    Bytes together(static_cast<std::size_t>(total));
-    MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, together.data(),
-                    counts.data(), places.data(), MPI_BYTE, all_, &request);
-    finish(request);
-    std::vector<Bytes> all;
-    auto next = together.begin();
-    for (const int count : counts) {
-      all.emplace_back(next, next + count);
-      next += count;
-    }
-    return all;
+    const auto total = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+    return total <= most_at_once ? gather_at_once(own, sizes) : gather_one_by_one(own, sizes);
   }
 
   void add_up(std::vector<std::uint64_t>& values) override {
@@ -165,6 +150,39 @@ class MpiRanks final : public Communicator {
   }
 
  private:
+  std::vector<Bytes> gather_at_once(const Bytes& own, const std::vector<std::uint64_t>& sizes) {
+    std::vector<int> counts, places;
+    int total = 0;
+    for (const std::uint64_t size : sizes) {
+      counts.push_back(static_cast<int>(size));
+      places.push_back(total);
+      total += counts.back();
+    }
+    Bytes together(static_cast<std::size_t>(total));
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, together.data(),
+                    counts.data(), places.data(), MPI_BYTE, all_, &request);
+    finish(request);
+    std::vector<Bytes> all;
+    auto next = together.begin();
+    for (const int count : counts) {
+      all.emplace_back(next, next + count);
+      next += count;
+    }
+    return all;
+  }
+
+  std::vector<Bytes> gather_one_by_one(const Bytes& own, const std::vector<std::uint64_t>& sizes) {
+    std::vector<Bytes> all(sizes.size());
+    all[static_cast<std::size_t>(rank_)] = own;
+    for (int rank = 0; rank < size_; ++rank) {
+      Bytes& part = all[static_cast<std::size_t>(rank)];
+      part.resize(static_cast<std::size_t>(sizes[static_cast<std::size_t>(rank)]));
+      broadcast(part.data(), part.size(), rank);
+    }
+    return all;
+  }
+
   MPI_Comm all_ = MPI_COMM_NULL;
   bool ends_mpi_;
   int rank_ = 0, size_ = 1, rank_on_host_ = 0, size_on_host_ = 1;
