@@ -20,8 +20,8 @@ struct ParticleChunk {
   std::uint64_t first = 0, end = 0;
   std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
 };
-// How long the chunks of a component of `count` particles are, but the last: as few as are no longer
-// than a chunk may be, of whole blocks.
+// How long the chunks of a component of `count` particles are, but the last: as few as are no
+// longer than a chunk may be, of whole blocks.
 std::uint64_t particles_per_chunk(std::uint64_t count, const DeviceTraits& traits);
 // The chunks of all components.
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
