@@ -10,6 +10,7 @@
 #include "scene/constants.h"
 #include "scene_file/give_way.h"
 #include "scene_file/key_depth.h"
+#include "scene_file/parse_toml.h"
 #include "scene_file/replace_excluded.h"
 #include "scene_file/unknown_key.h"
 #include "scene_file/values.h"
@@ -82,7 +83,7 @@ void SceneBuilder::read_text(const std::string& text) {
   }
   toml::table root;
   try {
-    root = toml::parse(text);
+    root = parse_toml(text);
   } catch (const toml::parse_error& error) {
     throw UsageError(fmt::format("{}: found no valid TOML, expected a scene file: {}",
                                  where_in_file(error.source()),

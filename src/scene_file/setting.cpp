@@ -10,6 +10,7 @@
 #include "common/words.h"
 #include "scene_file/check.h"
 #include "scene_file/key_depth.h"
+#include "scene_file/parse_toml.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 
@@ -83,7 +84,7 @@ Setting split_setting(const std::string& setting) {
 toml::table parse_value(const std::string& text) {
   if (find_deep_key(text) > 0) return toml::table{{"value", text}};
   try {
-    toml::table table = toml::parse("value = " + text);
+    toml::table table = parse_toml("value = " + text);
     if (table.size() == 1 && table.contains("value")) return table;
   } catch (const toml::parse_error&) {
     // A bare word: palette=magma.
