@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -90,6 +91,12 @@ inline Map map_on_device(Renderer& renderer, const Scene& scene, const Snapshot&
   std::vector<std::string> untold;
   return draw_map(
       scene, snapshot, [&renderer](const Frame& frame) { return renderer.render(frame); }, untold);
+}
+
+inline const double sigma_of_h = KernelSettings().width;
+
+inline double total_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 inline float at(const Map& map, int x, int y) {
