@@ -11,6 +11,7 @@
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "map/map_units.h"
+#include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
@@ -36,9 +37,8 @@ bool is_found_when_drawn(const std::string& derived) {
 std::string unit_of_derived(const ParticleTypeInfo& type, const std::string& name) {
   if (name == "temperature") return "K";
   const auto unit_of = [&type](const std::string& field) {
-    const auto found = std::find_if(type.fields.begin(), type.fields.end(),
-                                    [&](const FieldInfo& info) { return info.name == field; });
-    return found == type.fields.end() ? std::string() : found->unit;
+    const FieldInfo* const found = find_field(type, field);
+    return found == nullptr ? std::string() : found->unit;
   };
   if (name == "density") return name_of_density(type);
   if (name == "speed") return unit_of("velocity");

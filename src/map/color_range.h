@@ -20,8 +20,8 @@ void check_color_limits(const MapSettings& settings);
 // floor, where maps hold errors rather than values; of values of both signs, where both are open,
 // as far below 0 as above it, so that 0 has the palette's middle. A scaling that is left open is
 // what shows such values, as far as they lie farther below 0 than `error`, that of values of 0.
-// Throws UsageError as check_color_limits does, and where a limit lies
-// beyond a percentile that stands for the other.
+// Throws UsageError as check_color_limits does, and where a limit lies beyond a percentile that
+// stands for the other.
 ColorRange decide_color_range(const std::vector<float>& values, const MapSettings& settings,
                               double floor, double error);
 
