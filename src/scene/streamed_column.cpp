@@ -83,9 +83,11 @@ Column gather_in_order(const Column& column, std::size_t width, std::size_t coun
     const std::size_t first = place(next);
     const std::size_t end = std::min(behind, first + streamed_particles);
     const ColumnStretch stretch(column, first * width, end * width);
-    for (; next < count && place(next) < end; ++next) {
+    for (; next < count; ++next) {
+      const std::size_t at = place(next);
+      if (at >= end) break;
       for (std::size_t k = 0; k < width; ++k)
-        *out++ = stretch[place(next) * width + k];
+        *out++ = stretch[at * width + k];
     }
   }
   return Column::owning(std::move(values));

@@ -15,6 +15,8 @@ namespace {
 
 // a * b / c without overflow, rounded down.
 std::uint64_t scale(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  // A division of 64 bits is one instruction, where it is enough.
+  if (std::max(a, b) <= UINT32_MAX) return a * b / c;
   __extension__ using Wide = unsigned __int128;
   return static_cast<std::uint64_t>(static_cast<Wide>(a) * b / c);
 }
@@ -66,32 +68,39 @@ std::uint64_t SubsetSnapshot::count_of(std::uint64_t count, std::uint64_t total)
   return std::max<std::uint64_t>(1, scale(count, most, total));
 }
 
-// Where the i-th of the type is in the whole.
-std::uint64_t SubsetSnapshot::place(int type, std::uint64_t i) const {
-  if (!read_.max_particles) return i * static_cast<std::uint64_t>(read_.every);
-  const std::uint64_t all = whole_->info().find_type(type)->count;
-  const std::uint64_t some = info_.find_type(type)->count;
+SubsetSnapshot::Places SubsetSnapshot::places_of(int type) const {
+  Places places;
+  places.all = whole_->info().find_type(type)->count;
+  places.some = info_.find_type(type)->count;
+  if (!read_.max_particles) {
+    places.every = static_cast<std::uint64_t>(read_.every);
+  } else {
+    const auto seed = static_cast<std::uint64_t>(read_.seed);
+    places.hash = hash_of(hash_of(seed) + static_cast<std::uint64_t>(type));
+  }
+  return places;
+}
+
+std::uint64_t SubsetSnapshot::Places::operator()(std::uint64_t i) const {
+  if (every > 0) return i * every;
   const std::uint64_t first = scale(i, all, some), end = scale(i + 1, all, some);
-  const auto seed = static_cast<std::uint64_t>(read_.seed);
-  return first +
-         hash_of(hash_of(hash_of(seed) + static_cast<std::uint64_t>(type)) + i) % (end - first);
+  return first + hash_of(hash + i) % (end - first);
 }
 
 Column SubsetSnapshot::read(int type, const std::string& field) const {
   const Column all = whole_->read(type, field);
-  const ParticleTypeInfo* const chosen = info_.find_type(type);
-  if (!all.is_array() || chosen->count == whole_->info().find_type(type)->count) return all;
-  const std::size_t width = all.size() / whole_->info().find_type(type)->count;
-  return gather_in_order(all, width, chosen->count, [&](std::size_t i) { return place(type, i); });
+  const Places places = places_of(type);
+  if (!all.is_array() || places.some == places.all) return all;
+  return gather_in_order(all, all.size() / places.all, places.some, places);
 }
 
 std::vector<std::uint64_t> SubsetSnapshot::chosen_of(int type,
                                                      const std::vector<std::uint64_t>& all) const {
   std::vector<std::uint64_t> chosen;
-  const std::uint64_t count = info_.find_type(type)->count;
-  chosen.reserve(count);
-  for (std::uint64_t i = 0; i < count; ++i)
-    chosen.push_back(all[place(type, i)]);
+  const Places places = places_of(type);
+  chosen.reserve(places.some);
+  for (std::uint64_t i = 0; i < places.some; ++i)
+    chosen.push_back(all[places(i)]);
   return chosen;
 }
 
@@ -104,7 +113,7 @@ std::vector<std::uint64_t> SubsetSnapshot::read_integers(int type, const std::st
 }
 
 std::uint64_t SubsetSnapshot::place_in_file(int type, std::uint64_t i) const {
-  return whole_->place_in_file(type, place(type, i));
+  return whole_->place_in_file(type, places_of(type)(i));
 }
 
 }  // namespace splotchcl

@@ -27,8 +27,16 @@ class SubsetSnapshot : public Snapshot {
   Vec3 position_origin() const override { return whole_->position_origin(); }
 
  private:
+  // Where the i-th particle of a type is in the whole.
+  struct Places {
+    std::uint64_t all = 0, some = 0;
+    std::uint64_t every = 0;  // 0: at random
+    std::uint64_t hash = 0;   // of the seed and the type
+    std::uint64_t operator()(std::uint64_t i) const;
+  };
+
   std::uint64_t count_of(std::uint64_t count, std::uint64_t total) const;
-  std::uint64_t place(int type, std::uint64_t i) const;
+  Places places_of(int type) const;
   std::vector<std::uint64_t> chosen_of(int type, const std::vector<std::uint64_t>& all) const;
 
   std::shared_ptr<const Snapshot> whole_;
