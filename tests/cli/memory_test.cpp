@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -25,7 +25,7 @@ class Memory : public ::testing::Test {
 };
 
 TEST_F(Memory, DrawsTheSamePictureInLittleOfIt) {
-  ASSERT_EQ(splotchcl_in(folder_, "generate universe -o u --particles 2500000").exit_code, 0);
+  ASSERT_EQ(splotchcl_in(folder_, "generate universe -o u --particles 1300000").exit_code, 0);
   ASSERT_EQ(draw("-o whole.exr --stats whole.json").exit_code, 0);
   const ProgramResult result = draw("--explain --memory 1MB -o parts.exr --stats parts.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -47,4 +47,4 @@ TEST_F(Memory, IsASizeWithAUnit) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

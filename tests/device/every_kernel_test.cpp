@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
+#include "long_tests.h"
 
 namespace splotchcl::test {
 namespace {
-
-constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
 
 class EveryKernel : public PictureTest, public testing::WithParamInterface<CompositeShape> {
  protected:
@@ -50,7 +50,7 @@ class EveryKernel : public PictureTest, public testing::WithParamInterface<Compo
 };
 
 TEST_P(EveryKernel, HoldsItsTolerance) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     for (const double tolerance : {1e-3, 1e-4, 1e-5, 0.0}) {
       Frame frame = small_frame(plan, tolerance > 0 ? 12 : 4);
       frame.tolerance = tolerance;
@@ -105,7 +105,7 @@ TEST_P(EveryKernel, DrawsBrightStars) {
 }
 
 TEST_P(EveryKernel, CutsKernels) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     for (const Sampling sampling : {Sampling::mean, Sampling::center}) {
       Frame frame = small_frame(plan);
       frame.kernel.cut = 2;
@@ -116,7 +116,7 @@ TEST_P(EveryKernel, CutsKernels) {
 }
 
 TEST_P(EveryKernel, TakesColorsOfTheParticlesOwn) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     Frame frame = small_frame(plan);
     Particles& particles = frame.components.front().particles;
     std::vector<float> vectors(3 * particles.count);
@@ -173,8 +173,11 @@ TEST_P(EveryKernel, LooksThroughCloudsAroundTheCamera) {
 
 TEST_P(EveryKernel, LooksInAllDirectionsAtToleranceZero) {
   Renderer pairs({"", GetParam(), false});
-  for (const Projection projection :
-       {Projection::fisheye, Projection::equirectangular, Projection::cube}) {
+  std::vector<Projection> projections = {Projection::equirectangular};
+  // Kernels made for GPUs take a processor's compiler seconds each.
+  if (GetParam() == CompositeShape::rows || long_tests())
+    projections.insert(projections.end(), {Projection::fisheye, Projection::cube});
+  for (const Projection projection : projections) {
     Frame frame = wide_frame(projection, 4);
     frame.tolerance = 0;
     expect_within_tolerance(frame, "wide angle");

@@ -9,7 +9,7 @@
 #include "cli/program.h"
 #include "long_tests.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -109,7 +109,8 @@ TEST_F(Faults, OfTheLimitOnMemoryAreOneLine) {
     // Splats alone: clouds around the camera take the reference minutes in so large a picture. On a
     // slow machine it would tell how far it is.
     if (run_with(limit,
-                 "render h --quiet -o out/a.png --reference --set 'image.size=[2000,2000]' "
+                 "render h --quiet -o out/a.png --reference --max-particles 300 "
+                 "--set 'image.size=[2000,2000]' "
                  "--set camera.through_clouds=false",
                  {})) {
       ++failures;
@@ -151,4 +152,4 @@ TEST_F(Faults, OfTheCompilerOfKernelsAreOneLineThatSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

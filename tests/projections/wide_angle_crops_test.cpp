@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "device/pictures.h"
+#include "long_tests.h"
 #include "projections/wide_frames.h"
 
 namespace splotchcl::test {
 namespace {
 
-constexpr Projection projections[] = {Projection::perspective, Projection::orthographic,
-                                      Projection::fisheye, Projection::equirectangular,
-                                      Projection::cube};
+const std::vector<Projection> projections = {Projection::perspective, Projection::orthographic,
+                                             Projection::fisheye, Projection::equirectangular,
+                                             Projection::cube};
+const std::vector<Projection> some_projections = {Projection::equirectangular, Projection::cube};
 
 // Clouds all around the camera, some in front of others.
 Frame clouds_around(Projection projection, bool ordered, double tolerance) {
@@ -43,8 +45,8 @@ Image part_of(const Image& whole, const Rectangle& crop) {
 }
 
 template <class Draw>
-void expect_equal_bits(Draw draw, double tolerance) {
-  for (const Projection projection : projections) {
+void expect_equal_bits(const std::vector<Projection>& of, Draw draw, double tolerance) {
+  for (const Projection projection : of) {
     for (const bool ordered : {false, true}) {
       Frame frame = clouds_around(projection, ordered, tolerance);
       const Image whole = draw(frame);
@@ -66,17 +68,21 @@ TEST_F(WideAngleCrops, HaveTheBitsOfThePicture) {
   DeviceContext device(choose_device(""));
   for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
     const auto draw = [&](const Frame& frame) { return draw_once(device, frame, shape); };
-    expect_equal_bits(draw, 1e-3);
+    // Kernels made for GPUs take a processor's compiler seconds each.
+    const bool has_all = shape == CompositeShape::rows || long_tests();
+    expect_equal_bits(has_all ? projections : some_projections, draw, 1e-3);
   }
 }
 
 TEST_F(WideAngleCrops, HaveTheBitsOfThePictureAtToleranceZero) {
-  expect_equal_bits([](const Frame& frame) { return renderer().render(frame); }, 0);
+  expect_equal_bits(
+      projections, [](const Frame& frame) { return renderer().render(frame); }, 0);
 }
 
 TEST_F(WideAngleCrops, HaveThemInPairsOfFloats) {
   Renderer pairs({"", CompositeShape::rows, false});
-  expect_equal_bits([&](const Frame& frame) { return pairs.render(frame); }, 0);
+  expect_equal_bits(
+      projections, [&](const Frame& frame) { return pairs.render(frame); }, 0);
 }
 
 }  // namespace
