@@ -21,7 +21,7 @@ constexpr std::size_t lanes = vector_bytes / sizeof(float);
 constexpr std::size_t chains = 10;
 
 // What nobody needs, so that it is computed.
-volatile float factor = 0.5f, unused_sum;
+volatile float factor = 0.5f, unused_product;
 
 __attribute__((noinline)) void multiply_and_add(long steps) {
   const Floats by = Floats{} + factor, added = Floats{} + 1.0f;
@@ -35,7 +35,7 @@ __attribute__((noinline)) void multiply_and_add(long steps) {
   Floats all = sums[0];
   for (std::size_t c = 1; c < chains; ++c)
     all += sums[c];
-  unused_sum = all[0];
+  unused_product = all[0];
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace splotchcl::bench {
 namespace {
 
-double seconds(const timeval& time) {
+double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
@@ -58,7 +58,7 @@ ProcessCost run_process(const std::vector<std::string>& words) {
   }
   ProcessCost result;
   result.cost = {stopwatch.elapsed().wall_seconds,
-                 seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+                 seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)};
   result.largest_resident_bytes = 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
   return result;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // Copies of an HDF5 file of which bytes are changed where HDF5 keeps its structure: in each another
 // few.
@@ -35,4 +35,4 @@ class DamagedHdf5 {
   int copies_ = 0;
 };
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

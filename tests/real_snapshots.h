@@ -7,7 +7,7 @@
 
 #include "paths.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // Every file of the test data that is a snapshot; none where there are no test data.
 inline std::vector<std::string> real_snapshots() {
@@ -26,4 +26,4 @@ inline std::vector<std::string> real_snapshots() {
   return names;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

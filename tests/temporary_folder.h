@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // A folder of its own for one test, removed at its end. Those of one test that live at the
 // same time differ by `label`.
@@ -51,4 +51,4 @@ inline std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

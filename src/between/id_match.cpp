@@ -12,7 +12,7 @@ namespace {
 
 using Ids = std::vector<std::uint64_t>;
 
-constexpr std::size_t block_size = 65536;
+constexpr std::size_t ids_per_block = 65536;
 
 struct IdPlace {
   std::uint64_t id;
@@ -25,16 +25,16 @@ class Buckets {
  public:
   // 2^bits of them.
   Buckets(const Ids& ids, int bits) : bits_(bits), sorted_(ids.size()) {
-    const std::size_t blocks = ceil_divide(ids.size(), block_size);
+    const std::size_t blocks = ceil_divide(ids.size(), ids_per_block);
     std::vector<std::size_t> begins(blocks * count());
-    for_blocks(ids.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      std::size_t* const of_block = begins.data() + begin / block_size * count();
+    for_blocks(ids.size(), ids_per_block, [&](std::size_t begin, std::size_t end) {
+      std::size_t* const of_block = begins.data() + begin / ids_per_block * count();
       for (std::size_t i = begin; i < end; ++i)
         ++of_block[bucket_of(ids[i])];
     });
     set_begins(begins, blocks);
-    for_blocks(ids.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      std::size_t* const next = begins.data() + begin / block_size * count();
+    for_blocks(ids.size(), ids_per_block, [&](std::size_t begin, std::size_t end) {
+      std::size_t* const next = begins.data() + begin / ids_per_block * count();
       for (std::size_t i = begin; i < end; ++i)
         sorted_[next[bucket_of(ids[i])]++] = {ids[i], static_cast<std::uint32_t>(i)};
     });

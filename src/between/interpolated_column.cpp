@@ -8,7 +8,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t block_size = 49152;
+constexpr std::size_t values_per_block = 49152;
 
 // Where particles fade, what they fade with their values.
 std::optional<ColumnBetween> fading(const ColumnBetween& column, const ColumnBetween& fade) {
@@ -41,7 +41,7 @@ void InterpolatedColumn::make(std::size_t begin, std::size_t end, float* values)
 
 std::vector<float> InterpolatedColumn::make_all() const {
   std::vector<float> values(size());
-  for_blocks(values.size(), block_size,
+  for_blocks(values.size(), values_per_block,
              [&](std::size_t begin, std::size_t end) { make(begin, end, values.data() + begin); });
   return values;
 }

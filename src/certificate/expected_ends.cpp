@@ -16,7 +16,7 @@ namespace splotchcl {
 namespace {
 
 // Parts of what is promised that do not count.
-constexpr double negligible_part = 1e-3;
+constexpr double negligible_end = 1e-3;
 
 // Whatever crop of it is drawn.
 Frame whole_picture(const Frame& frame) {
@@ -79,7 +79,7 @@ ExpectedEnds ends_in(const PixelBlock& block,
                      const std::vector<std::optional<OctaveErrors>>& octaves, double promise) {
   ExpectedEnds ends;
   for (const std::optional<OctaveErrors>& octave : octaves) {
-    const double part = octave->of_ends(block, negligible_part * promise) / promise;
+    const double part = octave->of_ends(block, negligible_end * promise) / promise;
     ends.of_octaves[static_cast<std::size_t>(octave->octave())] = part;
     ends.error += part;
   }

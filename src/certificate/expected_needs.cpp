@@ -26,7 +26,7 @@ constexpr double fewest = 6;
 constexpr double deviations = 2;
 // More than is found: the check asks for one and a half times as much, and finds what the sample
 // does not show.
-constexpr double margin = 2.5, margin_of_sample = 4;
+constexpr double margin_of_all = 2.5, margin_of_sample = 4;
 
 struct Sampled {
   double peak = 0, count = 0;
@@ -246,7 +246,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   bool are_any = false;
   if (knows_ends || can_expect_crowds(frame, plan)) {
     const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
-    const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin;
+    const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin_of_all;
     if (error > (knows_ends ? most_of_all : most_of_sample)) {
       add_needs_of_crowds(crowds, error, times, knows_ends, plan, needs);
       are_any = true;

@@ -10,7 +10,7 @@
 namespace splotchcl::cli {
 namespace {
 
-Json to_json(const DeviceInfo& device) {
+Json json_of_device(const DeviceInfo& device) {
   return {{"name", device.name},
           {"platform", device.platform},
           {"driver", device.driver},
@@ -33,7 +33,7 @@ std::string to_text(const DeviceInfo& device) {
 int run_devices(const DevicesOptions& options) {
   const std::vector<DeviceInfo> devices = list_devices();
   if (options.json) {
-    print_json_list(devices, to_json);
+    print_json_list(devices, json_of_device);
   }
   if (devices.empty()) throw DeviceError(no_device_advice());
   if (options.json) return 0;

@@ -114,7 +114,7 @@ void print_text(const std::vector<NamedField>& fields) {
   }
 }
 
-Json to_json(const NamedField& field) {
+Json json_of_field(const NamedField& field) {
   Json json = {{"type", field.type->type},
                {"name", particle_type_name(field.type->type)},
                {"field", field.name},
@@ -135,7 +135,7 @@ int run_fields(const SnapshotQuestion& options, Console& console) {
   const auto snapshot = open_snapshot(options.snapshot, {options.columns});
   const std::vector<NamedField> fields = list_fields(*snapshot, console);
   if (options.json) {
-    print_json_list(fields, to_json);
+    print_json_list(fields, json_of_field);
   } else {
     print_text(fields);
   }

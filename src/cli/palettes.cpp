@@ -58,7 +58,7 @@ void print_text(const std::vector<ListedPalette>& palettes) {
   }
 }
 
-Json to_json(const ListedPalette& listed) {
+Json json_of_palette(const ListedPalette& listed) {
   Json json = {{"name", listed.info.name},
                {"knots", listed.palette.emission.size()},
                {"has_own_absorption", listed.palette.has_own_absorption()},
@@ -94,7 +94,7 @@ int run_palettes(const PalettesOptions& options, Console& console) {
   const std::vector<ListedPalette> palettes = choose(options.names, console);
   if (options.preview) write_preview(*options.preview, palettes);
   if (options.json) {
-    print_json_list(palettes, to_json);
+    print_json_list(palettes, json_of_palette);
   } else {
     print_text(palettes);
   }

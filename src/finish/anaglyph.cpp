@@ -8,8 +8,8 @@
 namespace splotchcl {
 namespace {
 
-using Light = std::array<double, 3>;
-using Matrix = std::array<Light, 3>;  // rows: red, green, blue
+using LinearLight = std::array<double, 3>;
+using Matrix = std::array<LinearLight, 3>;  // rows: red, green, blue
 
 // What each eye's light adds to the picture.
 struct Matrices {
@@ -26,8 +26,8 @@ constexpr Matrices dubois = {{{{0.4561, 0.500484, 0.176381},
                                {-0.0721527, -0.112961, 1.2264}}}};
 
 // Rec. 709's.
-constexpr Light luminance = {0.2126, 0.7152, 0.0722};
-constexpr Light nothing = {0, 0, 0};
+constexpr LinearLight luminance = {0.2126, 0.7152, 0.0722};
+constexpr LinearLight nothing = {0, 0, 0};
 
 const Matrices& matrices_of(StereoLayout layout) {
   static constexpr Matrices half_color = {{{luminance, nothing, nothing}},
@@ -42,8 +42,8 @@ const Matrices& matrices_of(StereoLayout layout) {
 class Display {
  public:
   explicit Display(double gamma) : exponent_(2.2 / gamma) {}
-  Light emitted(const float* pixel) const {
-    Light light{};
+  LinearLight emitted(const float* pixel) const {
+    LinearLight light{};
     for (std::size_t c = 0; c < 3; ++c)
       light[c] = raised(std::clamp(static_cast<double>(pixel[c]), 0.0, 1.0), exponent_);
     return light;
@@ -59,7 +59,7 @@ class Display {
   double exponent_;
 };
 
-double product(const Light& row, const Light& light) {
+double product(const LinearLight& row, const LinearLight& light) {
   return row[0] * light[0] + row[1] * light[1] + row[2] * light[2];
 }
 
@@ -70,8 +70,8 @@ Image anaglyph(const Image& left, const Image& right, StereoLayout layout, doubl
   const Display display(gamma);
   Image both(left.width, left.height);
   for (std::size_t i = 0; i < both.pixels.size(); i += 4) {
-    const Light of_left = display.emitted(&left.pixels[i]);
-    const Light of_right = display.emitted(&right.pixels[i]);
+    const LinearLight of_left = display.emitted(&left.pixels[i]);
+    const LinearLight of_right = display.emitted(&right.pixels[i]);
     for (std::size_t c = 0; c < 3; ++c) {
       const double sum = product(matrices.left[c], of_left) + product(matrices.right[c], of_right);
       both.pixels[i + c] = display.picture_light(sum);

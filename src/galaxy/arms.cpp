@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "galaxy/disk_types.h"
+#include "galaxy/vector_at.h"
 #include "scene/constants.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot.h"
@@ -14,11 +15,6 @@ namespace {
 struct DiskMatter {
   double radius = 0, light = 0, angular_speed = 0;  // kpc, any unit, radians per Myr
 };
-
-Vec3 vector_at(const Column& column, std::size_t i) {
-  return {{static_cast<double>(column[3 * i]), static_cast<double>(column[3 * i + 1]),
-           static_cast<double>(column[3 * i + 2])}};
-}
 
 void add_matter(std::vector<DiskMatter>& all, const Snapshot& galaxy, int type,
                 const TurningSettings& settings) {

@@ -9,12 +9,12 @@
 namespace splotchcl {
 namespace {
 
-using Point = std::array<double, 2>;
+using PixelPlace = std::array<double, 2>;
 
 // The centroid of what lies within a radius; the point itself where that is dark.
-Point centroid(const Image& picture, const Point& point, double radius) {
+PixelPlace centroid(const Image& picture, const PixelPlace& point, double radius) {
   double sum = 0;
-  Point weighted = {0, 0};
+  PixelPlace weighted = {0, 0};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const double px = x + 0.5, py = y + 0.5;
@@ -45,7 +45,7 @@ std::array<double, 2> find_center(const Image& picture) {
   constexpr double shrink = 0.8;
   constexpr double last_fraction = 0.02;  // of the shorter side: a nucleus
   const double shorter = std::min(picture.width, picture.height);
-  Point point = {picture.width / 2.0, picture.height / 2.0};
+  PixelPlace point = {picture.width / 2.0, picture.height / 2.0};
   point = centroid(picture, point, std::hypot(picture.width, picture.height));
   for (double radius = shorter / 2; radius > std::max(2.0, last_fraction * shorter);
        radius *= shrink) {

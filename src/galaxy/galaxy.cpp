@@ -5,6 +5,7 @@
 
 #include "galaxy/check_settings.h"
 #include "galaxy/kinds.h"
+#include "galaxy/vector_at.h"
 #include "scene/ceil_divide.h"
 #include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"
@@ -43,11 +44,6 @@ GalaxySettings with_detail(GalaxySettings settings) {
   settings.bulge_stars = times(settings.bulge_stars, settings.detail);
   settings.detail = 1;
   return settings;
-}
-
-Vec3 vector_at(const std::vector<float>& values, std::size_t i) {
-  return {{static_cast<double>(values[3 * i]), static_cast<double>(values[3 * i + 1]),
-           static_cast<double>(values[3 * i + 2])}};
 }
 
 void find_velocities(GalaxyParticles& particles, const RotationCurve& curve) {

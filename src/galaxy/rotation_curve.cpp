@@ -13,7 +13,7 @@
 namespace splotchcl {
 namespace {
 
-struct Point {
+struct CurvePoint {
   double radius = 0, speed = 0;
 };
 
@@ -27,10 +27,10 @@ bool take_number(const char*& next, const char* end, double& number) {
   return true;
 }
 
-Point parse_point(const std::string& line, const std::string& place) {
+CurvePoint parse_point(const std::string& line, const std::string& place) {
   const char* next = line.data();
   const char* const end = next + line.size();
-  Point point;
+  CurvePoint point;
   double excess = 0;
   const bool two = take_number(next, end, point.radius) && take_number(next, end, point.speed);
   if (!two || take_number(next, end, excess) || next != end) {
@@ -134,7 +134,7 @@ RotationCurve parse_rotation_curve(const std::string& text, const std::string& n
     const std::string values = without_comment(line);
     if (values.find_first_not_of(" \t") == std::string::npos) continue;
     const std::string place = fmt::format("{}:{}", name, number);
-    const Point point = parse_point(values, place);
+    const CurvePoint point = parse_point(values, place);
     if (!radii.empty() && point.radius <= radii.back()) {
       throw DataError(
           fmt::format("{}: radius {} follows {}, expected radii that increase; sort the file by "

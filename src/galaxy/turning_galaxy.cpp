@@ -7,16 +7,12 @@
 
 #include "formats/hdf5/gadget_hdf5_writer.h"
 #include "galaxy/disk_types.h"
+#include "galaxy/vector_at.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-Vec3 vector_at(const Column& column, std::size_t i) {
-  return {{static_cast<double>(column[3 * i]), static_cast<double>(column[3 * i + 1]),
-           static_cast<double>(column[3 * i + 2])}};
-}
 
 void put(std::vector<float>& values, std::size_t i, const Vec3& vector) {
   for (std::size_t axis = 0; axis < 3; ++axis)

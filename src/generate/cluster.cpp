@@ -13,14 +13,14 @@ namespace splotchcl {
 namespace {
 
 // Lengths in kpc/h, speeds in km/s, masses in 1e10 solar masses/h.
-constexpr double virial_radius = 1500, total_mass = 6e4;
-constexpr double farthest = 4 * virial_radius;
+constexpr double cluster_radius = 1500, total_mass = 6e4;
+constexpr double farthest = 4 * cluster_radius;
 constexpr int streams = 6, groups = 7, waves = 12;
-constexpr double gas_mass = 0.15 * total_mass, star_mass = 0.02 * total_mass;
+constexpr double cluster_gas_mass = 0.15 * total_mass, cluster_star_mass = 0.02 * total_mass;
 constexpr double cold = 80;  // (km/s)^2: what has not met the hot gas
 
 double circular_speed() {
-  return std::sqrt(gravitational_constant * total_mass / virial_radius);
+  return std::sqrt(gravitational_constant * total_mass / cluster_radius);
 }
 
 // Cold gas that falls in along the web, in strands that wind around each other.
@@ -30,7 +30,7 @@ struct Stream {
 
   // The middle of a strand, each of which goes a way of its own.
   Vec3 place(double distance, double phase) const {
-    const double along = std::log(distance / virial_radius);
+    const double along = std::log(distance / cluster_radius);
     const double bent = bend * along + 0.06 * std::sin(5 * along + phase);
     const double apart = thickness(distance) * (0.5 + 0.5 * std::sin(3.1 * along + 2.7 * phase));
     const double angle = winding * along + phase + 0.7 * std::sin(4.3 * along + 1.9 * phase);
@@ -38,7 +38,7 @@ struct Stream {
            (aside * std::cos(angle) + upwards * std::sin(angle)) * apart;
   }
   double thickness(double distance) const {
-    return width * std::pow(distance / virial_radius, 0.8);
+    return width * std::pow(distance / cluster_radius, 0.8);
   }
 };
 
@@ -64,8 +64,8 @@ Stream make_stream(Random& random) {
   stream.outwards = random.direction();
   stream.aside = boost::qvm::normalized(boost::qvm::cross(stream.outwards, random.direction()));
   stream.upwards = boost::qvm::cross(stream.outwards, stream.aside);
-  stream.end = virial_radius * random.uniform(0.25, 0.7);
-  stream.width = virial_radius * random.uniform(0.07, 0.16);
+  stream.end = cluster_radius * random.uniform(0.25, 0.7);
+  stream.width = cluster_radius * random.uniform(0.07, 0.16);
   stream.bend = random.uniform(-0.5, 0.5);
   stream.winding = random.uniform(0.4, 1.6);
   return stream;
@@ -92,27 +92,27 @@ Surroundings::Surroundings(double particles, Random& random)
     : all_streams(make_streams(random)), cluster(shape_along(all_streams), particles, random) {
   for (int i = 0; i < groups; ++i) {
     const Stream& stream = all_streams[static_cast<std::size_t>(i % streams)];
-    const double distance = virial_radius * random.uniform(1.1, 3.2);
-    const double radius = virial_radius * random.uniform(0.12, 0.3);
+    const double distance = cluster_radius * random.uniform(1.1, 3.2);
+    const double radius = cluster_radius * random.uniform(0.12, 0.3);
     all_groups.push_back({stream.place(distance, random.uniform(0, 2 * pi)),
                           stream.outwards * (-0.8 * circular_speed()), radius,
                           HaloInterior(HaloShape(), 0.03 * particles, random)});
   }
   for (std::size_t i = 0; i < waves; ++i) {
-    wave[i] = random.direction() * (2 * pi / virial_radius * random.uniform(0.8, 4));
+    wave[i] = random.direction() * (2 * pi / cluster_radius * random.uniform(0.8, 4));
     phase[i] = random.uniform(0, 2 * pi);
   }
 }
 
-struct PlacedGas {
+struct ClusterGas {
   Vec3 place, speed;
   double energy = 0;
 };
 
-PlacedGas place_body(const Surroundings& around, Random& random) {
+ClusterGas place_body(const Surroundings& around, Random& random) {
   const HaloInterior::Placed gas = around.cluster.gas(random.uniform(), random);
   const double speed = circular_speed();
-  PlacedGas placed = {gas.place * virial_radius, gas.speed * (0.3 * speed), 0};
+  ClusterGas placed = {gas.place * cluster_radius, gas.speed * (0.3 * speed), 0};
   double warmth = 0;
   for (std::size_t i = 0; i < waves; ++i)
     warmth += std::sin(boost::qvm::dot(around.wave[i], placed.place) + around.phase[i]);
@@ -120,7 +120,7 @@ PlacedGas place_body(const Surroundings& around, Random& random) {
   return placed;
 }
 
-PlacedGas place_in_stream(const Surroundings& around, Random& random) {
+ClusterGas place_in_stream(const Surroundings& around, Random& random) {
   const Stream& stream =
       around.all_streams[static_cast<std::size_t>(random.uniform() * streams) % streams];
   constexpr int strands = 5;
@@ -138,31 +138,31 @@ PlacedGas place_in_stream(const Surroundings& around, Random& random) {
           cold * (1 + mixed) * std::exp(0.3 * random.normal())};
 }
 
-PlacedGas place_in_group(const Surroundings& around, Random& random) {
+ClusterGas place_in_group(const Surroundings& around, Random& random) {
   const Group& group =
       around.all_groups[static_cast<std::size_t>(random.uniform() * groups) % groups];
   const HaloInterior::Placed gas = group.interior.gas(random.uniform(), random);
-  const double speed = circular_speed() * group.radius / virial_radius;
+  const double speed = circular_speed() * group.radius / cluster_radius;
   return {group.center + gas.place * group.radius, group.speed + gas.speed * speed,
           0.75 * speed * speed * gas.heat + cold};
 }
 
 // Falls in from all sides, and is warmed as it comes near.
-PlacedGas place_outside(Random& random) {
+ClusterGas place_outside(Random& random) {
   const double distance = farthest * std::pow(random.uniform(), 0.55);
   const Vec3 outwards = random.direction();
   return {outwards * distance, outwards * (-0.5 * circular_speed()),
-          cold * (1 + 60 * std::exp(-distance / virial_radius)) * std::exp(0.3 * random.normal())};
+          cold * (1 + 60 * std::exp(-distance / cluster_radius)) * std::exp(0.3 * random.normal())};
 }
 
 void add_gas(GeneratedParticles& gas, const Surroundings& around, std::uint64_t count,
              Random& random) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const double kind = random.uniform();
-    const PlacedGas placed = kind < 0.5    ? place_body(around, random)
-                             : kind < 0.75 ? place_in_stream(around, random)
-                             : kind < 0.85 ? place_in_group(around, random)
-                                           : place_outside(random);
+    const ClusterGas placed = kind < 0.5    ? place_body(around, random)
+                              : kind < 0.75 ? place_in_stream(around, random)
+                              : kind < 0.85 ? place_in_group(around, random)
+                                            : place_outside(random);
     gas.add(placed.place, placed.speed);
     gas.internal_energy.push_back(static_cast<float>(placed.energy));
   }
@@ -176,8 +176,8 @@ void add_stars(GeneratedParticles& stars, const Surroundings& around, std::uint6
         around.all_groups[static_cast<std::size_t>(random.uniform() * groups) % groups];
     const HaloInterior::Placed star =
         is_in_group ? group.interior.star(random) : around.cluster.star(random);
-    const double radius = is_in_group ? group.radius : virial_radius;
-    const double speed = circular_speed() * radius / virial_radius;
+    const double radius = is_in_group ? group.radius : cluster_radius;
+    const double speed = circular_speed() * radius / cluster_radius;
     const Vec3 center = is_in_group ? group.center : Vec3{{0, 0, 0}};
     stars.add(center + star.place * radius, star.speed * speed);
     // Those in the middle are the oldest.
@@ -195,7 +195,7 @@ GeneratedSnapshot generate_cluster(const GenerateSettings& settings) {
   GeneratedSnapshot snapshot;
   add_gas(snapshot.gas, around, shares.gas, random);
   add_stars(snapshot.stars, around, shares.stars, random);
-  set_masses(snapshot, gas_mass, star_mass);
+  set_masses(snapshot, cluster_gas_mass, cluster_star_mass);
   return snapshot;
 }
 

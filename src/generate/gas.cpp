@@ -11,9 +11,9 @@ namespace splotchcl {
 namespace {
 
 // Record lengths of a Gadget file are 32 bits: positions take 12 bytes a particle.
-constexpr std::uint64_t most_particles = 170'000'000;
+constexpr std::uint64_t most_gas = 170'000'000;
 // Fewer do not have enough neighbours for a smoothing length.
-constexpr std::uint64_t least_particles = 1000;
+constexpr std::uint64_t least_gas = 1000;
 
 std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double box_size) {
   const Column position(nullptr, particles.position.data(), particles.position.size());
@@ -42,9 +42,9 @@ void find_density(GeneratedSnapshot& snapshot) {
 }  // namespace
 
 ParticleShares share_particles(const GenerateSettings& settings) {
-  if (settings.particles < least_particles || settings.particles > most_particles) {
+  if (settings.particles < least_gas || settings.particles > most_gas) {
     throw UsageError("particles: " + std::to_string(settings.particles) + " is not between " +
-                     std::to_string(least_particles) + " and " + std::to_string(most_particles));
+                     std::to_string(least_gas) + " and " + std::to_string(most_gas));
   }
   if (!(settings.star_fraction >= 0 && settings.star_fraction <= 0.9)) {
     throw UsageError("stars: " + std::to_string(settings.star_fraction) +

@@ -12,8 +12,8 @@ constexpr double gas_concentration = 7, smaller_concentration = 9, star_concentr
 constexpr double star_extent = 0.35;  // of the virial radius
 constexpr double mass_in_smaller = 0.16;
 constexpr double most_smaller = 90;
-constexpr double least_particles = 12;  // of gas, in a smaller halo
-constexpr double fall_of_mass = 1.05;   // of the i-th largest: i to the power of minus this
+constexpr double least_gas_of_halo = 12;  // of gas, in a smaller halo
+constexpr double fall_of_mass = 1.05;     // of the i-th largest: i to the power of minus this
 
 Vec3 thermal(double speed, Random& random) {
   return random.normal_vector(speed * M_SQRT1_2);
@@ -66,7 +66,7 @@ HaloInterior::HaloInterior(const HaloShape& shape, double particles, Random& ran
   double all = 0, star_all = 0;
   for (int i = 1; i <= most_smaller; ++i) {
     const double mean = mass_in_smaller * std::pow(i, -fall_of_mass) / sum;
-    if (mean * particles < least_particles) break;
+    if (mean * particles < least_gas_of_halo) break;
     Smaller smaller = make_smaller(mean * std::exp(0.4 * random.normal()), random);
     smaller.share = all += smaller.mass;
     smaller.star_share = star_all += std::pow(smaller.mass, 0.8);

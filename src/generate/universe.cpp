@@ -22,7 +22,7 @@ constexpr double overdensity = 200;           // of a halo, over the mean
 constexpr double stars_per_gas = 0.1;         // in mass
 constexpr double web_energy = 60;             // (km/s)^2, of gas at the mean density
 
-double virial_radius(const Halo& halo) {
+double radius_of_halo(const Halo& halo) {
   return halo.birth_radius / std::cbrt(overdensity);
 }
 
@@ -32,7 +32,7 @@ double mass(const Halo& halo) {
 }
 
 double circular_speed(const Halo& halo) {
-  return std::sqrt(gravitational_constant * mass(halo) / (virial_radius(halo) * box));
+  return std::sqrt(gravitational_constant * mass(halo) / (radius_of_halo(halo) * box));
 }
 
 Vec3 into_box(Vec3 place) {
@@ -44,7 +44,7 @@ Vec3 into_box(Vec3 place) {
   return place;
 }
 
-struct PlacedGas {
+struct HaloGas {
   Vec3 place, speed;
   double heat = 0;  // the part of its internal energy from falling into a halo, (km/s)^2
 };
@@ -70,14 +70,15 @@ std::vector<HaloInterior> make_interiors(const Web& web, const std::vector<Halo>
 
 // Gas born in a halo's ball: the inner part fills the profile; towards the rim it still
 // streams in along the web.
-void settle(PlacedGas& gas, const Halo& halo, const HaloInterior& interior, const Vec3& birthplace,
+void settle(HaloGas& gas, const Halo& halo, const HaloInterior& interior, const Vec3& birthplace,
             Random& random) {
   const double distance = boost::qvm::mag(periodic_difference(halo.birthplace, birthplace));
   const double enclosed = std::min(1.0, std::pow(distance / halo.birth_radius, 3));
   const HaloInterior::Placed settled = interior.gas(std::min(1.0, 1.25 * enclosed), random);
   const Vec3 streaming = periodic_difference(halo.center, gas.place);
   const double share = 1 - smoothstep((enclosed - 0.4) / 0.6);
-  gas.place = halo.center + settled.place * (share * virial_radius(halo)) + streaming * (1 - share);
+  gas.place =
+      halo.center + settled.place * (share * radius_of_halo(halo)) + streaming * (1 - share);
   gas.speed += settled.speed * (share * circular_speed(halo));
   gas.heat = 0.75 * share * std::pow(circular_speed(halo), 2) * settled.heat;
 }
@@ -114,13 +115,13 @@ std::vector<Vec3> move_along(const Web& web, const std::vector<Vec3>& birthplace
 }
 
 // `places` are those to which the web alone has moved the gas.
-std::vector<PlacedGas> place_gas(const std::vector<Vec3>& birthplaces,
-                                 const std::vector<Vec3>& places, const std::vector<Halo>& haloes,
-                                 const std::vector<HaloInterior>& interiors, Random& random) {
+std::vector<HaloGas> place_gas(const std::vector<Vec3>& birthplaces,
+                               const std::vector<Vec3>& places, const std::vector<Halo>& haloes,
+                               const std::vector<HaloInterior>& interiors, Random& random) {
   const HaloMap map(haloes, 192);
-  std::vector<PlacedGas> all;
+  std::vector<HaloGas> all;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    PlacedGas gas;
+    HaloGas gas;
     gas.place = places[i];
     gas.speed = periodic_difference(birthplaces[i], places[i]) *
                 (box * cosmology::hubble * cosmology::growth_rate);
@@ -152,7 +153,7 @@ void add_stars(GeneratedParticles& stars, const std::vector<Halo>& haloes,
     const auto index = static_cast<std::size_t>(chosen - shares.begin());
     const Halo& halo = haloes[index];
     const HaloInterior::Placed star = interiors[index].star(random);
-    stars.add(into_box(halo.center + star.place * virial_radius(halo)),
+    stars.add(into_box(halo.center + star.place * radius_of_halo(halo)),
               star.speed * circular_speed(halo));
     // Large haloes formed their stars early, and their centres earlier still.
     const double outwards = std::min(1.0, boost::qvm::mag(star.place));
@@ -175,11 +176,11 @@ GeneratedSnapshot generate_universe(const GenerateSettings& settings) {
     birthplaces.push_back(even_place(i, random, 0.5 * spacing));
   const std::vector<Vec3> places = move_along(web, birthplaces, haloes);
   const std::vector<HaloInterior> interiors = make_interiors(web, haloes, spacing, random);
-  const std::vector<PlacedGas> placed = place_gas(birthplaces, places, haloes, interiors, random);
+  const std::vector<HaloGas> placed = place_gas(birthplaces, places, haloes, interiors, random);
 
   GeneratedSnapshot snapshot;
   snapshot.box_size = box;
-  for (const PlacedGas& gas : placed)
+  for (const HaloGas& gas : placed)
     snapshot.gas.add(into_box(gas.place), gas.speed);
   add_stars(snapshot.stars, haloes, interiors, shares.stars, random);
 

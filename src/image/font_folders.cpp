@@ -14,10 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 3> endings = {".ttf", ".otf", ".ttc"};
+constexpr std::array<const char*, 3> font_endings = {".ttf", ".otf", ".ttc"};
 
 bool is_font_ending(const std::string& ending) {
-  return std::find(endings.begin(), endings.end(), lower_case(ending)) != endings.end();
+  return std::find(font_endings.begin(), font_endings.end(), lower_case(ending)) !=
+         font_endings.end();
 }
 
 std::vector<fs::path> font_folders() {

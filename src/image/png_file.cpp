@@ -16,14 +16,14 @@ namespace splotchcl {
 namespace {
 
 // What libpng writes to, and what it says of its failures.
-struct MemoryFile {
+struct PngInMemory {
   std::vector<unsigned char> bytes;
   std::string problem;
 };
 
 // libpng is written in C: no exception passes it, and it goes on after a failure by a jump.
 [[noreturn]] void fail(png_structp png, png_const_charp message) {
-  auto& file = *static_cast<MemoryFile*>(png_get_error_ptr(png));
+  auto& file = *static_cast<PngInMemory*>(png_get_error_ptr(png));
   if (file.problem.empty()) file.problem = message;
   png_longjmp(png, 1);
 }
@@ -31,7 +31,7 @@ struct MemoryFile {
 void ignore_warning(png_structp, png_const_charp) {}
 
 void write_bytes(png_structp png, png_bytep from, png_size_t count) {
-  auto& file = *static_cast<MemoryFile*>(png_get_io_ptr(png));
+  auto& file = *static_cast<PngInMemory*>(png_get_io_ptr(png));
   bool is_full = false;
   try {
     file.bytes.insert(file.bytes.end(), from, from + count);
@@ -66,7 +66,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, int width, 
   const std::size_t pixel_bytes = 3 * static_cast<std::size_t>(bits / 8);
   const Strips strips = png_strips({bytes.data(), pixel_bytes * static_cast<std::size_t>(width),
                                     static_cast<std::size_t>(height), pixel_bytes});
-  MemoryFile file;
+  PngInMemory file;
   bool is_written = false;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &file, fail, ignore_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);

@@ -19,7 +19,7 @@ constexpr int rows_in_strip = 64;
 constexpr std::size_t most_bytes_of_plain_tiff = std::size_t{4000} * 1000 * 1000;
 
 // What libtiff writes to, and what it says of its failures.
-struct MemoryFile {
+struct TiffInMemory {
   std::vector<unsigned char> bytes;
   std::size_t place = 0;
   std::string problem;  // the first that was found
@@ -29,13 +29,13 @@ struct MemoryFile {
   }
 };
 
-MemoryFile& memory_file(thandle_t handle) {
-  return *static_cast<MemoryFile*>(handle);
+TiffInMemory& memory_file(thandle_t handle) {
+  return *static_cast<TiffInMemory*>(handle);
 }
 
 // libtiff reads back what it has begun to write.
 tmsize_t read_bytes(thandle_t handle, void* to, tmsize_t count) {
-  MemoryFile& file = memory_file(handle);
+  TiffInMemory& file = memory_file(handle);
   const std::size_t left = file.bytes.size() - std::min(file.place, file.bytes.size());
   const std::size_t taken = std::min(left, static_cast<std::size_t>(count));
   std::copy_n(file.bytes.begin() + static_cast<std::ptrdiff_t>(file.place), taken,
@@ -46,7 +46,7 @@ tmsize_t read_bytes(thandle_t handle, void* to, tmsize_t count) {
 
 // libtiff is written in C, which exceptions do not pass.
 tmsize_t write_bytes(thandle_t handle, void* from, tmsize_t count) {
-  MemoryFile& file = memory_file(handle);
+  TiffInMemory& file = memory_file(handle);
   const std::size_t end = file.place + static_cast<std::size_t>(count);
   try {
     if (file.bytes.size() < end) file.bytes.resize(end);
@@ -61,7 +61,7 @@ tmsize_t write_bytes(thandle_t handle, void* from, tmsize_t count) {
 }
 
 toff_t seek(thandle_t handle, toff_t offset, int whence) {
-  MemoryFile& file = memory_file(handle);
+  TiffInMemory& file = memory_file(handle);
   const std::size_t from = whence == SEEK_SET   ? 0
                            : whence == SEEK_CUR ? file.place
                                                 : file.bytes.size();
@@ -106,7 +106,7 @@ struct Samples {
   bool is_linear() const { return bits == 32; }
 };
 
-Tiff open(MemoryFile& file, const Samples& samples) {
+Tiff open(TiffInMemory& file, const Samples& samples) {
   const bool is_big =
       samples.row_bytes() * static_cast<std::size_t>(samples.height) > most_bytes_of_plain_tiff;
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
@@ -154,7 +154,7 @@ bool write_strips(TIFF* tiff, const Samples& samples) {
 }
 
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Samples& samples) {
-  MemoryFile file;
+  TiffInMemory file;
   bool is_written = false;
   if (const Tiff tiff = open(file, samples)) {
     describe(tiff.get(), samples);

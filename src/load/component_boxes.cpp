@@ -20,7 +20,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float no_bound = std::numeric_limits<float>::infinity();
 constexpr std::size_t corners = 8;
 
 using Index = std::shared_ptr<const SnapshotIndex>;
@@ -128,7 +128,7 @@ Column corners_of(const std::vector<ParticleBox>& boxes) {
 void surround(const Column& placed, std::vector<ParticleBox>& boxes) {
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      float lower = infinity, upper = -infinity;
+      float lower = no_bound, upper = -no_bound;
       bool is_finite = true;
       for (std::size_t corner = 0; corner < corners; ++corner) {
         const float x = placed[3 * (corners * b + corner) + axis];
@@ -136,8 +136,8 @@ void surround(const Column& placed, std::vector<ParticleBox>& boxes) {
         lower = std::min(lower, x);
         upper = std::max(upper, x);
       }
-      boxes[b].lower[axis] = is_finite ? lower : -infinity;
-      boxes[b].upper[axis] = is_finite ? upper : infinity;
+      boxes[b].lower[axis] = is_finite ? lower : -no_bound;
+      boxes[b].upper[axis] = is_finite ? upper : no_bound;
     }
   }
 }

@@ -74,9 +74,9 @@ GalaxySettings settings_of(const py::dict& given) {
 }
 
 // As the command does it, the file's checks included.
-void make(const std::filesystem::path& picture, const std::filesystem::path& output,
-          const py::dict& given, std::optional<double> gamma, double speed, double core,
-          const std::optional<std::filesystem::path>& rotation_curve) {
+void make_file(const std::filesystem::path& picture, const std::filesystem::path& output,
+               const py::dict& given, std::optional<double> gamma, double speed, double core,
+               const std::optional<std::filesystem::path>& rotation_curve) {
   GalaxySettings settings = settings_of(given);
   without_python([&] {
     check_output_path(output);
@@ -94,7 +94,7 @@ void make(const std::filesystem::path& picture, const std::filesystem::path& out
 }  // namespace
 
 void bind_galaxy(py::module_& module) {
-  module.def("make_galaxy_file", &make);
+  module.def("make_galaxy_file", &make_file);
 }
 
 }  // namespace splotchcl::python

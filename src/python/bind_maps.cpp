@@ -51,8 +51,8 @@ DrawFrame drawing(const std::string& device, bool by_reference, const Progress& 
   return [&renderer](const Frame& frame) { return renderer->render(frame); };
 }
 
-py::tuple draw(const Scene& scene, const Source& source, const std::string& device,
-               bool by_reference, py::object report) {
+py::tuple draw_map_object(const Scene& scene, const Source& source, const std::string& device,
+                          bool by_reference, py::object report) {
   const Progress progress(std::move(report));
   std::vector<std::string> notes;
   auto map = std::make_shared<Map>(without_python([&] {
@@ -105,7 +105,7 @@ void bind_maps(py::module_& module) {
       .def_readonly("particles", &Map::particles)
       .def_readonly("bad_particles", &Map::bad_particles)
       .def("save", &write);
-  module.def("draw_map", &draw);
+  module.def("draw_map", &draw_map_object);
 }
 
 }  // namespace splotchcl::python

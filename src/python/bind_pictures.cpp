@@ -14,7 +14,7 @@
 namespace splotchcl::python {
 namespace {
 
-py::buffer_info buffer_of(const PictureObject& picture) {
+py::buffer_info buffer_of_picture(const PictureObject& picture) {
   constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
   const auto width = static_cast<py::ssize_t>(picture.image.width);
   const auto height = static_cast<py::ssize_t>(picture.image.height);
@@ -79,7 +79,7 @@ std::vector<std::array<double, 3>> palette_colors(const std::string& name, doubl
 
 void bind_pictures(py::module_& module) {
   py::class_<PictureObject>(module, "Picture", py::buffer_protocol())
-      .def_buffer(&buffer_of)
+      .def_buffer(&buffer_of_picture)
       .def_property_readonly("width", [](const PictureObject& p) { return p.image.width; })
       .def_property_readonly("height", [](const PictureObject& p) { return p.image.height; })
       .def("display",

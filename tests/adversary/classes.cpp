@@ -40,7 +40,7 @@ CloudGroup even_sheet(Random& random, double light_low, double light_high) {
   CloudGroup sheet = group_of(Arrangement::sheet, random, 1, 8, 0, 0);
   sheet.x = sheet.y = 0;
   sheet.spread = random.uniform(0.6, 1.2);
-  sheet.peak = random.logarithmic(light_low, light_high) * sheet.spread * sheet.spread / test::pi;
+  sheet.peak = random.logarithmic(light_low, light_high) * sheet.spread * sheet.spread / pi;
   return sheet;
 }
 

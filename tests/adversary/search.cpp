@@ -21,7 +21,7 @@ constexpr std::size_t most_groups = 5;
 
 double normal(Random& random) {
   const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
-  return radius * std::cos(2 * test::pi * random.uniform());
+  return radius * std::cos(2 * pi * random.uniform());
 }
 
 // As files hold it.

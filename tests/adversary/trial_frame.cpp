@@ -14,7 +14,7 @@ namespace splotchcl::adversary {
 namespace {
 
 using namespace boost::qvm;
-using test::pi;
+
 using test::Random;
 
 // A place of a group, in pixels of the whole picture, and what each of its clouds is like.

@@ -3,7 +3,7 @@
 
 #include "architecture/rules.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 class CycleSearch {
@@ -47,4 +47,4 @@ std::vector<std::string> find_cycles(const TargetTable& table) {
   return search.cycles();
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

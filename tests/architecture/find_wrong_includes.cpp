@@ -5,7 +5,7 @@
 #include "architecture/project_files.h"
 #include "architecture/rules.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ std::vector<std::string> find_stray_files(const TargetTable& table, const fs::pa
   return strays;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <regex>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 namespace fs = std::filesystem;
 
@@ -30,4 +30,4 @@ std::vector<std::string> quoted_includes(const fs::path& file) {
   return includes;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,7 +7,7 @@
 #include "architecture/rules.h"
 #include "paths.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::Contains;
@@ -74,4 +74,4 @@ TEST(Project, DeviceAndReferenceDoNotKnowEachOther) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

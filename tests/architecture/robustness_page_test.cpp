@@ -12,7 +12,7 @@
 #include "architecture/project_files.h"
 #include "paths.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 std::string content_of(const std::filesystem::path& path) {
@@ -67,4 +67,4 @@ TEST(RobustnessPage, NamesTestsThatExist) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

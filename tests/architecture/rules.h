@@ -7,7 +7,7 @@
 #include "architecture/target_table.h"
 
 // What must hold for the project at `root`. Each function returns a line for each breach.
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // A header or source, a public one too, includes what its target does not link.
 std::vector<std::string> find_wrong_includes(const TargetTable& table,
@@ -28,4 +28,4 @@ std::vector<std::string> find_stray_files(const TargetTable& table,
 // Targets need each other.
 std::vector<std::string> find_cycles(const TargetTable& table);
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

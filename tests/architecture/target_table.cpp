@@ -5,7 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 // How many parts of the path a folder is, if the file lies in it; 0: it does not.
@@ -91,4 +91,4 @@ void TargetTable::add_with_exports(const std::string& name, std::set<std::string
     add_with_exports(exported, names);
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

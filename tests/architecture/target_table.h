@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // A library or program as CMake has it (cmake/target_table.cmake).
 struct Target {
@@ -39,4 +39,4 @@ class TargetTable {
   std::vector<Target> targets_;
 };
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

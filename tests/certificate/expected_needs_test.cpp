@@ -10,7 +10,7 @@
 namespace splotchcl::test {
 namespace {
 
-constexpr int size = 128;
+constexpr int picture_size = 128;
 
 // Clouds of sigma 3 all over the picture, in a regular pattern that is no crowd, and so many more
 // in one place.
@@ -20,10 +20,10 @@ Frame field_with_crowd(std::size_t field, std::size_t crowd) {
   for (std::size_t i = 0; i < field; ++i) {
     const double x = (static_cast<double>(i % columns) + 0.5) / static_cast<double>(columns) - 0.5;
     const double y = (static_cast<double>(i / columns) + 0.5) / static_cast<double>(columns) - 0.5;
-    clouds.push_back({size * x, size * y, 1, 3, 1e-3});
+    clouds.push_back({picture_size * x, picture_size * y, 1, 3, 1e-3});
   }
   clouds.insert(clouds.end(), crowd, Cloud{0.3, 0.2, 1, 3, 0.5});
-  return frame_of(size, size, {component_of(clouds, one_color(1, 1, 1))});
+  return frame_of(picture_size, picture_size, {component_of(clouds, one_color(1, 1, 1))});
 }
 
 std::optional<SplatNeeds> needs_of(const Frame& frame) {
@@ -80,7 +80,7 @@ Frame cluster_in_the_dark(std::size_t count, double depth) {
   }
   DrawnComponent gas = component_of(clouds, one_color(1, 1, 1));
   gas.absorption = {Absorption::Kind::gray, 0.2};
-  return frame_of(size, size, {gas});
+  return frame_of(picture_size, picture_size, {gas});
 }
 
 TEST(ExpectedNeeds, DrawSplatsFartherThatEndWhereManyDo) {

@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -127,4 +127,4 @@ TEST(Compare, NamesAPictureThatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

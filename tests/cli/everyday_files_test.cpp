@@ -9,7 +9,7 @@
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_writer.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -142,4 +142,4 @@ TEST_F(LargeScenes, HaveNoThousandsOfComponents) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

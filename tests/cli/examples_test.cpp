@@ -10,7 +10,7 @@
 #include "splotchcl/image_file.h"
 #include "splotchcl/scene_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,4 +50,4 @@ TEST(Examples, ShowALargeXOnTheRightAndALargeYAbove) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

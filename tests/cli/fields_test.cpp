@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -68,4 +68,4 @@ TEST(Fields, OfAFileThatIsNoSnapshotAreRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

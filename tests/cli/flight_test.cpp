@@ -8,7 +8,7 @@
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 // Mean linear light.
@@ -44,4 +44,4 @@ TEST(Flight, KeepsTheWebsBackgroundAsBrightAsTheStartDoes) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -9,7 +9,7 @@
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST_F(GalaxyScene, IsNoneOfTheInputs) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

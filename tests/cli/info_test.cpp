@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "splotchcl/scene_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -81,4 +81,4 @@ TEST(Info, NamesAFileThatIsNoSnapshot) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -9,7 +9,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -183,4 +183,4 @@ TEST_F(KeptInputs, DevicesAreWrittenInto) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -11,7 +11,7 @@
 
 #include "cli/program.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -134,4 +134,4 @@ TEST_F(KernelCompilers, SayWhatTheyAreForWhenAUserStartsOne) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -15,7 +15,7 @@
 #include "cli/program.h"
 #include "long_tests.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -220,4 +220,4 @@ TEST_F(LargeData, MayBeAColumnLargerThanTwoGibibytes) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -343,4 +343,4 @@ TEST_F(Movie, ChecksItsPathBeforeItDraws) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -11,7 +11,7 @@
 #include "damaged_hdf5.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST_F(OddFiles, OfManyLettersAreToldInFew) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -8,7 +8,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -43,18 +43,19 @@ class RenderedOutput : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-constexpr const char* small = " --set 'image.size=[64,48]'";
+constexpr const char* tiny_picture = " --set 'image.size=[64,48]'";
 
 TEST_F(RenderedOutput, HasTheSnapshotsNameInTheCurrentFolderByDefault) {
   ASSERT_EQ(run_in(folder_, "mkdir there; cp h there/snap.gadget").exit_code, 0);
   const ProgramResult result =
-      splotchcl_in(folder_, std::string("render there/snap.gadget") + small);
+      splotchcl_in(folder_, std::string("render there/snap.gadget") + tiny_picture);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(read_image(folder_ / "snap.png").width, 64);
 }
 
 TEST_F(RenderedOutput, IsSilentInAPipe) {
-  const ProgramResult result = splotchcl_in(folder_, std::string("render h -o a.png") + small);
+  const ProgramResult result =
+      splotchcl_in(folder_, std::string("render h -o a.png") + tiny_picture);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "");
@@ -92,13 +93,14 @@ std::string without_exposure(const std::string& scene) {
 }
 
 TEST_F(RenderedOutput, KeepsLinearLightAndTheSceneInExr) {
-  const ProgramResult result = splotchcl_in(folder_, std::string("render h -o a.exr") + small);
+  const ProgramResult result =
+      splotchcl_in(folder_, std::string("render h -o a.exr") + tiny_picture);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const ImageFileInfo info = read_image_info(folder_ / "a.exr");
   EXPECT_TRUE(info.has_alpha);
   EXPECT_EQ(info.metadata.count("splotchcl:version"), 1U);
   const std::string explained =
-      splotchcl_in(folder_, std::string("render h --explain") + small).out;
+      splotchcl_in(folder_, std::string("render h --explain") + tiny_picture).out;
   const std::string& scene = info.metadata.at("splotchcl:scene");
   EXPECT_EQ(without_exposure(scene),
             without_exposure(explained.substr(explained.find("snapshot = "))));
@@ -119,10 +121,10 @@ TEST_F(RenderedOutput, NeedsNoOpenImageIoForTheUsualFormats) {
 
 TEST_F(RenderedOutput, OfTheSameCallIsTheSameFile) {
   for (const std::string name : {"a", "b"}) {
-    ASSERT_EQ(splotchcl_in(folder_, "render h -o " + name + ".png" + small).exit_code, 0);
+    ASSERT_EQ(splotchcl_in(folder_, "render h -o " + name + ".png" + tiny_picture).exit_code, 0);
   }
   EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -8,7 +8,7 @@
 #include "splotchcl/image_file.h"
 #include "splotchcl/palette.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -87,4 +87,4 @@ TEST(Palettes, ThatAreUnknownAreRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

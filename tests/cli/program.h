@@ -10,7 +10,7 @@
 #include "paths.h"
 #include "temporary_folder.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 struct ProgramResult {
   int exit_code = -1;  // 128 and more: ended by a signal
@@ -52,16 +52,16 @@ inline bool has_device() {
   return found;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test
 
 #define SKIP_WITHOUT_TEST_DATA()                                            \
-  if (!::splotchcl::testing::has_test_data()) {                             \
+  if (!::splotchcl::test::has_test_data()) {                                \
     GTEST_SKIP() << "no snapshots in " << ::splotchcl::test::data_folder(); \
   }                                                                         \
   static_assert(true)
 
 #define SKIP_WITHOUT_DEVICE()                                                         \
-  if (!::splotchcl::testing::has_device()) {                                          \
+  if (!::splotchcl::test::has_device()) {                                             \
     GTEST_SKIP() << "no OpenCL device here; splotchcl devices tells what to install"; \
   }                                                                                   \
   static_assert(true)

@@ -10,7 +10,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -281,4 +281,4 @@ TEST_F(Render, DrawsWithTheReferenceTheSamePictureWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -9,7 +9,7 @@
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST_P(BrokenSnapshot, IsRefusedInOneLineThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
@@ -72,4 +72,4 @@ TEST_F(Verbosity, TellsAPipeFromTimeToTimeWhatTakesLong) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

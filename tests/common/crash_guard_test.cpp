@@ -26,7 +26,7 @@ TEST(CrashGuard, EndsAnAbortedProgramWithALine) {
 }
 
 TEST(CrashGuard, TakesUnfinishedFilesAway) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EXIT(
       {
         guard_crashes();

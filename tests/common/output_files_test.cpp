@@ -19,7 +19,7 @@ class OutputFiles : public ::testing::Test {
   void check(const std::string& name, const Files& inputs) const {
     check_outputs({{folder_ / name, "-o"}}, [&] { return inputs; });
   }
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(OutputFiles, AreNoInputs) {

@@ -5,20 +5,19 @@
 #include <string>
 #include <tuple>
 
+#include "device/cases.h"
 #include "device/scenes.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::test {
 namespace {
 
-using Case = std::tuple<LightPlan, CompositeShape>;
-
 void set_light(DrawnComponent& component, LightPlan light) {
   if (light == LightPlan::emission) component.absorption.kind = Absorption::Kind::none;
   if (light == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
 }
 
-class Agreement : public testing::TestWithParam<Case> {
+class Agreement : public testing::TestWithParam<PlanAndShape> {
  protected:
   LightPlan light() const { return std::get<0>(GetParam()); }
   Image draw(const Frame& frame) const {
@@ -115,17 +114,12 @@ TEST_P(Agreement, SameFrameGivesTheSameBits) {
   EXPECT_EQ(draw(frame).pixels, draw(frame).pixels);
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return std::string(name(std::get<0>(info.param))) +
-         (std::get<1>(info.param) == CompositeShape::rows ? "_rows" : "_groups");
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Plans, Agreement,
     testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
                                      LightPlan::ordered),
                      testing::Values(CompositeShape::rows, CompositeShape::groups)),
-    case_name);
+    name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

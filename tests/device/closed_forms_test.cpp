@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
@@ -36,9 +37,7 @@ Frame equal_light(Frame frame, LightPlan plan) {
   return frame;
 }
 
-using Case = std::tuple<LightPlan, CompositeShape>;
-
-class ClosedForms : public PictureTest, public testing::WithParamInterface<Case> {
+class ClosedForms : public PictureTest, public testing::WithParamInterface<PlanAndShape> {
  protected:
   LightPlan plan() const { return std::get<0>(GetParam()); }
 
@@ -164,20 +163,16 @@ TEST_P(OrderedForms, AlternatingLayers) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return std::string(name(std::get<0>(info.param))) +
-         (std::get<1>(info.param) == CompositeShape::rows ? "_rows" : "_groups");
-}
-
 const auto shapes = testing::Values(CompositeShape::rows, CompositeShape::groups);
 INSTANTIATE_TEST_SUITE_P(Plans, ClosedForms,
                          testing::Combine(testing::Values(LightPlan::emission,
                                                           LightPlan::proportional,
                                                           LightPlan::ordered),
                                           shapes),
-                         case_name);
+                         name_of_case);
 INSTANTIATE_TEST_SUITE_P(Plans, OrderedForms,
-                         testing::Combine(testing::Values(LightPlan::ordered), shapes), case_name);
+                         testing::Combine(testing::Values(LightPlan::ordered), shapes),
+                         name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

@@ -11,12 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
-
-constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
 
 Frame clouds_for(LightPlan plan, const CloudSetup& setup = {}) {
   DrawnComponent component = random_clouds(setup);
@@ -58,7 +57,7 @@ TEST_F(Consistency, ACropIsAPartOfTheWholePicture) {
   CloudSetup setup;
   setup.width = 210;
   setup.height = 150;
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     Frame frame = clouds_for(plan, setup);
     const Image whole = draw(frame);
     for (const Rectangle& crop : {Rectangle{0, 0, 50, 40}, Rectangle{37, 53, 101, 67},
@@ -144,7 +143,7 @@ TEST_F(Consistency, ShufflingParticlesOfEqualDepthsFollowsTheFile) {
 }
 
 TEST_F(Consistency, BadParticlesLeaveNoTrace) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     Frame frame = clouds_for(plan);
     const Image good = draw(frame);
     DrawnComponent& component = frame.components.front();
@@ -177,17 +176,18 @@ TEST_F(Consistency, OneRendererDrawsTheSameBitsAgainWhateverItDrewBetween) {
     larger.height = 40;
     larger.count = 2000;
     std::vector<Image> first;
-    for (const LightPlan plan : plans) {
+    for (const LightPlan plan : all_plans) {
       first.push_back(draw(clouds_for(plan), shape));
       draw(clouds_for(plan, larger), shape);
     }
     for (std::size_t i = 0; i < first.size(); ++i)
-      EXPECT_EQ(draw(clouds_for(plans[i]), shape).pixels, first[i].pixels) << name(plans[i]);
+      EXPECT_EQ(draw(clouds_for(all_plans[i]), shape).pixels, first[i].pixels)
+          << name(all_plans[i]);
   }
 }
 
 TEST_F(Consistency, TwoRenderersDrawTheSameBits) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     const Frame frame = clouds_for(plan);
     Renderer other;
     EXPECT_EQ(other.render(frame).pixels, renderer(CompositeShape::automatic).render(frame).pixels);
@@ -207,7 +207,7 @@ TEST(ConsistencyOfThreads, DISABLED_DrawToAFile) {
     for (const double tolerance : {1e-3, 0.0}) {
       CloudSetup setup;
       setup.count = tolerance > 0 ? 20000 : 1000;
-      for (const LightPlan plan : plans) {
+      for (const LightPlan plan : all_plans) {
         Frame frame = clouds_for(plan, setup);
         frame.tolerance = tolerance;
         const Image image = renderer.render(frame);

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
 
-constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
 constexpr double tolerances[] = {1e-2, 1e-3, 1e-4, 0};
 
 class CropBits : public PictureTest, public testing::WithParamInterface<CompositeShape> {
@@ -36,7 +36,7 @@ class CropBits : public PictureTest, public testing::WithParamInterface<Composit
 
 TEST_P(CropBits, AreThoseOfTheWholePicture) {
   DeviceContext device(choose_device(""));
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     for (const double tolerance : tolerances) {
       Frame frame = frame_for(plan, tolerance > 0 ? 200 : 20);
       frame.tolerance = tolerance;

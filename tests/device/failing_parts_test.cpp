@@ -10,10 +10,10 @@ constexpr int side = BlockErrors::block_pixels;
 constexpr double promise = 1e-3;
 
 // A picture of 40 by 30 blocks, but for half a one at the right and at the bottom.
-constexpr int width = 40 * side - side / 2, height = 30 * side - side / 2;
+constexpr int picture_width = 40 * side - side / 2, picture_height = 30 * side - side / 2;
 
 BlockErrors failing_at(const std::vector<std::pair<int, int>>& places) {
-  BlockErrors blocks(width, height);
+  BlockErrors blocks(picture_width, picture_height);
   for (const auto& [x, y] : places)
     blocks.errors[static_cast<std::size_t>(y * blocks.columns + x)] = 2e-3F;
   return blocks;
@@ -22,7 +22,8 @@ BlockErrors failing_at(const std::vector<std::pair<int, int>>& places) {
 // Where another part costs as much as so many blocks.
 std::vector<Rectangle> parts_of(const std::vector<std::pair<int, int>>& places,
                                 int blocks_of_part = 20) {
-  return failing_parts(failing_at(places), promise, width, height, blocks_of_part * side * side);
+  return failing_parts(failing_at(places), promise, picture_width, picture_height,
+                       blocks_of_part * side * side);
 }
 
 double pixels(const std::vector<Rectangle>& parts) {
@@ -48,8 +49,8 @@ TEST(FailingParts, AreTheBoundsOfBlocksThatLieTogether) {
 TEST(FailingParts, EndWithThePicture) {
   const std::vector<Rectangle> parts = parts_of({{39, 29}});
   ASSERT_EQ(parts.size(), 1U);
-  EXPECT_EQ(parts[0].x + parts[0].width, width);
-  EXPECT_EQ(parts[0].y + parts[0].height, height);
+  EXPECT_EQ(parts[0].x + parts[0].width, picture_width);
+  EXPECT_EQ(parts[0].y + parts[0].height, picture_height);
 }
 
 TEST(FailingParts, AreSeparateForBlocksFarFromEachOther) {

@@ -2,12 +2,11 @@
 // (kernels/common/splat.h, place_fractions).
 #include <gtest/gtest.h>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
-
-constexpr LightPlan plans[] = {LightPlan::emission, LightPlan::proportional, LightPlan::ordered};
 
 Frame narrow_clouds(LightPlan plan) {
   CloudSetup setup;
@@ -27,7 +26,7 @@ Frame narrow_clouds(LightPlan plan) {
 class FinePlaces : public PictureTest, public testing::WithParamInterface<CompositeShape> {};
 
 TEST_P(FinePlaces, KeepThePromiseWithoutExtendedNumbers) {
-  for (const LightPlan plan : plans) {
+  for (const LightPlan plan : all_plans) {
     const Frame frame = narrow_clouds(plan);
     EXPECT_LE(largest_error(draw(frame, GetParam()), reference::render(frame)), frame.tolerance)
         << name(plan);

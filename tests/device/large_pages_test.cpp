@@ -13,7 +13,7 @@
 namespace splotchcl::test {
 namespace {
 
-constexpr std::size_t megabyte = 1 << 20;
+constexpr std::size_t mebibyte = 1 << 20;
 
 class Pages : public StageTest {
  protected:
@@ -31,7 +31,7 @@ class Pages : public StageTest {
 };
 
 TEST_F(Pages, KeepWhatIsWrittenToTheirEnds) {
-  std::vector<std::uint32_t> values(5 * megabyte / sizeof(std::uint32_t) + 3);
+  std::vector<std::uint32_t> values(5 * mebibyte / sizeof(std::uint32_t) + 3);
   std::iota(values.begin(), values.end(), 7u);
   const Buffer<std::uint32_t> buffer = device().pool.upload(values, "values");
   EXPECT_EQ(device().pool.download(buffer, values.size()), values);
@@ -41,9 +41,9 @@ TEST_F(Pages, HoldLargeBuffersThatBeginAtDifferentPlacesOfASmallPage) {
   LargePages pages;
   std::set<std::uintptr_t> places;
   for (int k = 0; k < 12; ++k) {
-    const compute::buffer buffer = pages.buffer(device().context, 5 * megabyte);
+    const compute::buffer buffer = pages.buffer(device().context, 5 * mebibyte);
     const std::uintptr_t address = address_of(buffer);
-    EXPECT_LT(address % (2 * megabyte), 4096u);
+    EXPECT_LT(address % (2 * mebibyte), 4096u);
     EXPECT_EQ(address % 128, 0u);  // OpenCL's largest values
     places.insert(address % 4096);
   }
@@ -54,10 +54,10 @@ TEST_F(Pages, GiveTheirMemoryBack) {
   LargePages pages;
   const std::size_t before = mallinfo2().hblkhd;
   {
-    const compute::buffer buffer = pages.buffer(device().context, 64 * megabyte);
-    EXPECT_GE(mallinfo2().hblkhd, before + 64 * megabyte);
+    const compute::buffer buffer = pages.buffer(device().context, 64 * mebibyte);
+    EXPECT_GE(mallinfo2().hblkhd, before + 64 * mebibyte);
   }
-  EXPECT_LT(mallinfo2().hblkhd, before + 64 * megabyte);
+  EXPECT_LT(mallinfo2().hblkhd, before + 64 * mebibyte);
 }
 
 }  // namespace

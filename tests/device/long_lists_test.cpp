@@ -5,14 +5,13 @@
 #include <tuple>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
 
-using Case = std::tuple<LightPlan, CompositeShape>;
-
-class LongLists : public PictureTest, public testing::WithParamInterface<Case> {};
+class LongLists : public PictureTest, public testing::WithParamInterface<PlanAndShape> {};
 
 // 50000 clouds in one tile of either shape, several times the length of a segment.
 TEST_P(LongLists, GiveTheOraclesPicture) {
@@ -51,17 +50,12 @@ TEST_P(LongLists, GiveTheOraclesPictureOfEqualNarrowSplatsAtASmallTolerance) {
   EXPECT_LE(largest_error(draw(frame, shape), reference::render(frame)), frame.tolerance);
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return std::string(name(std::get<0>(info.param))) +
-         (std::get<1>(info.param) == CompositeShape::rows ? "_rows" : "_groups");
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Plans, LongLists,
     testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
                                      LightPlan::ordered),
                      testing::Values(CompositeShape::rows, CompositeShape::groups)),
-    case_name);
+    name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

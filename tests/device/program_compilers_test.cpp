@@ -78,7 +78,7 @@ class ProgramCompilers : public ::testing::Test {
   }
   Image draw_alone() { return draw_in_new_folder({}); }
 
-  splotchcl::testing::TemporaryFolder folder_;
+  splotchcl::test::TemporaryFolder folder_;
   int folders_ = 0;
 };
 

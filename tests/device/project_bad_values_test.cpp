@@ -12,15 +12,15 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr std::size_t count = 21;  // no multiple of eight
+constexpr std::size_t particle_total = 21;  // no multiple of eight
 
 // Clouds with every column present.
 DrawnComponent full_component() {
   CloudSetup setup;
-  setup.count = static_cast<int>(count);
+  setup.count = static_cast<int>(particle_total);
   DrawnComponent component = random_clouds(setup);
-  component.particles.intensity = Column::owning(std::vector<float>(count, 0.7f));
-  component.particles.sort_field = Column::owning(std::vector<float>(count, 3.0f));
+  component.particles.intensity = Column::owning(std::vector<float>(particle_total, 0.7f));
+  component.particles.sort_field = Column::owning(std::vector<float>(particle_total, 3.0f));
   return component;
 }
 
@@ -71,7 +71,7 @@ TEST_P(BadValues, AreCountedInEveryField) {
       // The first, one in the middle and the last particle.
       set_value(component, field, 0, value);
       set_value(component, field, 12, value);
-      set_value(component, field, count - 1, value);
+      set_value(component, field, particle_total - 1, value);
       expect_bad(component, 3);
     }
   }
@@ -97,7 +97,7 @@ TEST_P(BadValues, AreSmoothingLengthsThatAreNotPositiveAndNegativeWeights) {
 
 TEST_P(BadValues, AreCountedWhereverTheyLie) {
   DrawnComponent component = full_component();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < particle_total; ++i)
     set_value(component, all_fields()[0], i, 1e6f);  // far off the picture
   set_value(component, all_fields()[4], 5, nan);
   set_value(component, all_fields()[2], 6, nan);
@@ -107,7 +107,7 @@ TEST_P(BadValues, AreCountedWhereverTheyLie) {
 TEST_P(BadValues, OfAUniformColumnMakeEveryParticleBad) {
   DrawnComponent component = full_component();
   component.particles.smoothing_length = Column::uniform(nan);
-  expect_bad(component, count);
+  expect_bad(component, particle_total);
   component.particles.smoothing_length = Column::uniform(2);
   expect_bad(component, 0);
 }

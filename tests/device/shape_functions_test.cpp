@@ -15,7 +15,7 @@
 namespace splotchcl::test {
 namespace {
 
-constexpr const char* kernel = R"(
+constexpr const char* shape_kernel = R"(
 __kernel void evaluate(__global const float* x, __global float* results) {
   const uint i = get_global_id(0);
   STORE(FUNCTION(LOAD(x + LANES * i)), results + LANES * i);
@@ -31,7 +31,7 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
     const Program program =
         device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
                                {"splat.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl"},
-                               kernel});
+                               shape_kernel});
     const auto results = device().pool.get<float>(x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))
@@ -41,7 +41,7 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
   }
 };
 
-std::vector<float> evenly(double first, double last, int count) {
+std::vector<float> evenly_spread(double first, double last, int count) {
   std::vector<float> values;
   for (int i = 0; i < count; ++i)
     values.push_back(static_cast<float>(first + (last - first) * i / (count - 1)));
@@ -59,7 +59,7 @@ double largest(const std::vector<float>& x, const std::vector<float>& found,
 }
 
 TEST_P(ShapeFunctions, ErrorFunctionErrsByWhatPlansCountOn) {
-  const std::vector<float> x = evenly(-6, 6, 1 << 16);
+  const std::vector<float> x = evenly_spread(-6, 6, 1 << 16);
   const auto error = [](double found, double at) { return found - std::erf(at); };
   EXPECT_LE(largest(x, evaluate("error_function", "", x), error), 2.3e-6);
   EXPECT_LE(largest(x, evaluate("error_function", "#define FULL_PRECISION\n", x), error), 2.3e-7);
@@ -71,7 +71,7 @@ struct Means {
 };
 
 // The largest error of their products, over the peak.
-double largest_error(const Means& means) {
+double largest_error_of_means(const Means& means) {
   double most = 0;
   for (std::size_t i = 0; i < means.found.size(); ++i) {
     for (std::size_t k = i; k < means.found.size(); ++k)
@@ -107,7 +107,7 @@ TEST_P(ShapeFunctions, MeansByErfErrByTheirPartOfAPeakForEachSigma) {
         means.found.push_back(0.5 * std::sqrt(3.141592653589793) * sigma * (right - left));
         means.exact.push_back(exact_mean(0.25 * static_cast<double>(i), sigma));
       }
-      EXPECT_LE(largest_error(means), sigma * error_of_means(precision)) << sigma;
+      EXPECT_LE(largest_error_of_means(means), sigma * error_of_means(precision)) << sigma;
     }
   }
 }
@@ -122,7 +122,7 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByTheirPartOfAPeak) {
       means.found.push_back(static_cast<double>(value));
     for (const float place : places)
       means.exact.push_back(exact_mean(static_cast<double>(place), sigma));
-    EXPECT_LE(largest_error(means), bright_mean_error(sigma, sigma)) << sigma;
+    EXPECT_LE(largest_error_of_means(means), bright_mean_error(sigma, sigma)) << sigma;
   }
 }
 
@@ -132,7 +132,7 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByAPartOfThemselves) {
   for (const double sigma : {0.5, 0.9, 2.0, 3.8, 3.9, 4.0, 9.0, 40.0}) {
     const std::string define =
         "#define BRIGHT_MEAN(d) bright_mean(d, " + std::to_string(sigma) + "f)\n";
-    const std::vector<float> places = evenly(0, sigma * std::sqrt(std::log(light)), 1 << 12);
+    const std::vector<float> places = evenly_spread(0, sigma * std::sqrt(std::log(light)), 1 << 12);
     const auto error = [&](double found, double at) {
       const double left = (at - 0.5) / sigma, right = (at + 0.5) / sigma;
       const double beyond =
@@ -146,19 +146,19 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByAPartOfThemselves) {
 }
 
 TEST_P(ShapeFunctions, ErrorFunctionLosesNoLightOfAGrain) {
-  const std::vector<float> far = evenly(4, 100, 64);
+  const std::vector<float> far = evenly_spread(4, 100, 64);
   const auto error = [](double found, double) { return found - 1; };
   EXPECT_LE(largest(far, evaluate("error_function", "", far), error), 2.3e-7);
 }
 
 TEST_P(ShapeFunctions, ComplementOfTheErrorFunctionErrsByPartsOfItself) {
-  const std::vector<float> x = evenly(0, 9.1, 1 << 16);
+  const std::vector<float> x = evenly_spread(0, 9.1, 1 << 16);
   const auto error = [](double found, double at) { return found / std::erfc(at) - 1; };
   EXPECT_LE(largest(x, evaluate("complement_of_erf", "", x), error), 5e-7);
 }
 
 TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
-  const std::vector<float> x = evenly(-60, 0, 1 << 16);
+  const std::vector<float> x = evenly_spread(-60, 0, 1 << 16);
   const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };
   EXPECT_LE(largest(x, evaluate("exp2_negative", "", x), error), 2.7e-6);
   EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
@@ -194,10 +194,10 @@ __kernel void evaluate(__global const float* x, __global double* results) {
 
 TEST_F(DoubleLanes, ErrByThePartsThatTheirCommentsName) {
   if (!device().traits.double_numbers) GTEST_SKIP() << "the device has no double precision";
-  EXPECT_LE(largest_part("exp_of_minus", evenly(-700, 700, 1 << 16),
+  EXPECT_LE(largest_part("exp_of_minus", evenly_spread(-700, 700, 1 << 16),
                          [](double y) { return std::exp(-y); }),
             1e-14);
-  EXPECT_LE(largest_part("complement_of_erf", evenly(0, 10, 1 << 16),
+  EXPECT_LE(largest_part("complement_of_erf", evenly_spread(0, 10, 1 << 16),
                          [](double x) { return std::erfc(x); }),
             2e-13);
 }

@@ -12,7 +12,7 @@
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST_F(Crashes, OfLibrariesOfPicturesAreOneLineInEveryCommand) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -46,7 +46,7 @@ class CrossFadeTest : public ::testing::Test {
   }
 
  private:
-  splotchcl::testing::TemporaryFolder folder_{"cross_fade"};
+  splotchcl::test::TemporaryFolder folder_{"cross_fade"};
 };
 
 TEST_F(CrossFadeTest, DrawsTheOtherSceneInThisOnesSize) {

@@ -16,7 +16,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::HasSubstr;
 using ::testing::Not;
 

@@ -9,7 +9,7 @@ const SnapshotFormat& points_format();
 
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

@@ -9,7 +9,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 

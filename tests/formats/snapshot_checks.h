@@ -11,7 +11,7 @@
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // The values of a column as a vector, one value for a uniform one.
 inline std::vector<float> values_of(const Column& column) {
@@ -69,4 +69,4 @@ inline std::string refusal(const std::filesystem::path& path) {
   return {};
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 class ByteWriter {
@@ -195,4 +195,4 @@ void write_gadget_set(const std::filesystem::path& base, const std::vector<TestS
   }
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,7 +7,7 @@
 
 #include "formats/stored_values.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // A snapshot in memory, and writers for it that share no code with the readers.
 
@@ -64,4 +64,4 @@ void write_gadget(const std::filesystem::path& path, const TestSnapshot& snapsho
 void write_gadget_set(const std::filesystem::path& base, const std::vector<TestSnapshot>& members,
                       int format);
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::ElementsAre;
 
 std::vector<float> values_of(const Column& column) {

@@ -11,7 +11,7 @@
 namespace {
 
 using namespace splotchcl;
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 
 class Plan {
  public:

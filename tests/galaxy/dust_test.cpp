@@ -7,7 +7,7 @@
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 GalaxySettings spiral_settings() {
@@ -93,4 +93,4 @@ TEST(Dust, NoneIsMadeWhereNoneIsWanted) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,7 +7,7 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 std::vector<float> values(const Column& column) {
@@ -63,4 +63,4 @@ TEST(GalaxyFile, NothingIsLeftWhereItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -3,7 +3,7 @@
 #include "splotchcl/galaxy.h"
 #include "splotchcl/renderer.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // One kind of a galaxy's matter in light that adds up.
 inline DrawnComponent drawn_light(const GalaxyParticles& kind) {
@@ -39,4 +39,4 @@ inline Frame galaxy_frame(const Galaxy& galaxy, const Camera& camera, int width,
   return frame;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

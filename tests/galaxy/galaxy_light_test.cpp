@@ -7,7 +7,7 @@
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 // Face-on, without perspective, a pixel for each of the picture's.
@@ -157,4 +157,4 @@ TEST(GalaxyLight, CloudsThatShineInHydrogensLineAreNoStars) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,7 +7,7 @@
 #include "splotchcl/galaxy.h"
 #include "splotchcl/image.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 constexpr double sky_level = 0.02, sky_noise = 0.001;
 
@@ -82,4 +82,4 @@ inline GalaxySettings small_settings() {
   return settings;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -5,7 +5,7 @@
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/error.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 // Of values along one axis.
@@ -145,4 +145,4 @@ TEST(GalaxyShape, SettingsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

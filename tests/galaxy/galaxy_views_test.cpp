@@ -7,7 +7,7 @@
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 double brightness(const Image& image, int x, int y) {
@@ -117,4 +117,4 @@ TEST(GalaxyViews, TheNearSideOfATiltedDiskLiesInShadow) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -7,12 +7,12 @@
 
 #include "splotchcl/error.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_curve(const std::string& text) {
   try {
     parse_rotation_curve(text, "curve.txt");
   } catch (const DataError& error) {
@@ -38,28 +38,30 @@ TEST(RotationCurve, TableIsLinearBetweenItsPoints) {
 }
 
 TEST(RotationCurve, OneRowIsRefused) {
-  EXPECT_THAT(refusal("1 100\n"), HasSubstr("curve.txt: found 1 line with"));
-  EXPECT_THAT(refusal("# nothing\n"), HasSubstr("found 0 lines"));
+  EXPECT_THAT(refusal_of_curve("1 100\n"), HasSubstr("curve.txt: found 1 line with"));
+  EXPECT_THAT(refusal_of_curve("# nothing\n"), HasSubstr("found 0 lines"));
 }
 
 TEST(RotationCurve, UnsortedRadiiAreRefused) {
-  EXPECT_THAT(refusal("1 100\n3 200\n2 150\n"), HasSubstr("curve.txt:3: radius 2 follows 3"));
-  EXPECT_THAT(refusal("1 100\n1 200\n"), HasSubstr("curve.txt:2: radius 1 follows 1"));
+  EXPECT_THAT(refusal_of_curve("1 100\n3 200\n2 150\n"),
+              HasSubstr("curve.txt:3: radius 2 follows 3"));
+  EXPECT_THAT(refusal_of_curve("1 100\n1 200\n"), HasSubstr("curve.txt:2: radius 1 follows 1"));
 }
 
 TEST(RotationCurve, NegativeNumbersAreRefused) {
-  EXPECT_THAT(refusal("1 100\n2 -5\n"), HasSubstr("curve.txt:2: the speed is -5"));
-  EXPECT_THAT(refusal("-1 100\n2 5\n"), HasSubstr("curve.txt:1: the radius is -1"));
+  EXPECT_THAT(refusal_of_curve("1 100\n2 -5\n"), HasSubstr("curve.txt:2: the speed is -5"));
+  EXPECT_THAT(refusal_of_curve("-1 100\n2 5\n"), HasSubstr("curve.txt:1: the radius is -1"));
 }
 
 TEST(RotationCurve, OtherTextIsRefused) {
-  EXPECT_THAT(refusal("1\n2 3\n"), HasSubstr("curve.txt:1: found '1', expected two numbers"));
-  EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("expected two numbers"));
-  EXPECT_THAT(refusal("1 two\n"), HasSubstr("expected two numbers"));
-  EXPECT_THAT(refusal("0 100\n1 100\n"), HasSubstr("speed 100 at radius 0"));
+  EXPECT_THAT(refusal_of_curve("1\n2 3\n"),
+              HasSubstr("curve.txt:1: found '1', expected two numbers"));
+  EXPECT_THAT(refusal_of_curve("1 2 3\n"), HasSubstr("expected two numbers"));
+  EXPECT_THAT(refusal_of_curve("1 two\n"), HasSubstr("expected two numbers"));
+  EXPECT_THAT(refusal_of_curve("0 100\n1 100\n"), HasSubstr("speed 100 at radius 0"));
   EXPECT_THROW(RotationCurve::flat(-1, 1), UsageError);
   EXPECT_THROW(RotationCurve::flat(100, 0), UsageError);
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

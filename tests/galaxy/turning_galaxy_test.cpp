@@ -12,7 +12,7 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using boost::qvm::mag;
@@ -227,4 +227,4 @@ TEST(TurningGalaxy, WhatHasNoOrbitsIsRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

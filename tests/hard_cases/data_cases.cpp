@@ -8,8 +8,6 @@
 namespace splotchcl::test {
 namespace {
 
-const std::vector<LightPlan> all_plans = HardCase{}.plans;
-
 Frame everything_in_one_tile(LightPlan plan) {
   Random random(61);
   std::vector<Cloud> clouds;

@@ -33,6 +33,10 @@ struct HardCase {
   Drawn most_exactly = Drawn::always;  // at tolerance 0
 };
 
+// Plans that cases are drawn by, where not all absorb.
+inline const std::vector<LightPlan> all_plans = HardCase{}.plans;
+inline const std::vector<LightPlan> absorbing_plans = {LightPlan::proportional, LightPlan::ordered};
+
 std::vector<HardCase> light_cases();       // absorption, depth, dynamic range
 std::vector<HardCase> layer_cases();       // very many layers in one pixel
 std::vector<HardCase> order_cases();       // depths, keys, coincident particles

@@ -8,8 +8,6 @@
 namespace splotchcl::test {
 namespace {
 
-const std::vector<LightPlan> absorbing = {LightPlan::proportional, LightPlan::ordered};
-
 // Clouds of columns around 1 that absorb `factor` times what they emit.
 Frame clouds_absorbing(double factor, LightPlan plan) {
   CloudSetup setup;
@@ -23,7 +21,7 @@ Frame clouds_absorbing(double factor, LightPlan plan) {
 
 HardCase faint_absorption(const std::string& name, double factor) {
   return {name, "E / A overflows single precision when it is formed, and 1 - exp(-A X) is lost",
-          [factor](LightPlan plan) { return clouds_absorbing(factor, plan); }, absorbing};
+          [factor](LightPlan plan) { return clouds_absorbing(factor, plan); }, absorbing_plans};
 }
 
 Frame without_absorption_beside_clouds(LightPlan plan) {
@@ -83,10 +81,10 @@ std::vector<HardCase> light_cases() {
        "exp(-1e4) underflows, and the cloud's edge, where the depth falls to 1, lies far out",
        one_opaque_particle},
       {"EmissionFarAboveAbsorption", "the picture's values reach 1e6 while depths stay near 1",
-       [](LightPlan plan) { return clouds_of_brightness(1e6, 1, plan); }, absorbing},
+       [](LightPlan plan) { return clouds_of_brightness(1e6, 1, plan); }, absorbing_plans},
       {"AbsorptionFarAboveEmission",
        "light of 1e-4 of the absorption: what is lost in the depth would show nowhere else",
-       [](LightPlan plan) { return clouds_of_brightness(1, 1e4, plan); }, absorbing},
+       [](LightPlan plan) { return clouds_of_brightness(1, 1e4, plan); }, absorbing_plans},
       {"BrightStarBehindThickCloud",
        "the star is 1e6 times white and the cloud lets 1e-6 of it through: transmittance must "
        "keep its own digits, not those of 1 - opacity",
@@ -94,7 +92,7 @@ std::vector<HardCase> light_cases() {
        {LightPlan::ordered}},
       {"BrightBackgroundBehindCloud",
        "the background is 1e4 times white and what comes through the cloud about white",
-       [](LightPlan plan) { return background_behind_cloud(1e4, 9, plan); }, absorbing},
+       [](LightPlan plan) { return background_behind_cloud(1e4, 9, plan); }, absorbing_plans},
   };
 }
 

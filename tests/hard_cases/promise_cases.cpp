@@ -13,8 +13,6 @@ namespace {
 using adversary::Trial;
 
 const std::vector<LightPlan> sums = {LightPlan::emission, LightPlan::proportional};
-const std::vector<LightPlan> absorbing = {LightPlan::proportional, LightPlan::ordered};
-const std::vector<LightPlan> all_plans = HardCase{}.plans;
 
 Trial in_light(Trial trial, LightPlan plan) {
   // A light that the case chooses itself stays.
@@ -122,10 +120,10 @@ std::vector<HardCase> promise_cases() {
             "behind an optical depth of 43 at the centre lies light of 2000: a depth that errs by "
             "a part of itself changes what comes through by the depth times as much",
             "background 2000 group point copies 20 x 16.7694 y 12.2759 sigma 2.364 peak 2.12",
-            absorbing),
+            absorbing_plans),
       found("BrightBackgroundAt1e_4", "the same at a smaller tolerance",
             "tolerance 1e-4 background 4000 group point places 2 copies 10 sigma 4 peak 6",
-            absorbing),
+            absorbing_plans),
       found("BrightStarBehindManyClouds", "the same of a star",
             "light stars_among_gas group point copies 10 sigma 2.3 peak 6 group point peak 200000 "
             "star 1",

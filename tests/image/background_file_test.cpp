@@ -19,7 +19,7 @@ class BackgroundFile : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
  private:
-  splotchcl::testing::TemporaryFolder folder_{"background"};
+  splotchcl::test::TemporaryFolder folder_{"background"};
 };
 
 TEST_F(BackgroundFile, OfFloatsIsLinearLight) {

@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-using splotchcl::testing::TemporaryFolder;
+using splotchcl::test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;

@@ -13,8 +13,8 @@
 namespace splotchcl {
 namespace {
 
-using splotchcl::testing::read_text;
-using splotchcl::testing::TemporaryFolder;
+using splotchcl::test::read_text;
+using splotchcl::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;

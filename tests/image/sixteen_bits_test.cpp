@@ -13,8 +13,8 @@
 namespace splotchcl {
 namespace {
 
-using splotchcl::testing::read_text;
-using splotchcl::testing::TemporaryFolder;
+using splotchcl::test::read_text;
+using splotchcl::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -27,7 +27,7 @@ ImageFileOptions bits(int count, double gamma = 1) {
   return options;
 }
 
-Image ramp(int width, int height, float brightest) {
+Image sixteen_bit_ramp(int width, int height, float brightest) {
   Image image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] =
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(ImageFile, SixteenBits, ::testing::Values("png", "tif",
 
 // The reader gives floats, which add their own 6e-8.
 TEST_P(SixteenBits, RoundByHalfAStepAtMost) {
-  const Image image = ramp(61, 47, 1);
+  const Image image = sixteen_bit_ramp(61, 47, 1);
   write_image(path_, image, bits(16));
   const Image read = read_image(path_);
   ASSERT_EQ(read.pixels.size(), image.pixels.size());
@@ -68,7 +68,7 @@ TEST_P(SixteenBits, HoldDisplayValues) {
 }
 
 TEST_P(SixteenBits, MayBeEight) {
-  const Image image = ramp(9, 6, 1);
+  const Image image = sixteen_bit_ramp(9, 6, 1);
   write_image(path_, image, bits(8));
   const Image read = read_image(path_);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -79,9 +79,9 @@ TEST_P(SixteenBits, MayBeEight) {
 }
 
 TEST_P(SixteenBits, AreTheSameBytesEachTime) {
-  write_image(path_, ramp(61, 47, 1), bits(16));
+  write_image(path_, sixteen_bit_ramp(61, 47, 1), bits(16));
   const std::string first = read_text(path_);
-  write_image(path_, ramp(61, 47, 1), bits(16));
+  write_image(path_, sixteen_bit_ramp(61, 47, 1), bits(16));
   EXPECT_EQ(read_text(path_), first);
 }
 
@@ -103,7 +103,7 @@ TEST(ImageBits, OfFormatsThatHoldEightAreRefused) {
 
 TEST(ImageBits, LeaveFormatsOfFloatsAsTheyAre) {
   const TemporaryFolder folder;
-  const Image image = ramp(5, 4, 20);
+  const Image image = sixteen_bit_ramp(5, 4, 20);
   write_image(folder / "a.exr", image, bits(16));
   EXPECT_EQ(read_image(folder / "a.exr").pixels, image.pixels);
 }

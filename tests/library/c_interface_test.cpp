@@ -14,7 +14,7 @@
 #include "splotchcl/scene_file.h"
 #include "splotchcl/splotchcl_c.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -266,4 +266,4 @@ TEST(CRanks, AreNeeded) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

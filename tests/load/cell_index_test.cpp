@@ -21,8 +21,8 @@
 namespace splotchcl::test {
 namespace {
 
-using splotchcl::testing::write_attribute;
-using splotchcl::testing::write_values;
+using splotchcl::test::write_attribute;
+using splotchcl::test::write_values;
 
 constexpr std::size_t cells = 4, particles_of_cell = 5000, particles = cells * particles_of_cell;
 constexpr double side = 100, cell_width = side / cells;
@@ -60,18 +60,17 @@ struct SwiftFile {
   }
 
   void write(const std::filesystem::path& path, hid_t position_type = H5T_IEEE_F64LE) const {
-    const auto file = splotchcl::testing::create_hdf5(path);
+    const auto file = splotchcl::test::create_hdf5(path);
     for (const char* const group : {"Header", "HydroScheme"})
-      splotchcl::testing::make_group(file, group);
+      splotchcl::test::make_group(file, group);
     write_attribute(file, "Header", "NumPart_ThisFile", {particles, 0, 0, 0, 0, 0});
     write_attribute(file, "Header", "NumPart_Total", {particles, 0, 0, 0, 0, 0});
     write_attribute(file, "Header", "BoxSize", {side, side, side});
-    splotchcl::testing::write_text(file, "Header", "Code", "SWIFT");
+    splotchcl::test::write_text(file, "Header", "Code", "SWIFT");
     write_attribute(file, "HydroScheme", "Kernel gamma", {2});
     write_values(file, "PartType0/Coordinates", positions, 3, position_type);
     if (!lossy.empty()) {
-      splotchcl::testing::write_text(file, "PartType0/Coordinates", "Lossy compression filter",
-                                     lossy);
+      splotchcl::test::write_text(file, "PartType0/Coordinates", "Lossy compression filter", lossy);
     }
     write_values(file, "PartType0/SmoothingLengths", lengths, 1, H5T_IEEE_F32LE);
     write_values(file, "PartType0/Masses", std::vector<double>(particles, 1), 1, H5T_IEEE_F32LE);
@@ -105,7 +104,7 @@ class CellIndex : public ::testing::Test {
     }
   }
 
-  splotchcl::testing::TemporaryFolder folder_;
+  splotchcl::test::TemporaryFolder folder_;
 };
 
 TEST_F(CellIndex, HoldsAllParticles) {

@@ -58,7 +58,7 @@ class ComponentBoxes : public ::testing::Test {
     }
   }
 
-  splotchcl::testing::TemporaryFolder folder_;
+  splotchcl::test::TemporaryFolder folder_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::vector<std::string> notes_;
 };

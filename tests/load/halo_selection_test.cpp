@@ -12,7 +12,7 @@
 namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 

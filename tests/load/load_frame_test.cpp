@@ -4,22 +4,22 @@
 
 #include <cmath>
 
+#include "load/particles.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using test::MemorySnapshot;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 // A row of gas particles along x, all seen by the scene's camera.
-MemorySnapshot gas_row(int count = 5) {
+MemorySnapshot centered_gas_row(int count = 5) {
   MemorySnapshot snapshot;
   std::vector<float> position, h, mass, energy;
   for (int i = 0; i < count; ++i) {
@@ -33,40 +33,6 @@ MemorySnapshot gas_row(int count = 5) {
   snapshot.add(0, "mass", mass);
   snapshot.add(0, "internal_energy", energy);
   return snapshot;
-}
-
-Component gas() {
-  Component component;
-  component.name = "gas";
-  return component;
-}
-
-Scene scene_of(const std::vector<Component>& components) {
-  Scene scene;
-  scene.image.width = 64;
-  scene.image.height = 48;
-  Camera camera;
-  camera.position = {{0, -20, 0}};
-  camera.look_at = {{0, 0, 0}};
-  camera.sky = {{0, 0, 1}};
-  scene.camera = camera;
-  scene.components = components;
-  return scene;
-}
-
-Frame load(const Scene& scene, const Snapshot& snapshot) {
-  std::vector<std::string> notes;
-  return load_frame(scene, snapshot, notes);
-}
-
-DrawnComponent load(const Component& component, const Snapshot& snapshot) {
-  return load(scene_of({component}), snapshot).components.at(0);
-}
-
-std::vector<std::string> notes_of(const Component& component, const Snapshot& snapshot) {
-  std::vector<std::string> notes;
-  load_frame(scene_of({component}), snapshot, notes);
-  return notes;
 }
 
 std::string refusal(const Scene& scene, const Snapshot& snapshot) {
@@ -90,7 +56,7 @@ TEST(LoadFrame, TakesPictureAndCameraFromTheScene) {
   scene.image.background = {0.1, 0.2, 0.3};
   scene.camera->far_limit = 30;
   scene.tolerance = 0.01;
-  const Frame frame = load(scene, gas_row());
+  const Frame frame = load(scene, centered_gas_row());
   EXPECT_EQ(frame.width, 64);
   EXPECT_EQ(frame.crop.width, 64);
   EXPECT_EQ(frame.crop.height, 48);
@@ -101,23 +67,23 @@ TEST(LoadFrame, TakesPictureAndCameraFromTheScene) {
 }
 
 TEST(LoadFrame, ReadsOnlyWhatTheSceneUses) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "density", std::vector<float>(5, 1));
   snapshot.add(1, "position", std::vector<float>(15, 1), 3);
   load(gas(), snapshot);
   EXPECT_THAT(snapshot.fields_read(), Not(Contains("internal_energy")));
   EXPECT_THAT(snapshot.fields_read(), Not(Contains("density")));
   EXPECT_THAT(snapshot.fields_read(),
-              testing::UnorderedElementsAre("position", "smoothing_length", "mass"));
+              ::testing::UnorderedElementsAre("position", "smoothing_length", "mass"));
 }
 
 TEST(LoadFrame, PassesTheFilesOwnMemoryOn) {
-  const MemorySnapshot snapshot = gas_row();
+  const MemorySnapshot snapshot = centered_gas_row();
   EXPECT_EQ(load(gas(), snapshot).particles.position.data(), snapshot.read(0, "position").data());
 }
 
 TEST(LoadFrame, DrawsSeveralTypesOneAfterTheOther) {
-  MemorySnapshot snapshot = gas_row(3);
+  MemorySnapshot snapshot = centered_gas_row(3);
   snapshot.add(2, "position", {7, 8, 9, 4, 5, 6}, 3);
   snapshot.add(2, "smoothing_length", {0.5f, 0.25f});
   snapshot.set_table_mass(2, 40);
@@ -131,7 +97,7 @@ TEST(LoadFrame, DrawsSeveralTypesOneAfterTheOther) {
 }
 
 TEST(LoadFrame, KeepsTheOriginOfThePositions) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.set_origin({{1000, 2000, 3000}});
   EXPECT_EQ(load(gas(), snapshot).particles.origin.a[1], 2000);
 }
@@ -139,9 +105,11 @@ TEST(LoadFrame, KeepsTheOriginOfThePositions) {
 TEST(LoadFrame, NamesATypeThatTheSnapshotLacks) {
   Component component = gas();
   component.types = {4};
-  EXPECT_THAT(refusal(scene_of({component}), gas_row()), HasSubstr("no particles of type 4"));
+  EXPECT_THAT(refusal(scene_of({component}), centered_gas_row()),
+              HasSubstr("no particles of type 4"));
   component.types = {0, 4};
-  EXPECT_THAT(notes_of(component, gas_row()), Contains(HasSubstr("no particles of type 4")));
+  EXPECT_THAT(notes_of(component, centered_gas_row()),
+              Contains(HasSubstr("no particles of type 4")));
 }
 
 TEST(LoadFrame, TellsOfAComponentWithoutANameByItsNumber) {
@@ -149,18 +117,18 @@ TEST(LoadFrame, TellsOfAComponentWithoutANameByItsNumber) {
   component.types = {0, 4};
   component.name.clear();
   std::vector<std::string> notes;
-  const Frame frame = load_frame(scene_of({gas(), component}), gas_row(), notes);
+  const Frame frame = load_frame(scene_of({gas(), component}), centered_gas_row(), notes);
   EXPECT_THAT(notes, Contains(HasSubstr("component 1: ")));
   EXPECT_EQ(frame.components[0].name, "gas");
   EXPECT_EQ(frame.components[1].name, "1");
 }
 
 TEST(LoadFrame, RefusesASceneWithoutComponents) {
-  EXPECT_THROW(load(scene_of({}), gas_row()), UsageError);
+  EXPECT_THROW(load(scene_of({}), centered_gas_row()), UsageError);
 }
 
 TEST(LoadFrameWeight, IsTheMassWhereMassesAreKnown) {
-  const DrawnComponent drawn = load(gas(), gas_row());
+  const DrawnComponent drawn = load(gas(), centered_gas_row());
   EXPECT_EQ(drawn.weight, WeightModel::mass);
   EXPECT_THAT(values(drawn.particles.weight, 5), ElementsAre(1, 2, 3, 4, 5));
 }
@@ -191,7 +159,7 @@ TEST(LoadFrameWeight, IsConstantWhereNoMassIsKnown) {
 TEST(LoadFrameColor, RangeIsTheBulkOfTheScaledData) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, {}, {}};
-  const DrawnComponent drawn = load(component, gas_row());
+  const DrawnComponent drawn = load(component, centered_gas_row());
   // 0.5 % of the way from the lowest of five to the next.
   EXPECT_NEAR(drawn.color.minimum, 0.02, 1e-6);
   EXPECT_NEAR(drawn.color.maximum, 3.98, 1e-6);
@@ -200,7 +168,7 @@ TEST(LoadFrameColor, RangeIsTheBulkOfTheScaledData) {
 TEST(LoadFrameColor, LimitsOfTheSceneAreBeforeScaling) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, 0.1, 1e6};
-  const DrawnComponent drawn = load(component, gas_row());
+  const DrawnComponent drawn = load(component, centered_gas_row());
   EXPECT_NEAR(drawn.color.minimum, -1, 1e-12);
   EXPECT_NEAR(drawn.color.maximum, 6, 1e-12);
 }
@@ -208,7 +176,7 @@ TEST(LoadFrameColor, LimitsOfTheSceneAreBeforeScaling) {
 TEST(LoadFrameColor, ALimitBeyondAllDataKeepsThemBeyondIt) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::linear, 1e9, {}};
-  const DrawnComponent drawn = load(component, gas_row());
+  const DrawnComponent drawn = load(component, centered_gas_row());
   EXPECT_EQ(drawn.color.minimum, 1e9);
   EXPECT_GT(drawn.color.maximum, 1e9);
 }
@@ -216,11 +184,11 @@ TEST(LoadFrameColor, ALimitBeyondAllDataKeepsThemBeyondIt) {
 TEST(LoadFrameColor, RefusesALimitWithoutALogarithm) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, 0.0, {}};
-  EXPECT_THAT(refusal(scene_of({component}), gas_row()), HasSubstr("color.min is 0"));
+  EXPECT_THAT(refusal(scene_of({component}), centered_gas_row()), HasSubstr("color.min is 0"));
 }
 
 TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 100));
   Component component = gas();
   component.color = {"temperature", Scaling::log, {}, {}};
@@ -232,7 +200,7 @@ TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
 
 // To such numbers 1 adds nothing.
 TEST(LoadFrameColor, OfOneLargeValueForAllIsTheMiddleOfThePalette) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 3e20F));
   Component component = gas();
   component.color = {"temperature", Scaling::linear, {}, {}};
@@ -242,7 +210,7 @@ TEST(LoadFrameColor, OfOneLargeValueForAllIsTheMiddleOfThePalette) {
 }
 
 TEST(LoadFrameColor, KeepsARangeBeyondALargeLimit) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 100));
   Component component = gas();
   component.color = {"temperature", Scaling::linear, 3e20, {}};
@@ -250,7 +218,7 @@ TEST(LoadFrameColor, KeepsARangeBeyondALargeLimit) {
 }
 
 TEST(LoadFrameColor, SaysWhenNoValueCanBeScaled) {
-  MemorySnapshot snapshot = gas_row();
+  MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 0));
   Component component = gas();
   component.color = {"temperature", Scaling::log, {}, {}};
@@ -258,7 +226,7 @@ TEST(LoadFrameColor, SaysWhenNoValueCanBeScaled) {
 }
 
 TEST(LoadFrameColor, OfAVectorIsItsLength) {
-  MemorySnapshot snapshot = gas_row(2);
+  MemorySnapshot snapshot = centered_gas_row(2);
   snapshot.add(0, "velocity", {3, 4, 0, 0, -5, 12}, 3);
   Component component = gas();
   component.color.field = "velocity";
@@ -268,7 +236,7 @@ TEST(LoadFrameColor, OfAVectorIsItsLength) {
 TEST(LoadFrameColor, NamesAFieldThatIsNotThere) {
   Component component = gas();
   component.color.field = "internal_enrgy";
-  const std::string message = refusal(scene_of({component}), gas_row());
+  const std::string message = refusal(scene_of({component}), centered_gas_row());
   EXPECT_THAT(message, HasSubstr("component gas: color.field is \"internal_enrgy\""));
   EXPECT_THAT(message, HasSubstr("did you mean internal_energy?"));
 }
@@ -277,15 +245,15 @@ TEST(LoadFrameSort, ReadsTheFieldThatTheSceneSortsBy) {
   Scene scene = scene_of({gas()});
   scene.sort.by = SortOrder::By::field;
   scene.sort.field = "internal_energy";
-  EXPECT_EQ(load(scene, gas_row()).components[0].particles.sort_field[2], 100);
+  EXPECT_EQ(load(scene, centered_gas_row()).components[0].particles.sort_field[2], 100);
   scene.sort.field = "rank";
-  EXPECT_THAT(refusal(scene, gas_row()), HasSubstr("sort.by is \"rank\""));
+  EXPECT_THAT(refusal(scene, centered_gas_row()), HasSubstr("sort.by is \"rank\""));
 }
 
 TEST(LoadFrameIntensity, HasARangeLikeTheColor) {
   Component component = gas();
   component.intensity = {"internal_energy", Scaling::log, 1, 1e4};
-  const DrawnComponent drawn = load(component, gas_row());
+  const DrawnComponent drawn = load(component, centered_gas_row());
   EXPECT_EQ(drawn.particles.intensity[1], 10);
   EXPECT_EQ(drawn.intensity.maximum, 4);
 }
@@ -344,7 +312,7 @@ TEST(LoadFrameSize, IsFoundFromNeighborsWhereADensityIsMissing) {
 TEST(LoadFrameSize, FixedReplacesTheField) {
   Component component = gas();
   component.size_fixed = 0.75;
-  const MemorySnapshot snapshot = gas_row();
+  const MemorySnapshot snapshot = centered_gas_row();
   EXPECT_EQ(load(component, snapshot).particles.smoothing_length[3], 0.75f);
   EXPECT_THAT(snapshot.fields_read(), Not(Contains("smoothing_length")));
 }
@@ -352,20 +320,20 @@ TEST(LoadFrameSize, FixedReplacesTheField) {
 TEST(LoadFrameSize, MayBeAnyField) {
   Component component = gas();
   component.size_field = "mass";
-  EXPECT_EQ(load(component, gas_row()).particles.smoothing_length[3], 4);
+  EXPECT_EQ(load(component, centered_gas_row()).particles.smoothing_length[3], 4);
 }
 
 TEST(LoadFrameDensity, IsEstimatedFromSizesWhereTheFileHasNone) {
   Component component = gas();
   component.color.field = "density";
-  const DrawnComponent drawn = load(component, gas_row());
+  const DrawnComponent drawn = load(component, centered_gas_row());
   // 64 of its own mass in a sphere of radius 1.
   EXPECT_NEAR(drawn.particles.color[1], 64 * 2 / (4 * 3.14159265358979 / 3), 1e-5);
 }
 
 TEST(LoadFrameReference, MakesThePictureTheSameInAnyUnit) {
-  const DrawnComponent grams = load(gas(), gas_row());
-  MemorySnapshot heavy = gas_row();
+  const DrawnComponent grams = load(gas(), centered_gas_row());
+  MemorySnapshot heavy = centered_gas_row();
   MemorySnapshot snapshot;
   snapshot.add(0, "position", values(heavy.read(0, "position"), 15), 3);
   snapshot.add(0, "smoothing_length", std::vector<float>(5, 1));
@@ -377,26 +345,26 @@ TEST(LoadFrameReference, MakesThePictureTheSameInAnyUnit) {
 TEST(LoadFrameReference, IsTheScenesWhereItGivesOne) {
   Component component = gas();
   component.reference_column = 3.5;
-  EXPECT_EQ(load(component, gas_row()).reference_column, 3.5);
+  EXPECT_EQ(load(component, centered_gas_row()).reference_column, 3.5);
 }
 
 TEST(LoadFrameReference, SaysWhenTheCameraSeesNothing) {
   Scene scene = scene_of({gas()});
   scene.camera->look_at = {{0, -40, 0}};
   std::vector<std::string> notes;
-  load_frame(scene, gas_row(), notes);
+  load_frame(scene, centered_gas_row(), notes);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("sees none of its particles")));
 }
 
 TEST(LoadFrame, HasNothingToSayWhenNothingIsOdd) {
-  EXPECT_THAT(notes_of(gas(), gas_row()), IsEmpty());
+  EXPECT_THAT(notes_of(gas(), centered_gas_row()), IsEmpty());
 }
 
 TEST(LoadFrame, ChoosesACameraWhereTheSceneHasNone) {
   Scene scene = scene_of({gas()});
   scene.camera.reset();
-  EXPECT_GT(load(scene, gas_row()).camera.look_at_distance, 1);
+  EXPECT_GT(load(scene, centered_gas_row()).camera.look_at_distance, 1);
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

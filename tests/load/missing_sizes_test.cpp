@@ -15,7 +15,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;

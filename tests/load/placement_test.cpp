@@ -134,7 +134,7 @@ class OwnSnapshot : public ::testing::Test {
     write_gadget2(path, generate_halo(settings));
     return path.string();
   }
-  const splotchcl::testing::TemporaryFolder folder_;
+  const splotchcl::test::TemporaryFolder folder_;
 };
 
 TEST_F(OwnSnapshot, GivesTheComponentItsParticles) {

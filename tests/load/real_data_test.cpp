@@ -36,7 +36,7 @@ TEST(RealSelection, DividesTheGasOfACosmologicalBox) {
 TEST(RealSelection, FindsEveryOtherOfIdsThatSinglePrecisionCannotHold) {
   const auto snapshot = open_real("gassphere_id64/fmt2_snapshot_001");
   if (!snapshot) GTEST_SKIP() << "no gassphere_id64 in " << data_folder();
-  const splotchcl::testing::TemporaryFolder folder;
+  const splotchcl::test::TemporaryFolder folder;
   const std::vector<std::uint64_t> ids = snapshot->read_ids(0);
   ASSERT_GE(*std::min_element(ids.begin(), ids.end()), 1ull << 33);
   {

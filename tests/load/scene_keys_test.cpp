@@ -65,7 +65,7 @@ TEST(ParticleKeys, MayBeSetOnTheCommandLine) {
 }
 
 TEST(ParticleKeys, TakePathsFromTheFoldersOfTheirFiles) {
-  const splotchcl::testing::TemporaryFolder folder;
+  const splotchcl::test::TemporaryFolder folder;
   std::ofstream(folder / "scene.toml") << "snapshot = 's'\n[[component]]\nsnapshot = 'g.hdf5'\n"
                                           "absorption_palette = './p.txt'\n"
                                           "select.ids = 'a.txt'\nexclude.ids = '/b.txt'\n";

@@ -13,9 +13,9 @@ using test::at;
 using test::Gas;
 using test::map_of;
 using test::map_scene;
+using test::sigma_of_h;
 
 const double pi = std::acos(-1.0);
-const double sigma_of_h = KernelSettings().width;
 
 // A lattice of spacing 1: sums of Gaussians wider than it are integrals, to many digits.
 template <class Density>

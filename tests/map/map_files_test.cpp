@@ -41,7 +41,7 @@ void write(const std::filesystem::path& path, const Map& map) {
 }
 
 TEST(MapFiles, OnlyFiguresHaveNotesOnWhatTheyDoNotShow) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Map map = small_map();
   map.width = map.height = 200;
   map.values.assign(40000, 1);
@@ -54,7 +54,7 @@ TEST(MapFiles, OnlyFiguresHaveNotesOnWhatTheyDoNotShow) {
 }
 
 TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write(folder / "a.fits", small_map());
   fitsfile* file = nullptr;
   int status = 0;
@@ -97,7 +97,7 @@ TEST(MapFiles, HoldNumPyArraysWithTheLowestRowFirst) {
 }
 
 TEST(MapFiles, HoldHdf5AndPicturesToo) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Map map = small_map();
   write(folder / "a.hdf5", map);
   map.values[5] = 6;
@@ -108,12 +108,12 @@ TEST(MapFiles, HoldHdf5AndPicturesToo) {
 }
 
 TEST(MapFiles, RefuseEndingsThatHoldLight) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(check_map_path(folder / "a.tif"), UsageError);
 }
 
 TEST(MapFiles, NameTheEndingsOfMapsWhereOneIsUnknown) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"a.txt", "a"}) {
     try {
       check_map_path(folder / name);
@@ -131,7 +131,7 @@ TEST(MapFiles, PassFitsverify) {
       std::system("command -v fitsverify > /dev/null") != 0) {
     GTEST_SKIP() << "fitsverify is not installed; scripts/setup does that";
   }
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Map map = small_map();
   write(folder / "lengths.fits", map);
   map.unit = "1e10 M_sun Mpc^-2 a^-2";
@@ -145,7 +145,7 @@ TEST(MapFiles, PassFitsverify) {
 }
 
 TEST(MapFiles, HaveCoordinatesOnTheSkyAndLengthsBeside) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Map map = small_map();
   map.sky = SkyPlace{187.5, 12.25, 1e-3};
   write(folder / "a.fits", map);

@@ -9,16 +9,16 @@
 namespace splotchcl {
 namespace {
 
-using testing::Hdf5Output;
-using testing::write_attribute;
-using testing::write_values;
+using test::Hdf5Output;
+using test::write_attribute;
+using test::write_values;
 
 // One particle of mass 2, velocity 3 and internal energy 1e8, in the middle of a pixel.
 class MapUnitsOfGizmo : public ::testing::Test {
  protected:
   void write(const std::vector<std::pair<std::string, double>>& header) const {
-    const Hdf5Output file = testing::create_hdf5(path_);
-    testing::make_group(file, "Header");
+    const Hdf5Output file = test::create_hdf5(path_);
+    test::make_group(file, "Header");
     write_attribute(file, "Header", "NumPart_ThisFile", {1, 0, 0, 0, 0, 0});
     write_attribute(file, "Header", "GIZMO_version", {2022});
     for (const auto& [name, value] : header)
@@ -37,7 +37,7 @@ class MapUnitsOfGizmo : public ::testing::Test {
     scene.map.unit = unit;
     return static_cast<double>(test::map_of(scene, *open_snapshot(path_)).values[0]);
   }
-  const testing::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "snapshot_000.hdf5";
 };
 

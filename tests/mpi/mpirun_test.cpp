@@ -10,7 +10,7 @@
 #include "mpi/under_mpi.h"
 #include "spread/component_texts.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -156,4 +156,4 @@ TEST_P(MpiRun, RefusesTheReference) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

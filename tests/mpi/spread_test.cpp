@@ -10,14 +10,14 @@
 #include "mpi/under_mpi.h"
 #include "spread/component_texts.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using ::testing::HasSubstr;
 
 const std::string head = "[image]\nsize = [120, 90]\n";
 const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
-const std::string gas = test::gas_component, stars = test::stars_component;
+const std::string gas_text = test::gas_component, stars_text = test::stars_component;
 
 class SpreadRun : public UnderMpi {
  protected:
@@ -43,10 +43,10 @@ INSTANTIATE_TEST_SUITE_P(Mpis, SpreadRun, all_mpis(), name_of_mpi);
 // Of three ranks one has no particles.
 TEST_P(SpreadRun, DrawsTheBitsOfOneProcess) {
   const std::vector<std::string> scenes = {
-      head + gas + "absorption = 0\n",
-      head + camera + gas,
-      head + camera + gas + "absorption = 0.2\n" + stars,
-      head + camera + gas + "select = { where = \"internal_energy > 300\" }\n" + stars,
+      head + gas_text + "absorption = 0\n",
+      head + camera + gas_text,
+      head + camera + gas_text + "absorption = 0.2\n" + stars_text,
+      head + camera + gas_text + "select = { where = \"internal_energy > 300\" }\n" + stars_text,
   };
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     write("scene.toml", scenes[s]);
@@ -62,7 +62,7 @@ TEST_P(SpreadRun, DrawsTheBitsOfOneProcess) {
 }
 
 TEST_P(SpreadRun, TellsOnceWhatAllRanksDoWrong) {
-  write("scene.toml", head + camera + gas + "intensity = { field = \"entropy\" }\n");
+  write("scene.toml", head + camera + gas_text + "intensity = { field = \"entropy\" }\n");
   const ProgramResult result = simulate(3, "scene.toml a.floats");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(own_line(result.err, "simulation"), HasSubstr("entropy"));
@@ -70,7 +70,7 @@ TEST_P(SpreadRun, TellsOnceWhatAllRanksDoWrong) {
 }
 
 TEST_P(SpreadRun, NamesTheRankThatHasNoDevice) {
-  write("scene.toml", head + camera + gas);
+  write("scene.toml", head + camera + gas_text);
   const ProgramResult result = simulate(3, "scene.toml a.floats 1000 none_of_this_name");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
@@ -79,7 +79,7 @@ TEST_P(SpreadRun, NamesTheRankThatHasNoDevice) {
 }
 
 TEST_P(SpreadRun, EndsWhereARankIsKilled) {
-  write("scene.toml", head + camera + gas + "absorption = 0.2\n" + stars);
+  write("scene.toml", head + camera + gas_text + "absorption = 0.2\n" + stars_text);
   write_one_is_killed("\"$simulation\" scene.toml a.floats");
   const ProgramResult result = run_simulation(mpirun(3), "./one_is_killed");
   EXPECT_NE(result.exit_code, 0);
@@ -88,4 +88,4 @@ TEST_P(SpreadRun, EndsWhereARankIsKilled) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

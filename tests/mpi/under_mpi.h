@@ -12,7 +12,7 @@
 
 #include "cli/program.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 struct Mpi {
   std::string name;  // of the module
@@ -83,4 +83,4 @@ inline std::string name_of_mpi(const ::testing::TestParamInfo<Mpi>& info) {
   return info.param.name;
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

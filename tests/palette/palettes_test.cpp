@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 namespace fs = std::filesystem;
 
-std::string message_for(const std::string& name) {
+std::string message_for_name(const std::string& name) {
   try {
     load_palette(name);
   } catch (const Error& error) {
@@ -232,12 +232,12 @@ TEST_F(PaletteFolder, LeavesTheBuiltInPalettesInPlace) {
 TEST_F(PaletteFolder, IsSearchedForNamesNearby) {
   write("swirl.txt", "1 1 1\n");
   use_folder();
-  EXPECT_THAT(message_for("swril"), HasSubstr("; did you mean swirl?"));
+  EXPECT_THAT(message_for_name("swril"), HasSubstr("; did you mean swirl?"));
 }
 
 TEST_F(PaletteFolder, IsRefusedWhenItIsNone) {
   setenv("SPLOTCHCL_PALETTES", (folder_ / "nowhere").c_str(), 1);
-  EXPECT_THAT(message_for("magma"), HasSubstr("SPLOTCHCL_PALETTES: found"));
+  EXPECT_THAT(message_for_name("magma"), HasSubstr("SPLOTCHCL_PALETTES: found"));
 }
 
 TEST_F(PaletteFolder, MayHoldAFileGivenByPath) {
@@ -248,20 +248,21 @@ TEST_F(PaletteFolder, MayHoldAFileGivenByPath) {
 
 TEST_F(PaletteFolder, NamesFileAndLineOfABadPalette) {
   write("bad.txt", "0 0 0\n0 0 x\n");
-  EXPECT_THAT(message_for((folder_ / "bad.txt").string()), HasSubstr("bad.txt:2: found \"x\""));
+  EXPECT_THAT(message_for_name((folder_ / "bad.txt").string()),
+              HasSubstr("bad.txt:2: found \"x\""));
 }
 
 TEST(UnknownPalettes, AreRefusedWithTheNearestName) {
-  EXPECT_THAT(message_for("infreno"), HasSubstr("; did you mean inferno?"));
-  EXPECT_THAT(message_for("Magma"), HasSubstr("; did you mean magma?"));
-  EXPECT_THAT(message_for("veil.txt"), HasSubstr("; did you mean veil?"));
-  EXPECT_THAT(message_for("palettes/gray.pal"), HasSubstr("; did you mean gray?"));
-  EXPECT_THAT(message_for("rdbu"), HasSubstr("; did you mean RdBu?"));
-  EXPECT_THAT(message_for("infreno_r"), HasSubstr("; did you mean inferno_r?"));
+  EXPECT_THAT(message_for_name("infreno"), HasSubstr("; did you mean inferno?"));
+  EXPECT_THAT(message_for_name("Magma"), HasSubstr("; did you mean magma?"));
+  EXPECT_THAT(message_for_name("veil.txt"), HasSubstr("; did you mean veil?"));
+  EXPECT_THAT(message_for_name("palettes/gray.pal"), HasSubstr("; did you mean gray?"));
+  EXPECT_THAT(message_for_name("rdbu"), HasSubstr("; did you mean RdBu?"));
+  EXPECT_THAT(message_for_name("infreno_r"), HasSubstr("; did you mean inferno_r?"));
 }
 
 TEST(UnknownPalettes, AreRefusedWithTheCommandThatListsAll) {
-  EXPECT_THAT(message_for("mauve"), HasSubstr("\"splotchcl palettes\" lists"));
+  EXPECT_THAT(message_for_name("mauve"), HasSubstr("\"splotchcl palettes\" lists"));
 }
 
 TEST(UnknownPalettes, AreAMistakeOfTheScene) {

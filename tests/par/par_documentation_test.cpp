@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(ParDocumentation, NamesEveryKey) {
-  const std::string page = testing::read_text(test::source_folder() / "docs" / "original-files.md");
+  const std::string page = test::read_text(test::source_folder() / "docs" / "original-files.md");
   ASSERT_FALSE(page.empty());
   for (const std::string& key : par::translated_keys())
     EXPECT_THAT(page, HasSubstr("`" + key + "`")) << key;

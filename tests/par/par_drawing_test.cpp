@@ -21,7 +21,7 @@ namespace {
 using test::MemorySnapshot;
 using test::OriginalParticle;
 using test::OriginalPicture;
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 struct Case {
   const char* name;

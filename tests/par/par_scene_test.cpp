@@ -43,7 +43,7 @@ class ParScenes : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::vector<std::string> notes_;
 };
 

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/constants.h"
 #include "splotchcl/frame.h"
 
 // Small frames whose pictures can be worked out on paper: an orthographic camera at the
 // origin looks along +z with one pixel per length unit, so that a particle at (x, y, z)
 // falls on pixel coordinates (x + width / 2, y + height / 2) and sigma is in pixels.
 namespace splotchcl::test {
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Cloud {
   double x = 0, y = 0, z = 1;

@@ -13,7 +13,6 @@ using test::Cloud;
 using test::component_of;
 using test::frame_of;
 using test::one_color;
-using test::pi;
 
 DrawnComponent emitting(const std::vector<Cloud>& clouds) {
   DrawnComponent component = component_of(clouds, one_color(1, 0.5f, 0.25f));

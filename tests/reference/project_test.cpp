@@ -13,7 +13,6 @@ using test::Cloud;
 using test::component_of;
 using test::frame_of;
 using test::one_color;
-using test::pi;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();

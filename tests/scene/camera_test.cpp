@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -16,7 +17,6 @@ namespace {
 using namespace boost::qvm;
 using ::testing::HasSubstr;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Pixel {

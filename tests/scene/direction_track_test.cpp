@@ -5,10 +5,10 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
+#include "scene/constants.h"
+
 namespace splotchcl {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Vec3 on_circle(double degrees) {
   const double angle = degrees * pi / 180;

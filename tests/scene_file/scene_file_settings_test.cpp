@@ -337,13 +337,13 @@ TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
   EXPECT_EQ(scene.components[0].color.maximum, 2);
 }
 
-struct Refused {
+struct RefusedSetting {
   std::string setting, message;
 };
-void PrintTo(const Refused& refused, std::ostream* out) {
+void PrintTo(const RefusedSetting& refused, std::ostream* out) {
   *out << refused.setting;
 }
-class SettingsRefuse : public ::testing::TestWithParam<Refused> {};
+class SettingsRefuse : public ::testing::TestWithParam<RefusedSetting> {};
 
 TEST_P(SettingsRefuse, InOneLineThatNamesTheSetting) {
   const std::string message = message_for(text, {GetParam().setting});
@@ -356,40 +356,44 @@ TEST_P(SettingsRefuse, InOneLineThatNamesTheSetting) {
 INSTANTIATE_TEST_SUITE_P(
     WhatIsWrong, SettingsRefuse,
     ::testing::Values(
-        Refused{"", "found no key with a value"},
-        Refused{"tolerance", "setting \"tolerance\": found no key with a value"},
-        Refused{"=3", "found no key with a value"},
-        Refused{"tolerance=", "key tolerance: found string \"\""},
-        Refused{"tolerance=-1", "setting \"tolerance=-1\": key tolerance: found integer -1"},
-        Refused{"tolerance=low", "key tolerance: found string \"low\""},
-        Refused{"tolerance=1e999", "key tolerance: found"},
-        Refused{"tolerence=1", "did you mean tolerance?"},
-        Refused{"camera.fov=30", "key camera.fov: found an unknown key, expected one of position"},
-        Refused{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
-        Refused{"camera.feild=3", "did you mean camera.field_of_view?"},
-        Refused{"component.gas.colour.field=density", "did you mean component.0.color.field?"},
-        Refused{"component.gas.colour.feild=density", "did you mean component.0.color.field?"},
-        Refused{"component.gas.field=density", "did you mean component.0.size.field?"},
-        Refused{"imgae.sise=[1,1]", "did you mean image.size?"},
-        Refused{"brightnes=2", "did you mean component.0.brightness?"},
-        Refused{"camera.near.x=30", "key camera.near.x: found an unknown key"},
-        Refused{"camera.=30", "key camera.: found an unknown key"},
-        Refused{"camera=30", "key camera: found integer 30, expected a table"},
-        Refused{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
-        Refused{"image.size=[640,480", "key image.size: found string \"[640,480\""},
-        Refused{"image.size=640x480x3", "key image.size: found string \"640x480x3\""},
-        Refused{"component=1", "key component: found integer 1"},
-        Refused{"component.palette=magma", "key component.palette: found no such component"},
-        Refused{"component.3.palette=magma", "expected a number from 0 to 2 or a name (gas, dark"},
-        Refused{"component.00.palette=magma", "key component.00: found no such component"},
-        Refused{"component.-1.palette=magma", "key component.-1: found no such component"},
-        Refused{"component.gass.palette=magma", "did you mean gas?"},
-        Refused{"component.gas.pallette=magma", "did you mean component.0.palette?"},
-        Refused{"component.gas=3", "key component.0: found integer 3, expected a table"},
-        Refused{"component.gas.color.min=1", "found a value without a field"},
-        Refused{"component.1.name=gas", "which another component has"},
-        Refused{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
-        Refused{"to\nler=1", "key to ler: found an unknown key"}));
+        RefusedSetting{"", "found no key with a value"},
+        RefusedSetting{"tolerance", "setting \"tolerance\": found no key with a value"},
+        RefusedSetting{"=3", "found no key with a value"},
+        RefusedSetting{"tolerance=", "key tolerance: found string \"\""},
+        RefusedSetting{"tolerance=-1", "setting \"tolerance=-1\": key tolerance: found integer -1"},
+        RefusedSetting{"tolerance=low", "key tolerance: found string \"low\""},
+        RefusedSetting{"tolerance=1e999", "key tolerance: found"},
+        RefusedSetting{"tolerence=1", "did you mean tolerance?"},
+        RefusedSetting{"camera.fov=30",
+                       "key camera.fov: found an unknown key, expected one of position"},
+        RefusedSetting{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
+        RefusedSetting{"camera.feild=3", "did you mean camera.field_of_view?"},
+        RefusedSetting{"component.gas.colour.field=density",
+                       "did you mean component.0.color.field?"},
+        RefusedSetting{"component.gas.colour.feild=density",
+                       "did you mean component.0.color.field?"},
+        RefusedSetting{"component.gas.field=density", "did you mean component.0.size.field?"},
+        RefusedSetting{"imgae.sise=[1,1]", "did you mean image.size?"},
+        RefusedSetting{"brightnes=2", "did you mean component.0.brightness?"},
+        RefusedSetting{"camera.near.x=30", "key camera.near.x: found an unknown key"},
+        RefusedSetting{"camera.=30", "key camera.: found an unknown key"},
+        RefusedSetting{"camera=30", "key camera: found integer 30, expected a table"},
+        RefusedSetting{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
+        RefusedSetting{"image.size=[640,480", "key image.size: found string \"[640,480\""},
+        RefusedSetting{"image.size=640x480x3", "key image.size: found string \"640x480x3\""},
+        RefusedSetting{"component=1", "key component: found integer 1"},
+        RefusedSetting{"component.palette=magma", "key component.palette: found no such component"},
+        RefusedSetting{"component.3.palette=magma",
+                       "expected a number from 0 to 2 or a name (gas, dark"},
+        RefusedSetting{"component.00.palette=magma", "key component.00: found no such component"},
+        RefusedSetting{"component.-1.palette=magma", "key component.-1: found no such component"},
+        RefusedSetting{"component.gass.palette=magma", "did you mean gas?"},
+        RefusedSetting{"component.gas.pallette=magma", "did you mean component.0.palette?"},
+        RefusedSetting{"component.gas=3", "key component.0: found integer 3, expected a table"},
+        RefusedSetting{"component.gas.color.min=1", "found a value without a field"},
+        RefusedSetting{"component.1.name=gas", "which another component has"},
+        RefusedSetting{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
+        RefusedSetting{"to\nler=1", "key to ler: found an unknown key"}));
 
 TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
   const std::string panorama =

@@ -268,7 +268,7 @@ class SelectionByIds : public ::testing::Test {
     component.select.id_file = path;
     return component;
   }
-  const splotchcl::testing::TemporaryFolder folder_;
+  const splotchcl::test::TemporaryFolder folder_;
 };
 
 TEST_F(SelectionByIds, TellsApartWhatSinglePrecisionCannot) {

@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 

@@ -13,7 +13,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 
 TEST(SnapshotMotion, IsCosmologicalWhereTheTimeIsTheScaleFactor) {
   const TemporaryFolder folder;

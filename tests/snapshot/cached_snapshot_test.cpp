@@ -71,7 +71,7 @@ TEST(CachedSnapshot, KnowsAFieldByAllItsNames) {
 }
 
 TEST(CachedSnapshot, RemembersThePictureBehindEverything) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = folder / "sky.png";
   write_image(file, Image(4, 2));
   Scene scene = scene_left_to_the_data();

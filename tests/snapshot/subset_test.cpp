@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using test::MemorySnapshot;
 using ::testing::Contains;
 using ::testing::Each;

@@ -24,7 +24,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string head = "snapshot = \"memory\"\n[image]\nsize = [32, 32]\n";
+const std::string small_head = "snapshot = \"memory\"\n[image]\nsize = [32, 32]\n";
 const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
 const std::string component = "[[component]]\nname = \"gas\"\ntypes = \"gas\"\n";
 
@@ -59,14 +59,14 @@ std::vector<std::string> failures_to_load(const std::function<std::string(int ra
 
 TEST(SpreadFailures, AreToldOnce) {
   EXPECT_THAT(failures_to_load([](int) {
-                return head + camera + component + "color = { field = \"entropy\" }\n";
+                return small_head + camera + component + "color = { field = \"entropy\" }\n";
               }),
               ElementsAre(HasSubstr("entropy")));
 }
 
 TEST(SpreadFailures, AreThoseOfScenesThatDiffer) {
   EXPECT_THAT(failures_to_load([](int rank) {
-                return head + camera + component + (rank == 2 ? "brightness = 2\n" : "");
+                return small_head + camera + component + (rank == 2 ? "brightness = 2\n" : "");
               }),
               ElementsAre(HasSubstr("another scene on rank 2")));
 }
@@ -92,9 +92,10 @@ TEST(SpreadFailures, LeaveTheNextPictureAsItIs) {
     const RankOfSimulation own(arrays, uneven(2), ranks);
     std::vector<std::string> notes;
     const Scene wrong =
-        parse_scene(head + camera + component + "color = { field = \"entropy\" }\n", "scene");
+        parse_scene(small_head + camera + component + "color = { field = \"entropy\" }\n", "scene");
     EXPECT_ANY_THROW(load_frame(wrong, own.all, notes));
-    const Frame frame = load_frame(parse_scene(head + camera + component, "scene"), own.all, notes);
+    const Frame frame =
+        load_frame(parse_scene(small_head + camera + component, "scene"), own.all, notes);
     EXPECT_EQ(frame.components.front().particles.position[299],
               arrays.at(gas).vectors.at("position")[299]);
   });
@@ -142,7 +143,7 @@ TEST(SpreadFailures, WhileAllDrawEndAllProcesses) {
     FrameDrawer drawer(options);
     const SpreadSnapshot all(own, options.ranks);
     try {
-      drawer.draw(parse_scene(head + camera + component, "scene"), all);
+      drawer.draw(parse_scene(small_head + camera + component, "scene"), all);
     } catch (...) {
       codes[static_cast<std::size_t>(ranks.rank())] = failing.aborted_with;
       throw;
@@ -158,7 +159,7 @@ TEST(SpreadFailures, AreRenderersOfOneProcess) {
   EXPECT_THAT(failures(2,
                        [&](Communicator& ranks) {
                          const RankOfSimulation own(arrays, uneven(2), ranks);
-                         FrameDrawer().draw(parse_scene(head + camera + component, "scene"),
+                         FrameDrawer().draw(parse_scene(small_head + camera + component, "scene"),
                                             own.all);
                        }),
               ElementsAre(HasSubstr("spread over 2 processes and a renderer of 1")));

@@ -13,7 +13,7 @@
 #include "splotchcl/image_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 class UntrustedFile : public ::testing::Test {
@@ -62,4 +62,4 @@ TEST_F(UntrustedFile, ThatIsHalfAPictureIsAnError) {
 }
 
 }  // namespace
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -11,7 +11,7 @@ namespace splotchcl {
 namespace {
 
 // Refining and blurring read up to a strip and a blur past a row's last.
-constexpr std::uint64_t padding = STRIP + MOST_BLUR_WEIGHTS;
+constexpr std::uint64_t plane_padding = STRIP + MOST_BLUR_WEIGHTS;
 
 // To a power of two: the parts of lists are others in each chunk, and what the pool has serves
 // again.
@@ -50,7 +50,8 @@ void Compositor::take_clouds(const CloudTables& clouds) {
 
 Planes Compositor::room() const {
   Planes planes;
-  planes.light = context_.device.pool.get<float>(context_.layout.plane_floats + padding, "planes");
+  planes.light =
+      context_.device.pool.get<float>(context_.layout.plane_floats + plane_padding, "planes");
   return planes;
 }
 

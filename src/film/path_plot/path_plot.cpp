@@ -26,7 +26,6 @@ constexpr Light sky_light = {0.35F, 0.9F, 0.4F};
 constexpr Light right_light = {1.0F, 0.6F, 0.25F};
 constexpr Light view_light = {0.5F, 0.5F, 0.55F};
 constexpr Light eye_light = {0.95F, 0.4F, 0.95F};
-constexpr Light text_light = {0.75F, 0.75F, 0.75F};
 
 // From blue at the first frame to red at the last.
 Light time_light(double t) {

@@ -9,7 +9,6 @@ namespace splotchcl {
 namespace {
 
 constexpr Light frame_light = {0.3F, 0.3F, 0.3F};
-constexpr Light text_light = {0.75F, 0.75F, 0.75F};
 constexpr double text_size = 17;
 
 // 1, 2 or 5 times a power of ten, so that about five of them make the length.

@@ -8,6 +8,9 @@
 
 namespace splotchcl {
 
+// Of what is written on the plot.
+constexpr Light text_light = {0.75F, 0.75F, 0.75F};
+
 struct PlotPoint {
   double x = 0, y = 0;  // in pixels, y downwards
 };

@@ -17,7 +17,7 @@
 namespace splotchcl {
 namespace {
 
-struct Member {
+struct Hdf5Member {
   std::filesystem::path path;
   GadgetHeader own_header;
   Hdf5Links links;
@@ -33,9 +33,9 @@ struct Member {
   }
 };
 
-Member read_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
+Hdf5Member read_hdf5_member(const std::filesystem::path& path, std::vector<std::string>& notes) {
   const Hdf5File file(path);
-  Member member;
+  Hdf5Member member;
   member.path = path;
   member.own_header = read_hdf5_header(file, notes);
   count_rows_without_header(file, member.own_header, notes);
@@ -76,15 +76,15 @@ class GadgetHdf5Snapshot : public Snapshot {
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
   void choose_origin();
 
-  std::vector<Member> members_;
+  std::vector<Hdf5Member> members_;
   SnapshotInfo info_;
   Vec3 origin_ = {{0, 0, 0}};
   double smoothing_length_factor_ = 1;  // from what the file has to the support radius
 };
 
 GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
-  members_ = read_members(path, read_member, info_);
-  for (const Member& member : members_) {
+  members_ = read_members(path, read_hdf5_member, info_);
+  for (const Hdf5Member& member : members_) {
     info_.files_beside.insert(info_.files_beside.end(), member.links.followed.begin(),
                               member.links.followed.end());
   }
@@ -125,8 +125,9 @@ void GadgetHdf5Snapshot::read_motion() {
     const FieldInfo* const field = find_field(type, name);
     return fmt::format("/PartType{}/{}", type.type, field == nullptr ? name : field->file_name);
   };
-  const auto member = std::find_if(members_.begin(), members_.end(),
-                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  const auto member = std::find_if(members_.begin(), members_.end(), [&](const Hdf5Member& m) {
+    return m.fields.count(type.type) > 0;
+  });
   const Hdf5File file(member->path);
   info_.cosmology =
       read_cosmology(file, member->header(), path_of("position"), path_of("velocity"));
@@ -134,7 +135,7 @@ void GadgetHdf5Snapshot::read_motion() {
 }
 
 bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
-  return std::all_of(members_.begin(), members_.end(), [&](const Member& member) {
+  return std::all_of(members_.begin(), members_.end(), [&](const Hdf5Member& member) {
     if (member.fields.count(type) == 0) return true;
     const Hdf5Field* const own = member.find_field(type, field.label);
     return own != nullptr && own->values_per_particle == field.values_per_particle;
@@ -142,8 +143,9 @@ bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) co
 }
 
 void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
-  const auto member = std::find_if(members_.begin(), members_.end(),
-                                   [&](const Member& m) { return m.fields.count(type.type) > 0; });
+  const auto member = std::find_if(members_.begin(), members_.end(), [&](const Hdf5Member& m) {
+    return m.fields.count(type.type) > 0;
+  });
   const Hdf5File file(member->path);
   const BaseUnits units = read_base_units(file);
   for (const Hdf5Field& field : member->fields.at(type.type)) {
@@ -178,7 +180,7 @@ void GadgetHdf5Snapshot::name_unit_of_table_mass(const Hdf5File& file, ParticleT
 
 std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {
   std::vector<Hdf5Values> parts;
-  for (const Member& member : members_) {
+  for (const Hdf5Member& member : members_) {
     const Hdf5Field* const field = member.find_field(type, label);
     if (field != nullptr) parts.push_back({member.path, field->dataset});
   }

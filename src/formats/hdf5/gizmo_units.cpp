@@ -17,7 +17,7 @@ bool is_comoving(const Hdf5File& file, const SnapshotInfo& info) {
 }
 
 // What GIZMO writes: comoving lengths, and velocities over the root of the scale factor.
-UnitPowers powers_of(const std::string& field) {
+UnitPowers gizmo_powers_of(const std::string& field) {
   UnitPowers powers;
   if (field == "position" || field == "smoothing_length") {
     powers.length = powers.scale_factor = 1;
@@ -58,7 +58,7 @@ void name_gizmo_units(const Hdf5File& file, SnapshotInfo& info) {
   const bool has_scale_factor = is_comoving(file, info);
   for (ParticleTypeInfo& type : info.types) {
     for (FieldInfo& field : type.fields) {
-      UnitPowers powers = powers_of(field.name);
+      UnitPowers powers = gizmo_powers_of(field.name);
       if (has_hubble) powers.hubble = -powers.length - powers.mass;
       if (!has_scale_factor) powers.scale_factor = 0;
       field.unit = unit_name(powers, units);

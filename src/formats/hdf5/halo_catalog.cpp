@@ -16,7 +16,7 @@ namespace splotchcl {
 namespace {
 
 namespace fs = std::filesystem;
-using Numbers = std::vector<std::uint64_t>;
+using ParticleNumbers = std::vector<std::uint64_t>;
 
 constexpr const char* lengths_by_type = "/Group/GroupLenType";
 constexpr const char* offsets_by_type = "/Group/GroupOffsetType";
@@ -29,7 +29,7 @@ constexpr const char* offsets_by_type = "/Group/GroupOffsetType";
 }
 
 // One value per row. Throws DataError where the dataset is anything else.
-Numbers read_numbers(const Hdf5File& file, const std::string& dataset) {
+ParticleNumbers read_numbers(const Hdf5File& file, const std::string& dataset) {
   auto numbers =
       file.has(dataset) ? read_integers({{file.path(), file.dataset(dataset)}}) : std::nullopt;
   if (numbers) return std::move(*numbers);
@@ -41,7 +41,7 @@ Numbers read_numbers(const Hdf5File& file, const std::string& dataset) {
 struct TypeTable {
   std::uint64_t haloes = 0;
   std::uint64_t types = 0;
-  Numbers numbers;
+  ParticleNumbers numbers;
 
   std::uint64_t at(std::uint64_t halo, int type) const {
     const auto column = static_cast<std::uint64_t>(type);
@@ -129,9 +129,9 @@ HaloMembers read_by_membership(const fs::path& path, std::uint64_t number, int t
 
 // The identifiers of one halo: those from its offset to the next one's.
 void append_ids(const fs::path& groups, const fs::path& particles, const char* offsets_name,
-                std::uint64_t row, Numbers& ids) {
-  const Numbers offsets = read_numbers(Hdf5File(groups), offsets_name);
-  const Numbers all = read_numbers(Hdf5File(particles), "Particle_IDs");
+                std::uint64_t row, ParticleNumbers& ids) {
+  const ParticleNumbers offsets = read_numbers(Hdf5File(groups), offsets_name);
+  const ParticleNumbers all = read_numbers(Hdf5File(particles), "Particle_IDs");
   const std::uint64_t first = row < offsets.size() ? offsets[row] : all.size();
   const std::uint64_t end = row + 1 < offsets.size() ? offsets[row + 1] : all.size();
   if (first > end || end > all.size()) {
@@ -158,9 +158,9 @@ HaloMembers read_by_ids(const fs::path& groups, std::uint64_t number) {
         groups.string()));
   }
   const Hdf5File file(groups);
-  const Numbers sizes = read_numbers(file, "Group_Size");
+  const ParticleNumbers sizes = read_numbers(file, "Group_Size");
   if (number < 1 || number > sizes.size()) refuse_number(groups, number, 1, sizes.size());
-  Numbers ids;
+  ParticleNumbers ids;
   append_ids(groups, beside("catalog_particles"), "Offset", number - 1, ids);
   const fs::path unbound = beside("catalog_particles.unbound");
   if (fs::is_regular_file(unbound)) append_ids(groups, unbound, "Offset_unbound", number - 1, ids);

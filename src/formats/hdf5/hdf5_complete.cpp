@@ -16,7 +16,7 @@ using PropertyList = Hdf5Handle<H5Pclose>;
 using Space = Hdf5Handle<H5Sclose>;
 
 // Deflate packs no better than 1032 to 1.
-constexpr std::uint64_t best_packing = 1032;
+constexpr std::uint64_t best_packing_of_deflate = 1032;
 
 // None where the count overflows.
 std::optional<std::uint64_t> bytes_of(const Hdf5Dataset& dataset) {
@@ -55,7 +55,7 @@ std::uint64_t packing_of(const std::vector<Filter>& filters) {
     return is_plain(filter) || filter.id == H5Z_FILTER_DEFLATE;
   };
   if (std::all_of(filters.begin(), filters.end(), is_plain)) return 1;
-  return std::all_of(filters.begin(), filters.end(), is_known) ? best_packing : 0;
+  return std::all_of(filters.begin(), filters.end(), is_known) ? best_packing_of_deflate : 0;
 }
 
 bool has_all_bytes(const Hdf5Dataset& dataset, hid_t handle) {

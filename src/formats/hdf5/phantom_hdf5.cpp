@@ -64,7 +64,7 @@ struct SplitVector {
 constexpr std::array<SplitVector, 3> split_vectors = {
     {{"xyz", {"x", "y", "z"}}, {"vxyz", {"vx", "vy", "vz"}}, {"Bxyz", {"Bx", "By", "Bz"}}}};
 
-UnitPowers powers_of(const std::string& field) {
+UnitPowers phantom_powers_of(const std::string& field) {
   UnitPowers powers;
   if (field == "position" || field == "smoothing_length") powers.length = 1;
   if (field == "velocity") powers.velocity = 1;
@@ -328,7 +328,7 @@ void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
     type.fields.push_back({"density", density_label, 1, ""});
   }
   for (FieldInfo& field : type.fields)
-    field.unit = unit_name(powers_of(field.name), units);
+    field.unit = unit_name(phantom_powers_of(field.name), units);
   info_.types.push_back(std::move(type));
 }
 

@@ -21,7 +21,7 @@ namespace splotchcl {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t most_columns = 4096;
+constexpr std::size_t most_text_columns = 4096;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
 
 std::string_view trim(std::string_view text) {
@@ -109,7 +109,7 @@ std::string_view take_cell(std::string_view& line, char separator, bool& has_mor
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
-  for (bool has_more = true; has_more && cells.size() < most_columns;) {
+  for (bool has_more = true; has_more && cells.size() < most_text_columns;) {
     cells.push_back(take_cell(line, separator, has_more));
   }
   return cells;

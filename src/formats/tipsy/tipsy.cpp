@@ -18,7 +18,7 @@ namespace splotchcl {
 namespace {
 
 constexpr std::uint64_t unpadded_header_bytes = 28;
-constexpr std::uint64_t header_bytes = 32;
+constexpr std::uint64_t padded_header_bytes = 32;
 
 // The auxiliary arrays of Gasoline and ChaNGa, and that of pynbody: half of the radius that the
 // kernel reaches.
@@ -128,8 +128,8 @@ class TipsySnapshot : public Snapshot {
 
   std::shared_ptr<const MappedFile> file_;
   TipsyHeader header_;
-  std::uint64_t start_ = header_bytes;  // of the first particle
-  std::vector<TipsyArray> arrays_;      // beside the file
+  std::uint64_t start_ = padded_header_bytes;  // of the first particle
+  std::vector<TipsyArray> arrays_;             // beside the file
   SnapshotInfo info_;
 };
 
@@ -164,7 +164,7 @@ std::uint64_t TipsySnapshot::first_of(std::size_t group) const {
 
 void TipsySnapshot::find_start() {
   const std::uint64_t particle_bytes = header_.particle_bytes();
-  if (file_->size() == particle_bytes + header_bytes) return;
+  if (file_->size() == particle_bytes + padded_header_bytes) return;
   if (file_->size() == particle_bytes + unpadded_header_bytes) {
     start_ = unpadded_header_bytes;
     return;
@@ -173,7 +173,7 @@ void TipsySnapshot::find_start() {
       "{}: a Tipsy file of {} gas, {} dark and {} star particles should have {} bytes, but has {}; "
       "it is truncated or damaged: copy or write it again",
       file_->path().string(), header_.counts[0], header_.counts[1], header_.counts[2],
-      particle_bytes + header_bytes, file_->size()));
+      particle_bytes + padded_header_bytes, file_->size()));
 }
 
 void TipsySnapshot::describe_types() {

@@ -14,7 +14,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t sample_limit = 4096;
+constexpr std::size_t brightness_sample_limit = 4096;
 constexpr int cells_along = 24;
 
 // The light of sampled clouds, as if it were spread over the cell of their centers, or over
@@ -54,7 +54,7 @@ class LightOfCells {
 
 double guess_brightness(const Frame& frame) {
   LightOfCells cells(frame);
-  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
+  const std::size_t stride = sample_stride(particle_count(frame), brightness_sample_limit);
   for (const DrawnComponent& component : frame.components) {
     const double light =
         static_cast<double>(stride) * peak_emission(component) / component.reference_column;

@@ -13,7 +13,7 @@ namespace splotchcl {
 namespace {
 
 // Of more than `most_in_full` so many.
-constexpr std::size_t sample_limit = 32768, most_in_full = 65536;
+constexpr std::size_t cloud_sample_limit = 32768, most_in_full = 65536;
 
 bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
   const double reach = 7 * cloud.sigma;  // no cloud is drawn farther
@@ -131,7 +131,7 @@ void one_after_the_other(std::size_t count, std::size_t block_size,
 
 std::vector<SampledCloud> sample_clouds(const Frame& frame, const BlockLoop& loop) {
   const std::uint64_t count = particle_count(frame);
-  const std::size_t stride = count <= most_in_full ? 1 : sample_stride(count, sample_limit);
+  const std::size_t stride = count <= most_in_full ? 1 : sample_stride(count, cloud_sample_limit);
   std::vector<SampledCloud> sample;
   for (const DrawnComponent& component : frame.components) {
     const bool may_share = are_arrays(component.particles);

@@ -17,7 +17,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t sample_limit = 2048;
+constexpr std::size_t order_sample_limit = 2048;
 
 // What a particle takes away, all pixels together, and the E / A that it would have if it were
 // opaque.
@@ -35,11 +35,11 @@ std::uint32_t ascending_bits(float value) {
 }
 
 // Splats are drawn so many sigma to each side, or a little less.
-constexpr double extent = 2.5;
+constexpr double layer_extent = 2.5;
 
 // The length of what a splat has in common with pixels [first, end) along an axis.
 double overlap(double center, double sigma, int first, int end) {
-  const double reach = extent * sigma;
+  const double reach = layer_extent * sigma;
   return std::max(0.0,
                   std::min<double>(center + reach, end) - std::max<double>(center - reach, first));
 }
@@ -131,7 +131,7 @@ double light_behind_of(std::vector<SampledSource>& sources, const Frame& frame) 
 
 OrderedGuess guess_order(const Frame& frame) {
   if (!std::isfinite(brightest_source(frame))) return {};
-  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
+  const std::size_t stride = sample_stride(particle_count(frame), order_sample_limit);
   Sample sample;
   for (const DrawnComponent& component : frame.components)
     sample_component(component, frame, stride, sample);

@@ -11,15 +11,15 @@ namespace splotchcl {
 namespace {
 
 constexpr std::size_t taps = refinement_taps;
-using Weights = SmallVector<taps>;
+using TapWeights = SmallVector<taps>;
 
 // Old pixels from the first tap on; where the new one lies.
 constexpr int first_pixel = 1 - static_cast<int>(taps) / 2;
 constexpr double new_pixel = 0.25;
 
 // Interpolation by the polynomial through so many pixels around the new one.
-Weights lagrange_weights(int pixels) {
-  Weights weights{};
+TapWeights lagrange_weights(int pixels) {
+  TapWeights weights{};
   const int first = 1 - pixels / 2, last = pixels / 2;
   for (int i = first; i <= last; ++i) {
     double weight = 1;
@@ -31,14 +31,14 @@ Weights lagrange_weights(int pixels) {
   return weights;
 }
 
-// Weights that interpolate polynomials of degree 9, as those through ten pixels do, differ from
+// TapWeights that interpolate polynomials of degree 9, as those through ten pixels do, differ from
 // them by sums of tenth differences, of which sixteen pixels have six.
 constexpr int exact_pixels = 10;
 constexpr std::size_t changes = taps - exact_pixels;
-std::array<Weights, changes> tenth_differences() {
+std::array<TapWeights, changes> tenth_differences() {
   constexpr std::array<double, exact_pixels + 1> binomials = {1,   10,  45, 120, 210, 252,
                                                               210, 120, 45, 10,  1};
-  std::array<Weights, changes> differences{};
+  std::array<TapWeights, changes> differences{};
   for (std::size_t first = 0; first < changes; ++first) {
     for (std::size_t k = 0; k < binomials.size(); ++k)
       differences[first][first + k] = (k % 2 == 0 ? 1 : -1) * binomials[k] / binomials[5];
@@ -62,10 +62,10 @@ double overlap(double distance, double sigma) {
 
 // The least integral of the squared error over all places of a Gaussian: of the weights w with
 // differences D and their amounts z, D' A D z = D' (b - A w).
-Weights least_squares_weights(double sigma) {
-  const Weights exact = lagrange_weights(exact_pixels);
-  const std::array<Weights, changes> differences = tenth_differences();
-  Weights at_distance{}, wanted{};
+TapWeights least_squares_weights(double sigma) {
+  const TapWeights exact = lagrange_weights(exact_pixels);
+  const std::array<TapWeights, changes> differences = tenth_differences();
+  TapWeights at_distance{}, wanted{};
   for (std::size_t i = 0; i < taps; ++i) {
     at_distance[i] = overlap(static_cast<double>(i), sigma);
     wanted[i] = overlap(static_cast<double>(i) + first_pixel - new_pixel, sigma);
@@ -75,11 +75,11 @@ Weights least_squares_weights(double sigma) {
     for (std::size_t k = 0; k < taps; ++k)
       products[i][k] = at_distance[i > k ? i - k : k - i];
   }
-  const Weights found = times(products, exact);
+  const TapWeights found = times(products, exact);
   SmallMatrix<changes> matrix{};
   SmallVector<changes> missing{};
   for (std::size_t a = 0; a < changes; ++a) {
-    const Weights of_change = times(products, differences[a]);
+    const TapWeights of_change = times(products, differences[a]);
     for (std::size_t i = 0; i < taps; ++i) {
       missing[a] += differences[a][i] * (wanted[i] - found[i]);
       for (std::size_t b = 0; b < changes; ++b)
@@ -87,7 +87,7 @@ Weights least_squares_weights(double sigma) {
     }
   }
   const SmallVector<changes> amounts = times(inverse_of(matrix), missing);
-  Weights weights = exact;
+  TapWeights weights = exact;
   for (std::size_t a = 0; a < changes; ++a) {
     for (std::size_t i = 0; i < taps; ++i)
       weights[i] += amounts[a] * differences[a][i];
@@ -104,19 +104,19 @@ struct ErrorFrom {
 // Ten taps, minimax over all phases of a Gaussian of sigma 2, with an error of at most 4e-5 at
 // sigma 4 (scripts/design_refinement.py, which finds weights within 2.1e-5 of these and the same
 // largest error).
-constexpr Weights minimax_weights = {0,
-                                     0,
-                                     0,
-                                     0.00283293931,
-                                     -0.0155961976,
-                                     0.0504577231,
-                                     -0.143700312,
-                                     0.884471756,
-                                     0.292573146,
-                                     -0.100249456,
-                                     0.0396250615,
-                                     -0.0127252842,
-                                     0.00231062281};
+constexpr TapWeights minimax_weights = {0,
+                                        0,
+                                        0,
+                                        0.00283293931,
+                                        -0.0155961976,
+                                        0.0504577231,
+                                        -0.143700312,
+                                        0.884471756,
+                                        0.292573146,
+                                        -0.100249456,
+                                        0.0396250615,
+                                        -0.0127252842,
+                                        0.00231062281};
 constexpr std::array<ErrorFrom, 6> minimax_errors = {
     {{2, 6.3e-4}, {2.11, 3.7e-4}, {2.2, 2.6e-4}, {2.3, 2.0e-4}, {2.5, 1.7e-4}, {2.8, 1.4e-4}}};
 

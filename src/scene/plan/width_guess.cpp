@@ -10,7 +10,7 @@ namespace splotchcl {
 namespace {
 
 // Each is a page of a mapped file that the system has to find.
-constexpr std::size_t sample_limit = 512;
+constexpr std::size_t width_sample_limit = 512;
 
 // Splats end about so many sigma beside their centers.
 constexpr double extent = 3;
@@ -25,7 +25,7 @@ bool is_in_picture(const PictureCloud& cloud, const Frame& frame) {
 
 WideSplats guess_wide_splats(const Frame& frame, double narrowest) {
   WideSplats found;
-  const std::size_t stride = sample_stride(particle_count(frame), sample_limit);
+  const std::size_t stride = sample_stride(particle_count(frame), width_sample_limit);
   const double per_pixel =
       static_cast<double>(stride) / (static_cast<double>(frame.width) * frame.height);
   for (const DrawnComponent& component : frame.components) {

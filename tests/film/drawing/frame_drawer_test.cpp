@@ -111,7 +111,7 @@ TEST_F(FrameDrawing, StoresPicturesAsTheSceneSays) {
 }
 
 TEST_F(FrameDrawing, WritesEachPictureToItsFile) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Scene pair = scene({"stereo.angle=3"});
   write_pictures(folder / "a.png", drawer_.draw(pair, arrays_).pictures, image_file_options(pair));
   EXPECT_TRUE(std::filesystem::exists(folder / "a_left.png"));

@@ -60,7 +60,7 @@ class Films : public ::testing::Test {
   }
   bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   GeneratedSnapshot halo_;
   FilmOptions options_;
   FilmReport report_;

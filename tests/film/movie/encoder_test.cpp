@@ -44,7 +44,7 @@ class FakeEncoder : public ::testing::Test {
   // Nothing but the folder with the script.
   bool left_nothing() const { return folder_.count_files() == 1; }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::string path_before_;
 };
 
@@ -57,11 +57,11 @@ TEST_F(FakeEncoder, ThatNeverReadsIsEnded) {
 TEST_F(FakeEncoder, ThatNeverEndsIsEndedWithWhatItStarted) {
   make_ffmpeg("sleep 1000 & echo $! > \"$(dirname \"$0\")/child\"; cat > /dev/null; wait");
   EXPECT_THAT(failure(), HasSubstr("wrote nothing"));
-  const std::string child = testing::read_text(folder_ / "bin" / "child");
+  const std::string child = test::read_text(folder_ / "bin" / "child");
   const std::string status = "/proc/" + child.substr(0, child.find('\n')) + "/status";
   // Its end may take a moment, and then wait for somebody to take note of it.
   const auto has_ended = [&status] {
-    const std::string text = testing::read_text(status);
+    const std::string text = test::read_text(status);
     return text.empty() || text.find("State:\tZ") != std::string::npos;
   };
   for (int i = 0; i < 500 && !has_ended(); ++i)
@@ -93,7 +93,7 @@ TEST_F(FakeEncoder, WithoutTenBitsIsRefusedBeforeAnythingIsDrawn) {
 TEST(RealEncoder, MakesAFilmOfTenBits) {
   if (std::system("ffmpeg -hide_banner -h encoder=libx265 | grep -q yuv420p10le") != 0)
     GTEST_SKIP() << "no ffmpeg, or none with 10 bits";
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   MovieSettings settings;
   settings.bits = 10;
   settings.codec = Codec::h265;
@@ -109,7 +109,7 @@ TEST(RealEncoder, MakesAFilmOfTenBits) {
 
 TEST(RealEncoder, MakesAFilmWhoseNameLooksLikeAnAddress) {
   if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Encoder encoder(folder / "http:film.mp4", {}, 64, 48);
   for (int i = 0; i < 3; ++i)
     encoder.add(std::vector<std::uint8_t>(3 * 64 * 48));

@@ -146,7 +146,7 @@ TEST(Keyframes, AreRefusedWhereTheyAreOfDifferentKinds) {
 }
 
 TEST(Keyframes, NameFilesFromTheScenesFolder) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder / "scene.toml") << "snapshot = 's'\n" + camera + component +
                                               "[[path.keyframes]]\nframe = 0\n"
                                               "component.gas.palette = 'a.pal'\n"

@@ -41,7 +41,7 @@ class PathFile : public ::testing::Test {
     return refusal([&] { frames(text); });
   }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::vector<std::string> notes_;
 };
 
@@ -109,7 +109,7 @@ TEST_F(PathFile, MayNameTheOneSnapshotInEachRow) {
 TEST_F(PathFile, OfTheOriginalProgramHasItsFrames) {
   const std::string real = test::data_folder() / "camera" / "anim1_452frames.txt";
   if (!std::filesystem::exists(real)) GTEST_SKIP() << "no " << real;
-  const auto result = frames(testing::read_text(real));
+  const auto result = frames(test::read_text(real));
   ASSERT_EQ(result.size(), 453U);  // 0 to 452
   EXPECT_EQ(result[0].camera->position.a[1], 55747.3828);
   EXPECT_EQ(result[0].camera->sky.a[2], 1);

@@ -6,7 +6,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::HasSubstr;
 
 TEST(GadgetBinaryDamage, NoPositionsIsRefused) {

@@ -7,7 +7,7 @@
 
 #include "formats/hdf5/hdf5_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 using Hdf5Output = Hdf5Handle<H5Fclose>;
 
@@ -58,4 +58,4 @@ inline void write_text(const Hdf5Output& file, const std::string& object, const 
   H5Awrite(attribute.id(), type.id(), &content);
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

@@ -6,7 +6,7 @@
 
 #include "formats/hdf5/hdf5_file.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 namespace {
 
 using Attribute = Hdf5Handle<H5Aclose>;
@@ -147,4 +147,4 @@ void write_hdf5(const std::filesystem::path& path, const TestSnapshot& snapshot,
   }
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

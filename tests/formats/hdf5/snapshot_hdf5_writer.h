@@ -4,7 +4,7 @@
 
 #include "formats/snapshot_writer.h"
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // How a code writes its HDF5 files.
 struct Hdf5Style {
@@ -19,4 +19,4 @@ struct Hdf5Style {
 void write_hdf5(const std::filesystem::path& path, const TestSnapshot& snapshot,
                 const Hdf5Style& style = {});
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

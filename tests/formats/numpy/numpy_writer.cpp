@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 std::string numpy_bytes(const std::string& header, const std::string& data, int version) {
   std::string bytes = "\x93NUMPY";
@@ -36,4 +36,4 @@ void write_zip(const std::filesystem::path& path,
   if (zip_close(archive) != 0) throw std::runtime_error("the archive cannot be written");
 }
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

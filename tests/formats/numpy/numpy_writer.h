@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace splotchcl::testing {
+namespace splotchcl::test {
 
 // A file in NumPy's format: `header` is Python's dictionary, `data` what follows it.
 std::string numpy_bytes(const std::string& header, const std::string& data, int version = 1);
@@ -22,4 +22,4 @@ std::string bytes_of(const std::vector<T>& values) {
 void write_zip(const std::filesystem::path& path,
                const std::vector<std::pair<std::string, std::string>>& entries, bool is_packed);
 
-}  // namespace splotchcl::testing
+}  // namespace splotchcl::test

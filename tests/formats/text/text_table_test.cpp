@@ -7,7 +7,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ class TextTable : public ::testing::Test {
   const std::filesystem::path path_ = folder_ / "table";
 };
 
-std::vector<double> positions(const Snapshot& snapshot) {
+std::vector<double> positions_of_table(const Snapshot& snapshot) {
   const Column offsets = snapshot.read(0, "position");
   std::vector<double> values;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -47,21 +47,21 @@ TEST_F(TextTable, CommasWithAHeaderAreRead) {
   const auto snapshot = open("x,y,z,mass,U\n1,2,3,0.5,7\n4,5,6,1.5e-1,8\n");
   EXPECT_EQ(snapshot->info().format, "text with commas between columns");
   EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(0.5F, 0.15F));
   EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(7, 8));
 }
 
 TEST_F(TextTable, AByteOrderMarkIsNoPartOfTheFirstName) {
   const auto snapshot = open("\xef\xbb\xbfx,y,z\n1,2,3\n");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3));
 }
 
 TEST_F(TextTable, WhiteSpaceWithAHeaderInAnyStyleIsRead) {
   for (const char* header : {"x y z rho\n", "# x y z rho\n", "# a comment\n#x\ty\tz\trho\n",
                              "  x   y z\trho  \n", "// x y z rho\n", "# x, y, z, rho\n"}) {
     const auto snapshot = open(std::string(header) + "1 2\t3   4\n\n  5 6 7 8 \r\n# the end\n");
-    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
+    EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
     EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(4, 8)) << header;
   }
 }
@@ -69,7 +69,7 @@ TEST_F(TextTable, WhiteSpaceWithAHeaderInAnyStyleIsRead) {
 TEST_F(TextTable, SemicolonsQuotesAndUnitsAreRead) {
   const auto snapshot =
       open("\"x [kpc]\";\"y [kpc]\";\"z [kpc]\";\"m (Msun)\"\n\"1\";2;3;4\n5;6;7;8\n");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8));
   EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc");
   EXPECT_EQ(snapshot->info().types[0].fields[1].unit, "Msun");
@@ -81,7 +81,7 @@ TEST_F(TextTable, AColumnOfRowNumbersWithoutANameIsLeftOutWithANote) {
         "\"\",\"x\",\"y\",\"z\",\"mass\"\n\"0\",1,2,3,4\n\"1\",5,6,7,8\n",
         ";x;y;z;mass\n0;1;2;3;4\n1;5;6;7;8\n"}) {
     const auto snapshot = open(text);
-    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << text;
+    EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << text;
     EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8)) << text;
     EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("column 1 left out"))) << text;
   }
@@ -92,7 +92,7 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
                              "# x (kpc) y (kpc) z (kpc) rho (Msun / kpc^3)\n",
                              "x[kpc] y[kpc] z[kpc] rho [Msun / kpc^3]\n"}) {
     const auto snapshot = open(std::string(header) + "1 2 3 4\n5 6 7 8\n");
-    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
+    EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
     EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(4, 8)) << header;
     EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc") << header;
     EXPECT_EQ(snapshot->info().types[0].fields[1].unit, "Msun / kpc^3") << header;
@@ -101,14 +101,14 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
 
 TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
   EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
-  EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
+  EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions_of_table"));
 }
 
 TEST_F(TextTable, VectorsAreFoundByTheirAxes) {
   const auto snapshot = open(
       "vz,pos_x,pos_y,pos_z,vx,vy,Bx,By,Bz,tx\n"
       "3,4,5,6,1,2,7,8,9,10\n");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(4, 5, 6));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(4, 5, 6));
   EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(1, 2, 3));
   EXPECT_THAT(values_of(snapshot->read(0, "magnetic_field")), ElementsAre(7, 8, 9));
   EXPECT_THAT(values_of(snapshot->read(0, "tx")), ElementsAre(10));
@@ -118,10 +118,10 @@ TEST_F(TextTable, ColumnsMayBeNamedByTheScene) {
   const std::string rows = "1 2 3 4 5\n6 7 8 9 10\n";
   EXPECT_THAT(refusal_of(rows), HasSubstr("without a header that names them"));
   const auto snapshot = open(rows, {"hsml", "-", "x", "y", "z"});
-  EXPECT_THAT(positions(*snapshot), ElementsAre(3, 4, 5, 8, 9, 10));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(3, 4, 5, 8, 9, 10));
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(1, 6));
   EXPECT_EQ(snapshot->info().types[0].fields.size(), 2U);
-  EXPECT_THAT(positions(*open("a,b,c\n1,2,3\n", {"z", "y", "x"})), ElementsAre(3, 2, 1));
+  EXPECT_THAT(positions_of_table(*open("a,b,c\n1,2,3\n", {"z", "y", "x"})), ElementsAre(3, 2, 1));
   EXPECT_THAT(refusal_of(rows, {"x", "y", "z"}), HasSubstr("line 1 has 5 columns"));
   EXPECT_THROW(open(rows, {"x", "y", "z"}), UsageError);  // it is the call that is wrong
 }
@@ -137,12 +137,12 @@ TEST_F(TextTable, MissingValuesAreNotANumber) {
 
 TEST_F(TextTable, FortransExponentsAndSignsAreRead) {
   const auto snapshot = open("x y z\n+1.5D+01 -2d0 5.E-1\n");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(15, -2, 0.5));
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(15, -2, 0.5));
 }
 
 TEST_F(TextTable, PositionsKeepTheirDigits) {
   const auto snapshot = open("x y z\n1000000.25 2000000.5 3e7\n1000000.375 2000000.5 3e7\n");
-  EXPECT_THAT(positions(*snapshot),
+  EXPECT_THAT(positions_of_table(*snapshot),
               ElementsAre(1000000.25, 2000000.5, 3e7, 1000000.375, 2000000.5, 3e7));
 }
 
@@ -167,7 +167,7 @@ TEST_F(TextTable, ABadRowIsRefusedWithItsLine) {
 
 TEST_F(TextTable, WithoutPositionsIsRefused) {
   EXPECT_THAT(refusal_of("time,energy,mass\n1,2,3\n"),
-              HasSubstr("no positions: its columns are time, energy, mass"));
+              HasSubstr("no positions_of_table: its columns are time, energy, mass"));
 }
 
 TEST_F(TextTable, OtherTextIsNotATable) {

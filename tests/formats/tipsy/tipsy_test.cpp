@@ -10,7 +10,7 @@
 namespace splotchcl {
 namespace {
 
-using namespace splotchcl::testing;
+using namespace splotchcl::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
