@@ -31,7 +31,7 @@ TapWeights lagrange_weights(int pixels) {
   return weights;
 }
 
-// TapWeights that interpolate polynomials of degree 9, as those through ten pixels do, differ from
+// Weights that interpolate polynomials of degree 9, as those through ten pixels do, differ from
 // them by sums of tenth differences, of which sixteen pixels have six.
 constexpr int exact_pixels = 10;
 constexpr std::size_t changes = taps - exact_pixels;

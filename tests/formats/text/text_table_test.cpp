@@ -101,7 +101,7 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
 
 TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
   EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
-  EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions_of_table"));
+  EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
 }
 
 TEST_F(TextTable, VectorsAreFoundByTheirAxes) {
@@ -167,7 +167,7 @@ TEST_F(TextTable, ABadRowIsRefusedWithItsLine) {
 
 TEST_F(TextTable, WithoutPositionsIsRefused) {
   EXPECT_THAT(refusal_of("time,energy,mass\n1,2,3\n"),
-              HasSubstr("no positions_of_table: its columns are time, energy, mass"));
+              HasSubstr("no positions: its columns are time, energy, mass"));
 }
 
 TEST_F(TextTable, OtherTextIsNotATable) {
