@@ -8,6 +8,7 @@
 #include "finish/finish_picture.h"
 #include "image/background_image.h"
 #include "load/check_particles.h"
+#include "load/choose_palette.h"
 #include "load/decide_map.h"
 #include "load/passes.h"
 #include "load/periodic_wrap.h"
@@ -174,6 +175,8 @@ Frame FrameLoader::load(const DecidedScene& decided) {
   auto numbers = decided.components.begin();
   for (Part& part : parts_) {
     DrawnComponent drawn = read(part, numbers->weight, decided.scene.camera->look_at);
+    if (const auto note = tell_dark_color(part.reader.component(), drawn.palette))
+      part.reader.fields().note(*note);
     drawn.color = numbers->color;
     drawn.intensity = numbers->intensity;
     drawn.reference_column = numbers->reference_column;

@@ -187,6 +187,17 @@ TEST(LoadFrameColor, RefusesALimitWithoutALogarithm) {
   EXPECT_THAT(refusal(scene_of({component}), centered_gas_row()), HasSubstr("color.min is 0"));
 }
 
+TEST(LoadFrameColor, WithoutAFieldIsToldWhereItIsDark) {
+  Component component = gas();
+  component.palette = "inferno";
+  EXPECT_THAT(notes_of(component, centered_gas_row()), Contains(HasSubstr("without color.field")));
+  component.palette = "stars";
+  EXPECT_THAT(notes_of(component, centered_gas_row()), Not(Contains(HasSubstr("color.field"))));
+  component.palette = "inferno";
+  component.color.field = "internal_energy";
+  EXPECT_THAT(notes_of(component, centered_gas_row()), Not(Contains(HasSubstr("color.field"))));
+}
+
 TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
   MemorySnapshot snapshot = centered_gas_row();
   snapshot.add(0, "temperature", std::vector<float>(5, 100));

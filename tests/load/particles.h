@@ -53,6 +53,7 @@ inline NumberedSnapshot gas_row(int count = 6) {
 inline Component gas() {
   Component component;
   component.name = "gas";
+  component.palette = "white";
   return component;
 }
 

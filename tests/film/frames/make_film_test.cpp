@@ -34,7 +34,7 @@ class Films : public ::testing::Test {
                                             "[image]\nsize = [16, 12]\n"
                                             "[path.orbit]\ndegrees = 90\n"
                                             "[movie]\nframes = 4\n"
-                                            "[[component]]\nname = 'gas'\n";
+                                            "[[component]]\nname = 'gas'\npalette = 'white'\n";
     options_.scene = folder_ / "film.toml";
     options_.output = folder_ / "frame_%d.png";
     options_.by_reference = true;
