@@ -88,7 +88,7 @@ TEST_F(Evolve, CountsBadParticlesInOneNote) {
   std::ofstream(folder_ / "both.toml")
       << "snapshot = 'halo.gadget'\n[image]\nsize = [32, 24]\n"
          "[camera]\nposition = [0, 0, 400]\nlook_at = [0, 0, 0]\n"
-         "[[component]]\nname = 'gas'\n"
+         "[[component]]\nname = 'gas'\npalette = 'white'\n"
          "[[component]]\nsnapshot = 'galaxy.hdf5'\ncolor = { vector = 'Color' }\n";
   const auto result =
       splotchcl_in(folder_, "evolve galaxy.hdf5 both.toml -o t_%d.png --frames 3 --duration 60");
