@@ -1,7 +1,5 @@
 #include "measure.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -17,8 +15,7 @@ Cost now() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const auto since_epoch = std::chrono::steady_clock::now().time_since_epoch();
-  return {std::chrono::duration<double>(since_epoch).count(),
-          seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+  return {std::chrono::duration<double>(since_epoch).count(), cpu_seconds(usage)};
 }
 
 std::vector<double> each(const std::vector<Cost>& costs, double Cost::*part) {
@@ -34,6 +31,10 @@ double least(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+double cpu_seconds(const rusage& usage) {
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
 
 Stopwatch::Stopwatch() : start_(now()) {}
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/resource.h>
+
 #include <functional>
 #include <vector>
 
@@ -11,6 +13,9 @@ struct Cost {
   double wall_seconds = 0;
   double cpu_seconds = 0;  // user and system, all threads
 };
+
+// Of the user and of the system.
+double cpu_seconds(const rusage& usage);
 
 class Stopwatch {
  public:

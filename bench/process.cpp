@@ -13,10 +13,6 @@
 namespace splotchcl::bench {
 namespace {
 
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 class SilentOutput {
  public:
   SilentOutput() {
@@ -57,8 +53,7 @@ ProcessCost run_process(const std::vector<std::string>& words) {
     throw DataError("failed: " + call);
   }
   ProcessCost result;
-  result.cost = {stopwatch.elapsed().wall_seconds,
-                 seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)};
+  result.cost = {stopwatch.elapsed().wall_seconds, cpu_seconds(usage)};
   result.largest_resident_bytes = 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
   return result;
 }

@@ -114,12 +114,7 @@ TEST_P(Agreement, SameFrameGivesTheSameBits) {
   EXPECT_EQ(draw(frame).pixels, draw(frame).pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Plans, Agreement,
-    testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
-                                     LightPlan::ordered),
-                     testing::Values(CompositeShape::rows, CompositeShape::groups)),
-    name_of_case);
+INSTANTIATE_TEST_SUITE_P(Plans, Agreement, each_plan_and_shape(), name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

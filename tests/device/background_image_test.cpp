@@ -5,6 +5,7 @@
 #include <memory>
 #include <tuple>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 #include "splotchcl/error.h"
 
@@ -25,9 +26,7 @@ std::shared_ptr<const Image> numbered_pixels(int width, int height, double brigh
   return std::make_shared<const Image>(std::move(image));
 }
 
-using Case = std::tuple<LightPlan, CompositeShape>;
-
-class BackgroundImage : public PictureTest, public testing::WithParamInterface<Case> {
+class BackgroundImage : public PictureTest, public testing::WithParamInterface<PlanAndShape> {
  protected:
   static Frame scene_of(LightPlan plan, int width = 61, int height = 45) {
     CloudSetup setup;
@@ -132,11 +131,7 @@ TEST_P(BackgroundImage, BehindAnAbsorbingCloudIsItsClosedForm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    PlansAndShapes, BackgroundImage,
-    testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
-                                     LightPlan::ordered),
-                     testing::Values(CompositeShape::rows, CompositeShape::groups)));
+INSTANTIATE_TEST_SUITE_P(PlansAndShapes, BackgroundImage, each_plan_and_shape());
 
 using BackgroundImageSize = PictureTest;
 

@@ -163,15 +163,9 @@ TEST_P(OrderedForms, AlternatingLayers) {
   }
 }
 
-const auto shapes = testing::Values(CompositeShape::rows, CompositeShape::groups);
-INSTANTIATE_TEST_SUITE_P(Plans, ClosedForms,
-                         testing::Combine(testing::Values(LightPlan::emission,
-                                                          LightPlan::proportional,
-                                                          LightPlan::ordered),
-                                          shapes),
-                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(Plans, ClosedForms, each_plan_and_shape(), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Plans, OrderedForms,
-                         testing::Combine(testing::Values(LightPlan::ordered), shapes),
+                         testing::Combine(testing::Values(LightPlan::ordered), both_shapes()),
                          name_of_case);
 
 }  // namespace

@@ -50,12 +50,7 @@ TEST_P(LongLists, GiveTheOraclesPictureOfEqualNarrowSplatsAtASmallTolerance) {
   EXPECT_LE(largest_error(draw(frame, shape), reference::render(frame)), frame.tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Plans, LongLists,
-    testing::Combine(testing::Values(LightPlan::emission, LightPlan::proportional,
-                                     LightPlan::ordered),
-                     testing::Values(CompositeShape::rows, CompositeShape::groups)),
-    name_of_case);
+INSTANTIATE_TEST_SUITE_P(Plans, LongLists, each_plan_and_shape(), name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

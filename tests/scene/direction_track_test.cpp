@@ -6,18 +6,16 @@
 #include <cmath>
 
 #include "scene/constants.h"
+#include "scene/expect_near.h"
 
 namespace splotchcl {
 namespace {
 
+using test::expect_near;
+
 Vec3 on_circle(double degrees) {
   const double angle = degrees * pi / 180;
   return {{std::cos(angle), std::sin(angle), 0}};
-}
-
-void expect_near(const Vec3& a, const Vec3& b, double limit) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(a.a[axis], b.a[axis], limit);
 }
 
 TEST(DirectionTrack, TurnsAtAConstantRateWhereItsKnotsDo) {

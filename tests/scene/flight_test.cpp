@@ -6,21 +6,18 @@
 #include <cmath>
 
 #include "scene/constants.h"
+#include "scene/expect_near.h"
 
 namespace splotchcl {
 namespace {
 
 using boost::qvm::mag;
-
-void expect_close(const Vec3& a, const Vec3& b, double limit) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(a.a[axis], b.a[axis], limit);
-}
+using test::expect_near;
 
 TEST(Turned, GoesCounterclockwiseAboutItsAxis) {
   const Vec3 center = {{10, 20, 30}}, up = {{0, 0, 7}};
-  expect_close(turned({{13, 20, 35}}, center, up, 90), {{10, 23, 35}}, 1e-14);
-  expect_close(turned({{13, 20, 35}}, center, up, 360), {{13, 20, 35}}, 1e-14);
+  expect_near(turned({{13, 20, 35}}, center, up, 90), {{10, 23, 35}}, 1e-14);
+  expect_near(turned({{13, 20, 35}}, center, up, 360), {{13, 20, 35}}, 1e-14);
 }
 
 TEST(Turned, KeepsTheDistance) {
@@ -33,8 +30,8 @@ TEST(Flight, BetweenTwoPointsIsStraight) {
   const Flight flight({{{0, 0, 0}}, {{8, 4, -2}}});
   EXPECT_NEAR(flight.length(), std::sqrt(84.0), 1e-13);
   for (double part = 0; part <= 1; part += 0.125) {
-    expect_close(flight.at(part).position, {{8 * part, 4 * part, -2 * part}}, 1e-13);
-    expect_close(flight.at(part).direction, Vec3({{8, 4, -2}}) / std::sqrt(84.0), 1e-14);
+    expect_near(flight.at(part).position, {{8 * part, 4 * part, -2 * part}}, 1e-13);
+    expect_near(flight.at(part).direction, Vec3({{8, 4, -2}}) / std::sqrt(84.0), 1e-14);
   }
 }
 
@@ -49,10 +46,10 @@ TEST(Flight, AlongALineHasTheSameSpeedBetweenNearAndFarPoints) {
 TEST(Flight, PassesThroughItsPoints) {
   const Vec3 corner = {{3, 4, 0}};
   const Flight flight({{{0, 0, 0}}, corner, {{6, 0, 0}}});
-  expect_close(flight.at(0).position, {{0, 0, 0}}, 1e-14);
-  expect_close(flight.at(0.5).position, corner, 1e-12);  // by symmetry
-  expect_close(flight.at(1).position, {{6, 0, 0}}, 1e-14);
-  expect_close(flight.at(0.5).direction, {{1, 0, 0}}, 1e-12);
+  expect_near(flight.at(0).position, {{0, 0, 0}}, 1e-14);
+  expect_near(flight.at(0.5).position, corner, 1e-12);  // by symmetry
+  expect_near(flight.at(1).position, {{6, 0, 0}}, 1e-14);
+  expect_near(flight.at(0.5).direction, {{1, 0, 0}}, 1e-12);
 }
 
 // A regular 24-gon: between its points, and away from its ends, the curve keeps close to the

@@ -61,7 +61,6 @@ const Arrays& many() {
   return arrays;
 }
 
-const std::string head = "snapshot = \"memory\"\n[image]\nsize = [96, 64]\n";
 const std::string gas_text =
     "[[component]]\nname = \"gas\"\ntypes = \"gas\"\npalette = \"temperature\"\n";
 
@@ -140,41 +139,42 @@ TEST(SharedPasses, AreThoseOfASnapshotAlone) {
 }
 
 TEST(SharedPasses, FindTheEndsOfFields) {
-  expect_shares(many(), given(head + gas_text +
+  expect_shares(many(), given(scene_head + gas_text +
                               "color = { field = \"density\", percentiles = [0, 100] }\n"
                               "intensity = { field = \"mass\", percentiles = [0, 60] }\n"));
 }
 
 TEST(SharedPasses, FindTheEndsOfFieldsThatFollowFromOthers) {
   for (const std::string field : {"speed", "radius", "velocity_y"}) {
-    expect_shares(many(), given(head + gas_text + "color = { field = \"" + field +
+    expect_shares(many(), given(scene_head + gas_text + "color = { field = \"" + field +
                                 "\", percentiles = [0, 100] }\n"));
   }
 }
 
 TEST(SharedPasses, JoinTypesOneAfterTheOther) {
-  expect_shares(many(), given(head + "[[component]]\nname = \"all\"\ntypes = [\"gas\", \"stars\"]\n"
-                                     "palette = \"white\"\ncolor = { field = \"mass\" }\n"));
+  expect_shares(many(),
+                given(scene_head + "[[component]]\nname = \"all\"\ntypes = [\"gas\", \"stars\"]\n"
+                                   "palette = \"white\"\ncolor = { field = \"mass\" }\n"));
 }
 
 TEST(SharedPasses, TurnAndWrapParticles) {
   const std::string camera = "[camera]\nposition = [0.5, -4, 1]\nlook_at = [0.5, 0, 0]\n";
-  expect_shares(many(),
-                given(head + camera + gas_text + "rotation = { axis = [1, 2, 3], angle = 40 }\n"));
-  expect_shares(many(), given(head + camera + "[periodic]\nwrap = true\n" + gas_text));
+  expect_shares(many(), given(scene_head + camera + gas_text +
+                              "rotation = { axis = [1, 2, 3], angle = 40 }\n"));
+  expect_shares(many(), given(scene_head + camera + "[periodic]\nwrap = true\n" + gas_text));
 }
 
 TEST(SharedPasses, FindLengthsFromDensities) {
   Arrays arrays = many();
   arrays.at(gas).scalars.erase("smoothing_length");
-  expect_shares(arrays, given(head + gas_text), 1.3);
+  expect_shares(arrays, given(scene_head + gas_text), 1.3);
 }
 
 TEST(SharedPasses, SelectOfAllParticles) {
-  expect_shares(many(), given(head + gas_text + "color = { field = \"density\" }\n" +
+  expect_shares(many(), given(scene_head + gas_text + "color = { field = \"density\" }\n" +
                               "select = { where = \"mass > 1.2\", sphere = { center = [0.1, 0, 0], "
                               "radius = 0.8 } }\nexclude = { where = \"density > 90\" }\n"));
-  expect_shares(many(), given(head + gas_text + "select = { where = \"mass > 100\" }\n"));
+  expect_shares(many(), given(scene_head + gas_text + "select = { where = \"mass > 100\" }\n"));
 }
 
 // All ranks hold the positions among which each searches for its part.
@@ -212,7 +212,7 @@ TEST(SharedPasses, TellTheLengthsThatEachHasFound) {
     const CountedSnapshot snapshot(arrays);
     share_passes(snapshot, borrowed(ranks));
     std::vector<std::string> notes;
-    load_frame(parse_scene(head + "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n" +
+    load_frame(parse_scene(scene_head + "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n" +
                                gas_text + "reference_column = 1\n",
                            "scene"),
                snapshot, notes);
@@ -263,7 +263,7 @@ std::size_t bytes_to_decide(const std::string& scene) {
 
 TEST(SpreadPasses, SendTheEndsOfFieldsAndNotTheFields) {
   const auto scene = [](const std::string& percentiles) {
-    return head + "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n" + gas_text +
+    return scene_head + "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n" + gas_text +
            "reference_column = 1\ncolor = { field = \"density\", percentiles = " + percentiles +
            " }\n";
   };
@@ -276,7 +276,7 @@ TEST(SpreadPasses, TellOfPositionsThatAreRounded) {
     arrays.at(gas).vectors.at("position")[3 * particle] = 5e6F;
   const auto notes_of = [](const Snapshot& snapshot) {
     std::vector<std::string> notes;
-    load_frame(parse_scene(head + gas_text, "scene"), snapshot, notes);
+    load_frame(parse_scene(scene_head + gas_text, "scene"), snapshot, notes);
     return notes;
   };
   ArraySnapshot alone;

@@ -18,6 +18,9 @@ namespace splotchcl::test {
 
 constexpr int gas = 0, stars = 4;
 
+// What scenes of a simulation begin with.
+inline const std::string scene_head = "snapshot = \"memory\"\n[image]\nsize = [96, 64]\n";
+
 // The arrays of one type.
 struct TypeArrays {
   std::size_t count = 0;

@@ -17,7 +17,6 @@
 namespace splotchcl::test {
 namespace {
 
-const std::string picture_head = "snapshot = \"memory\"\n[image]\nsize = [96, 64]\n";
 const std::string outside = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";
 const std::string inside =
     "[camera]\nposition = [0, -0.2, 0]\nlook_at = [0, 1, 0]\nsky = [0, 0, 1]\n";
@@ -77,17 +76,17 @@ Arrays few() {
 }
 
 TEST(SpreadPictures, HaveTheBitsOfOneProcessInEachPlan) {
-  expect_bits_of_one_process(few(), picture_head + outside + emission);
-  expect_bits_of_one_process(few(), picture_head + outside + gas_of_picture);
-  expect_bits_of_one_process(few(), picture_head + outside + ordered);
+  expect_bits_of_one_process(few(), scene_head + outside + emission);
+  expect_bits_of_one_process(few(), scene_head + outside + gas_of_picture);
+  expect_bits_of_one_process(few(), scene_head + outside + ordered);
 }
 
 TEST(SpreadPictures, ChooseTheCameraOfAllParticles) {
-  expect_bits_of_one_process(few(), picture_head + ordered);
+  expect_bits_of_one_process(few(), scene_head + ordered);
 }
 
 TEST(SpreadPictures, TakeRangesFromAllParticles) {
-  expect_bits_of_one_process(few(), picture_head + outside +
+  expect_bits_of_one_process(few(), scene_head + outside +
                                         "[[component]]\nname = \"gas\"\ntypes = \"gas\"\n"
                                         "color = { field = \"density\", percentiles = [0, 100] }\n"
                                         "intensity = { field = \"mass\" }\n"
@@ -95,13 +94,13 @@ TEST(SpreadPictures, TakeRangesFromAllParticles) {
 }
 
 TEST(SpreadPictures, ExposeForTheLightOfAllParticles) {
-  expect_bits_of_one_process(few(), picture_head + outside +
-                                        "[finish]\nexposure = \"auto\"\ntone = \"filmic\"\n" +
-                                        gas_of_picture);
+  expect_bits_of_one_process(
+      few(),
+      scene_head + outside + "[finish]\nexposure = \"auto\"\ntone = \"filmic\"\n" + gas_of_picture);
 }
 
 TEST(SpreadPictures, JoinTypesOneAfterTheOther) {
-  expect_bits_of_one_process(few(), picture_head + outside +
+  expect_bits_of_one_process(few(), scene_head + outside +
                                         "[[component]]\nname = \"all\"\n"
                                         "types = [\"gas\", \"stars\"]\npalette = \"white\"\n"
                                         "absorption = 0.3\ncolor = { field = \"speed\" }\n");
@@ -109,41 +108,41 @@ TEST(SpreadPictures, JoinTypesOneAfterTheOther) {
 
 TEST(SpreadPictures, SelectOfAllParticles) {
   expect_bits_of_one_process(
-      few(), picture_head + outside + ordered +
+      few(), scene_head + outside + ordered +
                  "select = { where = \"density > 50\", sphere = { center = [0.1, 0, 0], "
                  "radius = 0.4 } }\n");
 }
 
 TEST(SpreadPictures, SelectNothing) {
-  const std::string nothing = picture_head + outside + gas_of_picture + stars_of_picture +
+  const std::string nothing = scene_head + outside + gas_of_picture + stars_of_picture +
                               "select = { where = \"density > 1e9\" }\n";
   expect_bits_of_one_process(few(), nothing);
 }
 
 TEST(SpreadPictures, SeeCloudsAroundTheCamera) {
-  expect_bits_of_one_process(few(), picture_head + inside + emission);
-  expect_bits_of_one_process(few(), picture_head + inside + ordered);
+  expect_bits_of_one_process(few(), scene_head + inside + emission);
+  expect_bits_of_one_process(few(), scene_head + inside + ordered);
 }
 
 TEST(SpreadPictures, AreSortedByAField) {
-  expect_bits_of_one_process(few(), picture_head + outside + "[sort]\nby = \"mass\"\n" + ordered);
+  expect_bits_of_one_process(few(), scene_head + outside + "[sort]\nby = \"mass\"\n" + ordered);
 }
 
 TEST(SpreadPictures, MayBeMostExact) {
   expect_bits_of_one_process(gas_and_stars(600, 300),
-                             "tolerance = 0\n" + picture_head + outside + ordered);
+                             "tolerance = 0\n" + scene_head + outside + ordered);
 }
 
 TEST(SpreadPictures, HaveSeveralViews) {
   expect_bits_of_one_process(
-      few(), picture_head + outside + "[stereo]\nlayout = \"side_by_side\"\n" + ordered);
+      few(), scene_head + outside + "[stereo]\nlayout = \"side_by_side\"\n" + ordered);
 }
 
 TEST(SpreadPictures, FindSizesFromDensities) {
   Arrays arrays = few();
   for (auto& [type, of_type] : arrays)
     of_type.scalars.erase("smoothing_length");
-  expect_bits_of_one_process(arrays, picture_head + outside + ordered);
+  expect_bits_of_one_process(arrays, scene_head + outside + ordered);
 }
 
 // As in one process, which notes it.
@@ -153,9 +152,9 @@ TEST(SpreadPictures, FindSizesFromNeighboursOnAllRanks) {
     of_type.scalars.erase("smoothing_length");
     of_type.scalars.erase("density");
   }
-  expect_bits_of_one_process(arrays, picture_head + outside + ordered);
+  expect_bits_of_one_process(arrays, scene_head + outside + ordered);
   arrays[stars].vectors["position"][5] = std::numeric_limits<float>::infinity();
-  expect_bits_of_one_process(arrays, picture_head + outside + gas_of_picture + stars_of_picture);
+  expect_bits_of_one_process(arrays, scene_head + outside + gas_of_picture + stars_of_picture);
 }
 
 TEST(SpreadPictures, LeaveBadParticlesOutOnAllRanks) {
@@ -163,12 +162,12 @@ TEST(SpreadPictures, LeaveBadParticlesOutOnAllRanks) {
   for (const std::size_t i : {std::size_t{3}, std::size_t{5999}})
     arrays[gas].vectors["position"][3 * i] = std::numeric_limits<float>::quiet_NaN();
   arrays[stars].scalars["smoothing_length"][7] = 0;
-  expect_bits_of_one_process(arrays, picture_head + outside + ordered);
+  expect_bits_of_one_process(arrays, scene_head + outside + ordered);
 }
 
 TEST(SpreadPictures, WrapAroundTheBox) {
   const Arrays arrays = few();
-  const std::string scene = picture_head + outside + "[periodic]\nwrap = true\nbox = 1.5\n" +
+  const std::string scene = scene_head + outside + "[periodic]\nwrap = true\nbox = 1.5\n" +
                             gas_of_picture + stars_of_picture;
   expect_bits_of_one_process(arrays, scene);
 }
@@ -176,7 +175,7 @@ TEST(SpreadPictures, WrapAroundTheBox) {
 // A simulation moves its particles from rank to rank between two pictures.
 TEST(SpreadPictures, FollowParticlesThatChangeTheirRank) {
   const Arrays arrays = few();
-  const std::string text = picture_head + outside + ordered;
+  const std::string text = scene_head + outside + ordered;
   const DrawnFrame alone = draw_alone(arrays, text);
   ThreadRanks::run(2, [&](Communicator& ranks) {
     ArraySnapshot own;
@@ -200,7 +199,7 @@ TEST(SpreadPictures, FollowParticlesThatChangeTheirRank) {
 // What the first picture decides holds for the others.
 TEST(SpreadPictures, AreDrawnOfASceneThatWasDecidedTogether) {
   const Arrays arrays = few();
-  const std::string text = picture_head + ordered;
+  const std::string text = scene_head + ordered;
   ArraySnapshot whole;
   set_fields(arrays, whole);
   std::vector<std::string> notes;
