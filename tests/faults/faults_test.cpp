@@ -20,7 +20,7 @@ class Faults : public ::testing::Test {
     ASSERT_EQ(splotchcl_in(folder_, "generate halo -o h --particles 1000").exit_code, 0);
     std::ofstream(folder_ / "film.toml") << "snapshot = 'h'\n[image]\nsize = [16, 12]\n"
                                             "[path.orbit]\ndegrees = 90\n[movie]\nframes = 2\n"
-                                            "[[component]]\n";
+                                            "[[component]]\npalette = 'white'\n";
     std::filesystem::create_directory(folder_ / "out");
   }
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from page_socket import PATIENCE
+
 
 @pytest.fixture(scope="session")
 def program() -> str:
@@ -74,7 +76,7 @@ class View:
     def end(self):
         """As Ctrl-C does. Returns the exit code, and what else was printed."""
         self.process.send_signal(signal.SIGINT)
-        rest, _ = self.process.communicate(timeout=60)
+        rest, _ = self.process.communicate(timeout=PATIENCE)
         return self.process.returncode, rest
 
 
@@ -116,6 +118,6 @@ def browser():
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     service = webdriver.chrome.service.Service(executable_path=driver)
     made = webdriver.Chrome(service=service, options=options)
-    made.set_script_timeout(60)
+    made.set_script_timeout(PATIENCE)
     yield made
     made.quit()

@@ -6,12 +6,15 @@ import os
 import socket
 import struct
 
+# Seconds for what must come in the end: a loaded machine may compile kernels first.
+PATIENCE = 180
+
 
 class PageSocket:
     """A WebSocket (RFC 6455), as far as these tests need it."""
 
     def __init__(self, view, token=None, origin=None, host=None):
-        self.connection = socket.create_connection(("127.0.0.1", view.port), timeout=30)
+        self.connection = socket.create_connection(("127.0.0.1", view.port), timeout=PATIENCE)
         host = host or f"127.0.0.1:{view.port}"
         origin = f"http://{host}" if origin is None else origin
         key = base64.b64encode(os.urandom(16)).decode()

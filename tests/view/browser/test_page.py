@@ -14,6 +14,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
+from page_socket import PATIENCE
+
 
 class Page:
     """The page of a view, by its accessible names alone."""
@@ -47,7 +49,7 @@ class Page:
         newest = ("app.store !== null && app.link.pendingState === null && "
                   "document.body.dataset.stage === 'exact' && "
                   "Number(document.body.dataset.state) === app.link.lastState")
-        WebDriverWait(self.browser, 60, 0.05).until(lambda _: self.script(newest))
+        WebDriverWait(self.browser, PATIENCE, 0.05).until(lambda _: self.script(newest))
 
     def picture(self):
         """The pixels on the canvas, as a PNG file."""
@@ -148,8 +150,10 @@ def test_keys_orbit_pan_and_move(page):
 def test_flying_moves_on_until_escape(page):
     before = page.setting("camera.look_at")
     page.find("Fly through the data").click()
-    ActionChains(page.browser).key_down("w").pause(0.4).key_up("w").perform()
-    assert page.setting("camera.look_at") != before
+    ActionChains(page.browser).key_down("w").perform()
+    WebDriverWait(page.browser, PATIENCE, 0.05).until(
+        lambda _: page.setting("camera.look_at") != before)
+    ActionChains(page.browser).key_up("w").perform()
     page.find("Picture").send_keys(Keys.ESCAPE)
     page.wait_for_exact()
 
@@ -157,7 +161,7 @@ def test_flying_moves_on_until_escape(page):
 def test_a_double_click_takes_what_is_there_as_the_center(page):
     before = page.setting("camera.look_at")
     ActionChains(page.browser).double_click(page.find("Picture")).perform()
-    WebDriverWait(page.browser, 10).until(lambda _: page.setting("camera.look_at") != before)
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.setting("camera.look_at") != before)
     page.wait_for_exact()
 
 
@@ -180,7 +184,7 @@ def test_palette_and_range_change_the_picture(page):
 def test_all_palettes_are_shown_to_choose_from(page):
     page.browser.find_element(By.TAG_NAME, "summary").click()
     # They are asked for when the list is opened.
-    choices = WebDriverWait(page.browser, 30).until(
+    choices = WebDriverWait(page.browser, PATIENCE).until(
         lambda browser: browser.find_elements(By.CSS_SELECTOR, "[role=radiogroup] input"))
     assert len(choices) > 30
     page.find("cividis for gas").click()
@@ -197,7 +201,7 @@ def test_keyframes_are_added_played_and_saved(page, tmp_path):
     frame = page.find("Frame of keyframe 2")
     assert frame.get_attribute("value") == "50"
     page.find("Play the keyframes").click()
-    WebDriverWait(page.browser, 60).until(
+    WebDriverWait(page.browser, PATIENCE).until(
         lambda _: page.script("app.keyframes.timer === null && app.keyframes.frame === 50"))
     page.wait_for_exact()
     assert page.picture() == here
@@ -207,7 +211,7 @@ def test_keyframes_are_added_played_and_saved(page, tmp_path):
     page.find("Save scene").click()
     page.find("Save file").click()
     saved = tmp_path / page.script("app.store.opened.scene_file")
-    WebDriverWait(page.browser, 10).until(lambda _: saved.exists())
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: saved.exists())
     assert "keyframes" in saved.read_text()
     page.find("Close").click()
 
@@ -225,12 +229,12 @@ def test_the_saved_scene_renders_to_the_bits_on_the_page(page, run, tmp_path):
     page.wait_for_exact()
     (tmp_path / "page.png").write_bytes(page.picture())
     page.find("Save scene").click()
-    WebDriverWait(page.browser, 10).until(
+    WebDriverWait(page.browser, PATIENCE).until(
         lambda _: "magma" in page.find("Changes of the scene").text)
     page.keep_screenshot("save")
     page.find("Save file").click()
     saved = tmp_path / page.script("app.store.opened.scene_file")
-    WebDriverWait(page.browser, 10).until(lambda _: saved.exists())
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: saved.exists())
     page.find("Close").click()
     run("render", saved, "-o", tmp_path / "rendered.png")
     told = run("compare", tmp_path / "page.png", tmp_path / "rendered.png", "--limit", 0, "--json")
@@ -250,7 +254,7 @@ def test_a_reload_keeps_what_was_set(page):
 def test_a_lost_connection_comes_back(page):
     page.browser.execute_script("app.link.socket.close()")
     page.find("Orbit left").click()
-    WebDriverWait(page.browser, 60).until(lambda _: page.script("app.link.isOpen"))
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("app.link.isOpen"))
     page.wait_for_exact()
 
 
