@@ -28,7 +28,7 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
-  WaitingSplats waiting = no_waiting_splats();
+  WaitingCounts waiting = no_waiting_counts();
   const uint begin = p.first + block * p.stride;
   const uint end = min(begin + p.length, p.end);
   for (uint slot = begin; slot < end; ++slot) {

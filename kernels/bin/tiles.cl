@@ -154,19 +154,19 @@ __attribute__((noinline)) static void count_one_by_one(__global const Splat* spl
 // Splats that touch several tiles, which are counted some at a time: a processor does not foresee
 // which splats these are.
 #define MOST_WAITING 8
-typedef struct WaitingSplats {
+typedef struct WaitingCounts {
   uint count;
   uint tiles[MOST_WAITING], corner[MOST_WAITING], tiles_x[MOST_WAITING];
-} WaitingSplats;
+} WaitingCounts;
 
-INLINED WaitingSplats no_waiting_splats(void) {
-  WaitingSplats waiting;
+INLINED WaitingCounts no_waiting_counts(void) {
+  WaitingCounts waiting;
   waiting.count = 0;
   return waiting;
 }
 
 // In all tiles but the first, which has counted them.
-INLINED void count_waiting(WaitingSplats* waiting, __global uint* count) {
+INLINED void count_waiting(WaitingCounts* waiting, __global uint* count) {
   for (uint i = 0; i < waiting->count; ++i) {
     const uint tiles = waiting->tiles[i], tiles_x = waiting->tiles_x[i];
     __global uint* first = count + waiting->corner[i];
@@ -189,7 +189,7 @@ INLINED void count_waiting(WaitingSplats* waiting, __global uint* count) {
 // Counts the splat in the tiles that it touches, at the latest when those that wait are counted.
 // One that is not visible, of ONE_TILE, counts for nothing.
 INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
-                            uint is_visible, __global uint* count, WaitingSplats* waiting) {
+                            uint is_visible, __global uint* count, WaitingCounts* waiting) {
   if (tiles == FOUND_AGAIN) {
     count_one_by_one(splat, grid, count);
     return;

@@ -36,7 +36,7 @@ INLINED void count_key(uint bin, __global uint* key_counts, KeyBins* bins) {
 // `kept` is where the splat lies; `tiles` takes which it touches, where it does not hold them.
 INLINED void list_splat(const Splat listed, __global const Splat* kept, __global const Grid* grid,
                         uint is_visible, __global uint* count, __global uint* tiles,
-                        WaitingSplats* waiting) {
+                        WaitingCounts* waiting) {
 #ifdef TILES_IN_SPLAT
 #ifdef WRITES_ALL_LANES
   if (grid->is_part && !is_visible) return;
@@ -121,7 +121,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
   __global uint* count = tile_counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
-  WaitingSplats waiting = no_waiting_splats();
+  WaitingCounts waiting = no_waiting_counts();
 #endif
   const int is_left_out = p.leaves_out_blocks && left_out[block] != 0;
   if (is_left_out) of_block.bad = left_out[block] - 1;

@@ -72,10 +72,13 @@ struct Unfinished {
   std::array<char, 4096> path{};
 };
 std::array<Unfinished, 64> unfinished;
+constexpr int not_remembered = -1;
 
-// Must not allocate: it is called when the file is there and the object that removes it is not yet.
-void remember_unfinished(const std::string& path) noexcept {
-  for (Unfinished& one : unfinished) {
+// Returns its place. Must not allocate: it is called when the file is there and the object that
+// removes it is not yet.
+int remember_unfinished(const std::string& path) noexcept {
+  for (std::size_t place = 0; place < unfinished.size(); ++place) {
+    Unfinished& one = unfinished[place];
     Unfinished::State expected = Unfinished::free;
     if (path.size() >= one.path.size() ||
         !one.state.compare_exchange_strong(expected, Unfinished::taken)) {
@@ -83,17 +86,13 @@ void remember_unfinished(const std::string& path) noexcept {
     }
     std::memcpy(one.path.data(), path.c_str(), path.size() + 1);
     one.state = Unfinished::named;
-    return;
+    return static_cast<int>(place);
   }
+  return not_remembered;
 }
 
-void forget_unfinished(const std::string& path) noexcept {
-  for (Unfinished& one : unfinished) {
-    if (one.state == Unfinished::named && path == one.path.data()) {
-      one.state = Unfinished::free;
-      return;
-    }
-  }
+void forget_unfinished(int place) noexcept {
+  if (place != not_remembered) unfinished[static_cast<std::size_t>(place)].state = Unfinished::free;
 }
 
 // The error's number, or 0.
@@ -168,6 +167,10 @@ void remove_leftovers(const std::filesystem::path& folder,
 
 void check_output_path(const std::filesystem::path& path) {
   const UnfinishedFile file(path);
+  const std::filesystem::path target = follow_links(path);
+  remove_leftovers(folder_of(target), [&target](const std::string& name) {
+    return name == target.filename().string();
+  });
 }
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
@@ -179,14 +182,14 @@ UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
   if (is_stream_ && ::access(target_.c_str(), W_OK) != 0) fail(errno);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
-  remember_unfinished(temporary_.native());
+  place_ = remember_unfinished(temporary_.native());
 }
 
 UnfinishedFile::~UnfinishedFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (temporary_.empty()) return;
   ::unlink(temporary_.c_str());
-  forget_unfinished(temporary_.native());
+  forget_unfinished(place_);
 }
 
 void UnfinishedFile::write(const void* data, std::size_t bytes) {
@@ -194,15 +197,28 @@ void UnfinishedFile::write(const void* data, std::size_t bytes) {
   if (error != 0) fail(error);
 }
 
-void UnfinishedFile::finish() {
+void UnfinishedFile::close_file() {
   // Some file systems report a full disk only here. Those without fsync say EINVAL.
   if (::fsync(descriptor_) != 0 && errno != EINVAL) fail(errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail(errno);
+}
+
+bool UnfinishedFile::finish_unless_there() {
+  close_file();
+  if (::link(temporary_.c_str(), target_.c_str()) == 0) return true;
+  if (errno == EEXIST) return false;
+  // A file system without links.
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  return true;
+}
+
+void UnfinishedFile::finish() {
+  close_file();
   if (is_stream_) return copy_into_stream();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  forget_unfinished(temporary_.native());
+  forget_unfinished(place_);
   temporary_.clear();
 }
 

@@ -7,9 +7,9 @@
 
 namespace splotchcl {
 
-// Creates a file beside `path` and removes it. Throws DataError when that fails: the folder
-// is missing or not writable, or `path` is itself a folder. Of a FIFO or a device only asks
-// whether it may be written.
+// Creates a file beside `path` and removes it, and what killed processes left unfinished of that
+// name. Throws DataError when that fails: the folder is missing or not writable, or `path` is
+// itself a folder. Of a FIFO or a device only asks whether it may be written.
 void check_output_path(const std::filesystem::path& path);
 
 // Removes the unfinished files that killed processes left in a folder, of those names for which
@@ -37,8 +37,12 @@ class UnfinishedFile {
   // For libraries that write a file by its name; they must be done with it at finish().
   const std::filesystem::path& temporary_path() const { return temporary_; }
   void finish();
+  // The same, but what has come under its name meanwhile stays. Returns whether nothing had. No
+  // stream.
+  bool finish_unless_there();
 
  private:
+  void close_file();
   void copy_into_stream();
   [[noreturn]] void fail(int error_number) const;
 
@@ -47,6 +51,7 @@ class UnfinishedFile {
   std::filesystem::path target_;  // where it will be
   std::filesystem::path temporary_;
   int descriptor_ = -1;
+  int place_ = -1;  // among the names that a signal handler removes
 };
 
 }  // namespace splotchcl

@@ -24,6 +24,10 @@
 namespace splotchcl {
 namespace {
 
+// Kernels count pixels, those of planes and guard bands among them, in 32 bits.
+constexpr int most_side = 65536;
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+
 void check_frame(const Frame& frame) {
   const Rectangle& crop = frame.crop;
   if (crop.width < 1 || crop.height < 1 || crop.x < 0 || crop.y < 0 ||
@@ -32,6 +36,14 @@ void check_frame(const Frame& frame) {
                      std::to_string(crop.width) + "," + std::to_string(crop.height) +
                      ", expected a part of the picture, which is " + std::to_string(frame.width) +
                      " x " + std::to_string(frame.height) + " pixels");
+  }
+  if (frame.width > most_side || frame.height > most_side ||
+      std::int64_t{crop.width} * crop.height > most_pixels) {
+    throw UsageError("found a picture of " + std::to_string(frame.width) + " x " +
+                     std::to_string(frame.height) + " pixels, of which " +
+                     std::to_string(std::int64_t{crop.width} * crop.height) +
+                     " are drawn, expected sides of at most " + std::to_string(most_side) +
+                     " and at most " + std::to_string(most_pixels) + " pixels drawn at a time");
   }
   if (const Image* const background = frame.background_image.get();
       background != nullptr &&

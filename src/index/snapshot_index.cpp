@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/mapped_file.h"
 #include "common/marked_file.h"
@@ -27,7 +29,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // The file: this mark, then in the machine's own endianness key and number of types; of each type a
-// TypeHeader and its boxes.
+// TypeHeader and its boxes; the checksum of all that comes before it.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
                            'l', ' ', 'i', ' ', '1', '\n', 0,   0};
 struct FileHeader {
@@ -64,6 +66,17 @@ std::uint64_t key_of(const SnapshotInfo& info) {
       const FieldInfo* const field = find_field(type, name);
       hash.add(field == nullptr ? std::string() : field->file_name);
     }
+  }
+  return hash.value();
+}
+
+// Of whole words: their last bytes count as one that ends in zeros.
+std::uint64_t checksum_of(const std::byte* bytes, std::size_t size) {
+  WordHash hash;
+  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+    hash.add(word);
   }
   return hash.value();
 }
@@ -144,6 +157,28 @@ class Bytes {
   std::uint64_t left_;
 };
 
+// Null where it cannot be opened, such as someone else's.
+std::shared_ptr<const MappedFile> opened(const std::filesystem::path& path) {
+  try {
+    return MappedFile::open(path);
+  } catch (const DataError&) {
+    return nullptr;
+  }
+}
+
+bool ends_with_its_checksum(const MappedFile& file) {
+  std::uint64_t checksum = 0;
+  if (file.size() < sizeof checksum) return false;
+  const auto size = static_cast<std::size_t>(file.size()) - sizeof checksum;
+  std::memcpy(&checksum, file.data() + size, sizeof checksum);
+  return checksum == checksum_of(file.data(), size);
+}
+
+void append(std::vector<std::byte>& bytes, const void* from, std::size_t size) {
+  const auto* const first = static_cast<const std::byte*>(from);
+  bytes.insert(bytes.end(), first, first + size);
+}
+
 bool is_regular(const std::filesystem::path& path) {
   std::error_code missing;
   return std::filesystem::is_regular_file(path, missing);
@@ -180,7 +215,8 @@ SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
 
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
   if (!is_there(info)) return std::nullopt;
-  const auto file = MappedFile::open(path_for(info));
+  const auto file = opened(path_for(info));
+  if (file == nullptr || !ends_with_its_checksum(*file)) return std::nullopt;
   Bytes bytes(*file);
   FileHeader header{};
   if (!bytes.take(&header, sizeof header) || header.mark != mark || header.key != key_of(info) ||
@@ -218,14 +254,18 @@ void SnapshotIndex::write(const SnapshotInfo& info) const {
     throw UsageError(fmt::format(
         "{}: found a file that is no index, expected none or an index; move it", path.string()));
   }
-  UnfinishedFile file(path);
+  std::vector<std::byte> bytes;
   const FileHeader header = {mark, key_of(info), types_.size()};
-  file.write(&header, sizeof header);
+  append(bytes, &header, sizeof header);
   for (const Type& type : types_) {
     const TypeHeader head = {type.type, type.count, type.has_smoothing_lengths ? 1u : 0u};
-    file.write(&head, sizeof head);
-    file.write(type.boxes.data(), type.boxes.size() * sizeof(ParticleBox));
+    append(bytes, &head, sizeof head);
+    append(bytes, type.boxes.data(), type.boxes.size() * sizeof(ParticleBox));
   }
+  const std::uint64_t checksum = checksum_of(bytes.data(), bytes.size());
+  append(bytes, &checksum, sizeof checksum);
+  UnfinishedFile file(path);
+  file.write(bytes.data(), bytes.size());
   file.finish();
 }
 

@@ -147,7 +147,9 @@ void surround(const Column& placed, std::vector<ParticleBox>& boxes) {
 std::string tell_stale_index(const Snapshot& snapshot) {
   if (known_boxes(snapshot).beside || !SnapshotIndex::is_there(snapshot.info())) return {};
   return fmt::format(
-      "{} is not of the files beside it and is not used; splotchcl index makes it anew",
+      "{} is not used: it is of other files than those beside it, damaged, or someone else's; "
+      "splotchcl "
+      "index makes it anew",
       SnapshotIndex::path_for(snapshot.info()).string());
 }
 

@@ -107,12 +107,15 @@ class MpiRanks final : public Communicator {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ialltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, all_, &request);
     finish(request);
+    // All memory before the first message: what is under way must not be freed.
     std::vector<Bytes> all(count);
+    for (std::size_t from = 0; from < count; ++from)
+      if (from != static_cast<std::size_t>(rank_))
+        all[from].resize(static_cast<std::size_t>(received[from]));
     std::vector<MPI_Request> requests;
     for (int step = 1; step < size_; ++step) {
       const int from = (rank_ + size_ - step) % size_;
       Bytes& part = all[static_cast<std::size_t>(from)];
-      part.resize(static_cast<std::size_t>(received[static_cast<std::size_t>(from)]));
       in_pieces(part.size(), [&](std::size_t first, int bytes) {
         MPI_Irecv(part.data() + first, bytes, MPI_BYTE, from, tag, all_, &requests.emplace_back());
       });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,8 +37,8 @@ void for_blocks(std::size_t count, std::size_t block_size,
   try {
     for (std::size_t thread = 1; thread < threads; ++thread)
       others.emplace_back(run, thread);
-  } catch (const std::system_error&) {
-    // A limit on threads: fewer do the same.
+  } catch (...) {
+    // A limit on threads, or no memory for another: fewer do the same.
   }
   run(0);
   for (std::thread& other : others)

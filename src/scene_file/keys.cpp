@@ -81,7 +81,7 @@ Keys image_keys() {
                       image.width = size.first;
                       image.height = size.second;
                     },
-                    {"Width and height of the picture.", "pixels"}),
+                    {"Width and height of the picture, of at most 2^28 pixels.", "pixels"}),
                 {"image.width", "image.height"}),
       not_written(key("image.width", integer(1, largest_side), &ImageSettings::width,
                       {"The width alone, instead of `size`.", "pixels"})),

@@ -118,8 +118,7 @@ std::shared_ptr<const Snapshot> SnapshotSource::State::at(const Scene& scene) {
 void SnapshotSource::State::use_settings(const SequenceSettings& settings) {
   const bool has_new_list = list_.empty() || !is_same_list(settings, settings_);
   if (has_new_list || !is_same_motion(settings, settings_)) {
-    if (ahead_.valid()) ahead_.wait();
-    ahead_ = {};
+    ahead_ = {};  // waits for its end
     pairs_.clear();
     last_.reset();
     last_index_.reset();
@@ -200,17 +199,19 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
 
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
-  ahead_ = std::async(std::launch::async, [listed = list_[next], neighbor = member(edge),
-                                           is_forward, settings = settings_] {
-    Ahead ahead;
-    ahead.member = open_member(listed);
-    read_fields(*ahead.member, neighbor->fields_read());
-    if (settings.interpolation != Interpolation::none) {
-      ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
-                              : make_pair(ahead.member, neighbor, settings);
-    }
-    return ahead;
-  });
+  // Where there are no more threads, it is read when it is asked for.
+  ahead_ =
+      std::async(std::launch::async | std::launch::deferred,
+                 [listed = list_[next], neighbor = member(edge), is_forward, settings = settings_] {
+                   Ahead ahead;
+                   ahead.member = open_member(listed);
+                   read_fields(*ahead.member, neighbor->fields_read());
+                   if (settings.interpolation != Interpolation::none) {
+                     ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
+                                             : make_pair(ahead.member, neighbor, settings);
+                   }
+                   return ahead;
+                 });
 }
 
 void SnapshotSource::State::check(const SequenceSettings& settings) {

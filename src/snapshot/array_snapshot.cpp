@@ -167,6 +167,7 @@ void ArraySnapshot::set_box_size(double size) {
 }
 
 void ArraySnapshot::set_time(double time) {
+  changed();
   info_.time = time;
 }
 
@@ -176,6 +177,7 @@ void ArraySnapshot::set_position_origin(const Vec3& origin) {
         "the origin is set after positions that are stored relative to it; set it "
         "first");
   }
+  changed();
   origin_ = origin;
 }
 

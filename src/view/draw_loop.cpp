@@ -43,12 +43,16 @@ DrawLoop::DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options,
       thread_([this] { run(); }) {}
 
 DrawLoop::~DrawLoop() {
+  stop();
+}
+
+void DrawLoop::stop() {
   {
     const std::lock_guard lock(mutex_);
     is_stopping_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 std::uint64_t DrawLoop::open_page(SendToPage send) {

@@ -35,10 +35,12 @@ class DrawLoop {
  public:
   // `options.go_on` is not used. Throws as ViewDrawer does.
   DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options, std::vector<std::string>& notes);
-  // Ends what is being drawn.
   ~DrawLoop();
   DrawLoop(const DrawLoop&) = delete;
   DrawLoop& operator=(const DrawLoop&) = delete;
+
+  // Ends what is being drawn. Nothing is sent any more when it returns.
+  void stop();
 
   // For any thread. Returns the page's number.
   std::uint64_t open_page(SendToPage send);

@@ -1,6 +1,7 @@
 #include "view/frame_sample.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "scene/hash.h"
@@ -33,6 +34,7 @@ bool is_same(const Particles& known, const Particles& particles) {
 Frame FrameSampler::sample(const Frame& frame, std::uint64_t particles) {
   const std::uint64_t all = particle_count(frame);
   if (particles == 0 || all <= particles) return frame;
+  ++frame_;
   Frame sampled = frame;
   const double share = static_cast<double>(particles) / static_cast<double>(all);
   for (std::size_t i = 0; i < sampled.components.size(); ++i) {
@@ -46,14 +48,24 @@ Frame FrameSampler::sample(const Frame& frame, std::uint64_t particles) {
     component.reference_column /= stands_for;
     component.particles_per_drawn *= stands_for;
   }
+  forget_unused();
   return sampled;
 }
 
 const Particles& FrameSampler::sample_component(std::size_t component, const Particles& all,
                                                 std::size_t count) {
   Kept& kept = kept_[{component, count}];
-  if (!is_same(kept.source, all)) kept = {all, picked_particles(all, choose(all.count, count))};
+  if (!is_same(kept.source, all)) kept = {all, picked_particles(all, choose(all.count, count)), 0};
+  kept.last_frame = frame_;
   return kept.sample;
+}
+
+// Levels of previews come and go, pages take turns, and each sample keeps the columns alive that it
+// was taken from.
+void FrameSampler::forget_unused() {
+  constexpr std::uint64_t frames = 8;
+  for (auto kept = kept_.begin(); kept != kept_.end();)
+    kept = kept->second.last_frame + frames < frame_ ? kept_.erase(kept) : std::next(kept);
 }
 
 }  // namespace splotchcl::view

@@ -15,6 +15,10 @@ struct LiveView::State {
       : token(make_token()),
         pages(std::move(source), {options.device, options.shape, {}}, notes),
         server(options.address, options.port, AccessRules(token, options.address), pages) {}
+  // What is drawn at the end is still sent by the server.
+  ~State() { pages.stop(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   std::string token;
   DrawLoop pages;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
+#include <iterator>
+
+#include "matches.h"
 
 namespace splotchcl::test {
 
@@ -20,13 +22,11 @@ std::vector<fs::path> source_files(const fs::path& root, const fs::path& folder)
 }
 
 std::vector<std::string> quoted_includes(const fs::path& file) {
-  static const std::regex include("^\\s*#\\s*include\\s*\"([^\"]+)\"");
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::vector<std::string> includes;
-  std::ifstream text(file);
-  std::smatch match;
-  for (std::string line; std::getline(text, line);) {
-    if (std::regex_search(line, match, include)) includes.push_back(match[1]);
-  }
+  for (const Match& found : matches_of(text, "(?:^|\\n)\\s*#\\s*include\\s*\"([^\"]+)\""))
+    includes.push_back(found[1]);
   return includes;
 }
 

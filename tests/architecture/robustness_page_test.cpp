@@ -4,12 +4,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "architecture/project_files.h"
+#include "matches.h"
 #include "paths.h"
 
 namespace splotchcl::test {
@@ -25,13 +25,10 @@ using TestName = std::pair<std::string, std::string>;
 
 std::set<TestName> tests_of_the_project() {
   std::set<TestName> tests;
-  const std::regex definition(R"(\bTEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
+  const std::string definition = R"(\bTEST(?:_F|_P)?\((\w+),\s*(\w+)\))";
   for (const auto& path : source_files(test::source_folder(), "tests")) {
-    const std::string text = content_of(test::source_folder() / path);
-    for (std::sregex_iterator found(text.begin(), text.end(), definition), end; found != end;
-         ++found) {
-      tests.insert({(*found)[1], (*found)[2]});
-    }
+    for (const Match& found : matches_of(content_of(test::source_folder() / path), definition))
+      tests.insert({found[1], found[2]});
   }
   return tests;
 }
@@ -39,12 +36,11 @@ std::set<TestName> tests_of_the_project() {
 // `Suite.Name`, `.Name` of the suite before it, `Suite.*` and `*.Name`.
 std::vector<TestName> tests_that_are_named() {
   const std::string text = content_of(test::source_folder() / "docs/robustness.md");
-  const std::regex word(R"(`(\w*|\*)\.([A-Z]\w+|\*)`)");
   std::vector<TestName> named;
   std::string suite;
-  for (std::sregex_iterator found(text.begin(), text.end(), word), end; found != end; ++found) {
-    if ((*found)[1].length() > 0) suite = (*found)[1];
-    named.push_back({suite, (*found)[2]});
+  for (const Match& found : matches_of(text, R"(`(\w*|\*)\.([A-Z]\w+|\*)`)")) {
+    if (!found[1].empty()) suite = found[1];
+    named.push_back({suite, found[2]});
   }
   return named;
 }

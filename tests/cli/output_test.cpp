@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 
 #include "cli/program.h"
+#include "matches.h"
 #include "splotchcl/image_file.h"
 
 namespace splotchcl::test {
@@ -88,8 +88,10 @@ TEST_F(RenderedOutput, NeverShowsAnUnfinishedPictureWhenKilled) {
 }
 
 // Without what is found from the picture when it is drawn.
-std::string without_exposure(const std::string& scene) {
-  return std::regex_replace(scene, std::regex("\n(exposure|white) = [^\n]*"), "");
+std::string without_exposure(std::string scene) {
+  for (const Match& line : matches_of(scene, "\n(exposure|white) = [^\n]*"))
+    scene.erase(scene.find(line[0]), line[0].size());
+  return scene;
 }
 
 TEST_F(RenderedOutput, KeepsLinearLightAndTheSceneInExr) {

@@ -71,6 +71,17 @@ TEST_F(BinaryCacheTest, IgnoresAFileWithAnyByteChanged) {
   }
 }
 
+TEST_F(BinaryCacheTest, UsesNoFolderThatSomeoneElseMayHaveMadeSinceItWasMissing) {
+  fs::create_directories(folder_);
+  fs::permissions(folder_, fs::perms::all);
+  cache_.keep("key", binary_);
+  EXPECT_TRUE(fs::is_empty(folder_));
+  fs::permissions(folder_, fs::perms::owner_all);
+  cache_.keep("key", binary_);
+  fs::permissions(folder_, fs::perms::all);
+  EXPECT_FALSE(cache_.find("key"));
+}
+
 TEST_F(BinaryCacheTest, UsesNoFolderThatOthersMayWriteTo) {
   cache_.keep("key", binary_);
   EXPECT_EQ(cache_.note(), "");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "device/evenly_spread.h"
 #include "device/opencl/launch.h"
 #include "device/stages.h"
 #include "reference/frames.h"
@@ -70,13 +71,6 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
   }
 };
 
-std::vector<float> evenly(double low, double high, int count) {
-  std::vector<float> x;
-  for (int i = 0; i <= count; ++i)
-    x.push_back(static_cast<float>(low + (high - low) * i / count));
-  return x;
-}
-
 std::vector<float> logarithmically(double low, double high, int count) {
   std::vector<float> x;
   for (int i = 0; i <= count; ++i)
@@ -86,23 +80,28 @@ std::vector<float> logarithmically(double low, double high, int count) {
 
 TEST_P(ExtendedNumbers, Exp) {
   const auto f = [](double x) { return std::exp(x); };
-  EXPECT_LE(largest_error("extended_exp(extended_of(x[i]))", evenly(-70, 80, 5000), f, 1e-300),
-            3e-9);
-  EXPECT_LE(largest_error("extended_exp(extended_of(x[i]))", evenly(-200, -70, 500), f, 1e-36), 1);
+  EXPECT_LE(
+      largest_error("extended_exp(extended_of(x[i]))", evenly_spread(-70, 80, 5001), f, 1e-300),
+      3e-9);
+  EXPECT_LE(
+      largest_error("extended_exp(extended_of(x[i]))", evenly_spread(-200, -70, 501), f, 1e-36), 1);
 }
 
 TEST_P(ExtendedNumbers, Erfc) {
   const auto f = [](double x) { return std::erfc(x); };
-  EXPECT_LE(largest_error("extended_erfc(extended_of(x[i]))", evenly(0, 8.5, 5000), f, 1e-300),
-            5e-9);
-  EXPECT_LE(largest_error("extended_erfc(extended_of(x[i]))", evenly(8.5, 1000, 500), f, 1e-36), 1);
+  EXPECT_LE(
+      largest_error("extended_erfc(extended_of(x[i]))", evenly_spread(0, 8.5, 5001), f, 1e-300),
+      5e-9);
+  EXPECT_LE(
+      largest_error("extended_erfc(extended_of(x[i]))", evenly_spread(8.5, 1000, 501), f, 1e-36),
+      1);
 }
 
 TEST_P(ExtendedNumbers, Log) {
   const auto f = [](double x) { return std::log(x); };
   const std::string log = "extended_log(extended_of(x[i]))";
   EXPECT_LE(largest_error(log, logarithmically(1e-37, 3e38, 5000), f, 1), 3e-9);
-  EXPECT_LE(largest_error(log, evenly(0.5, 2, 1000), f, 1), 3e-9);
+  EXPECT_LE(largest_error(log, evenly_spread(0.5, 2, 1001), f, 1), 3e-9);
 }
 
 TEST_P(ExtendedNumbers, Asinh) {
@@ -139,7 +138,7 @@ TEST_P(ExtendedNumbers, Atan2) {
   const std::string third = "extended_quotient(extended_of(x[i]), extended_of(3.0f))";
   for (const double sign : {-1.0, 1.0}) {
     const std::string one = sign < 0 ? "extended_of(-1.0f)" : "extended_of(1.0f)";
-    for (std::vector<float> x : {logarithmically(1e-30, 1e30, 3000), evenly(-6, 6, 5000)}) {
+    for (std::vector<float> x : {logarithmically(1e-30, 1e30, 3000), evenly_spread(-6, 6, 5001)}) {
       EXPECT_LE(largest_error(
                     "extended_atan2(" + third + ", " + one + ")", x,
                     [&](double v) { return std::atan2(v / 3, sign); }, 1e-300),
@@ -163,7 +162,7 @@ TEST_P(ExtendedNumbers, Hypotenuse) {
                           logarithmically(1e-30, 1e30, 3000), f, 1e-300),
             0x1p-42);
   EXPECT_LE(largest_error("extended_hypotenuse(extended_of(-1.0f), " + third + ")",
-                          evenly(-6, 6, 3000), f, 1e-300),
+                          evenly_spread(-6, 6, 3001), f, 1e-300),
             0x1p-42);
 }
 
@@ -172,21 +171,22 @@ TEST_P(ExtendedNumbers, RowLength) {
   const auto f = [](double m) { return std::exp(-m * m) + std::sqrt(pi) * m * std::erf(m); };
   const std::string function =
       "extended_row_length(extended_of(1.0f), extended_of(x[i]), extended_of(x[i]))";
-  EXPECT_LE(largest_error(function, evenly(0, 12, 5000), f, 1e-300), 4e-9);
+  EXPECT_LE(largest_error(function, evenly_spread(0, 12, 5001), f, 1e-300), 4e-9);
   EXPECT_NEAR(f(9), std::sqrt(pi) * 9, 1e-13) << "where exp and erf are left out";
 }
 
 TEST_P(ExtendedNumbers, PreciseExpAndPhi) {
   const auto exp = [](double y) { return std::exp(-y); };
   const auto phi = [](double y) { return y > 0 ? -std::expm1(-y) / y : 1; };
-  EXPECT_LE(largest_error("precise_exp_negative(x[i], 0.0f)", evenly(0, 80, 5000), exp, 1e-300,
-                          precise_kernel),
+  EXPECT_LE(largest_error("precise_exp_negative(x[i], 0.0f)", evenly_spread(0, 80, 5001), exp,
+                          1e-300, precise_kernel),
             1.3e-7);
   EXPECT_LE(largest_error("precise_phi(x[i])", logarithmically(1e-30, 1e30, 5000), phi, 1e-300,
                           precise_kernel),
             1.3e-7);
-  EXPECT_LE(largest_error("precise_phi(x[i])", evenly(0, 5, 5000), phi, 1e-300, precise_kernel),
-            1.3e-7);
+  EXPECT_LE(
+      largest_error("precise_phi(x[i])", evenly_spread(0, 5, 5001), phi, 1e-300, precise_kernel),
+      1.3e-7);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ExtendedNumbers, testing::Bool(),

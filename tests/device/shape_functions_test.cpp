@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "device/evenly_spread.h"
 #include "device/opencl/launch.h"
 #include "device/stages.h"
 #include "scene/plan/splat_limits.h"
@@ -40,13 +41,6 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
     return device().pool.download(results, x.size());
   }
 };
-
-std::vector<float> evenly_spread(double first, double last, int count) {
-  std::vector<float> values;
-  for (int i = 0; i < count; ++i)
-    values.push_back(static_cast<float>(first + (last - first) * i / (count - 1)));
-  return values;
-}
 
 double largest(const std::vector<float>& x, const std::vector<float>& found,
                const std::function<double(double found, double x)>& error) {

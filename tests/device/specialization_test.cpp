@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "matches.h"
 #include "paths.h"
 
 namespace splotchcl::test {
@@ -36,10 +36,9 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 
 // The first group of every match.
 std::set<std::string> names_in(const std::string& text, const std::string& pattern) {
-  const std::regex expression(pattern);
   std::set<std::string> names;
-  for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match)
-    names.insert((*match)[1]);
+  for (const Match& match : matches_of(text, pattern))
+    names.insert(match[1]);
   return names;
 }
 
@@ -77,7 +76,7 @@ TEST(Defines, ThatAreWrittenAreReadByAKernel) {
   const std::string kernels = kernel_texts();
   EXPECT_GT(written_macros().size(), 15u);
   for (const std::string& macro : written_macros())
-    EXPECT_TRUE(std::regex_search(kernels, std::regex("\\b" + macro + "\\b"))) << macro;
+    EXPECT_FALSE(matches_of(kernels, "\\b" + macro + "\\b").empty()) << macro;
 }
 
 class Sizes : public StageTest {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string>
@@ -118,6 +119,22 @@ TEST_F(Index, IsNotUsedWhereItIsDamaged) {
     std::filesystem::resize_file(path(), kept);
     EXPECT_FALSE(SnapshotIndex::read(snapshot->info())) << kept;
   }
+}
+
+TEST_F(Index, IsNotUsedWithAnyByteOfABoxChanged) {
+  const auto snapshot = write(long_row());
+  SnapshotIndex::make(*snapshot, {}).write(snapshot->info());
+  const auto size = std::filesystem::file_size(path());
+  std::string bytes(size, '\0');
+  std::ifstream(path(), std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(size));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::string changed = bytes;
+    changed[i] = static_cast<char>(changed[i] ^ 4);
+    write_bytes(path(), changed);
+    EXPECT_FALSE(SnapshotIndex::read(snapshot->info())) << "byte " << i;
+  }
+  write_bytes(path(), bytes);
+  EXPECT_TRUE(SnapshotIndex::read(snapshot->info()));
 }
 
 TEST_F(Index, DoesNotOverwriteAnotherFile) {

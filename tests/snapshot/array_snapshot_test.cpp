@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::test {
@@ -52,6 +53,21 @@ TEST(ArraySnapshot, DoublePositionsKeepTheirOffsetsFromTheOrigin) {
   EXPECT_EQ(snapshot.read(1, "position")[0], 0.25F);
   EXPECT_EQ(snapshot.read(1, "position")[1], 0);
   EXPECT_THROW(snapshot.set_position_origin({{0, 0, 0}}), UsageError);
+}
+
+TEST(ArraySnapshot, WhatWasComputedOfItIsForgottenWhenItChanges) {
+  ArraySnapshot snapshot;
+  int computed = 0;
+  const auto compute = [&] { snapshot.memory().get<int>("what", [&] { return ++computed; }); };
+  compute();
+  compute();
+  EXPECT_EQ(computed, 1);
+  snapshot.set_position_origin({{1, 2, 3}});
+  compute();
+  EXPECT_EQ(computed, 2);
+  snapshot.set_time(0.5);
+  compute();
+  EXPECT_EQ(computed, 3);
 }
 
 TEST(ArraySnapshot, CountsOfATypeAgree) {

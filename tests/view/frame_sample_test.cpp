@@ -81,6 +81,24 @@ TEST(FrameSample, MakesOfColumnsThatAreStreamedItsOwnValuesOnly) {
   EXPECT_EQ(sizes->made(), 100u);
 }
 
+TEST(FrameSample, ForgetsWhatNoFrameHasUsedForSomeTime) {
+  FrameSampler sampler;
+  std::weak_ptr<const test::CountedColumn> sizes;
+  {
+    Frame frame = frame_of(1000);
+    Particles& particles = frame.components[0].particles;
+    const auto made = std::make_shared<const test::CountedColumn>(particles.smoothing_length);
+    particles.smoothing_length = Column::made_by(made);
+    sizes = made;
+    sampler.sample(frame, 100);
+  }
+  EXPECT_FALSE(sizes.expired());
+  const Frame another = frame_of(500);
+  for (int i = 0; i < 20; ++i)
+    sampler.sample(another, 50);
+  EXPECT_TRUE(sizes.expired());
+}
+
 TEST(FrameSample, LeavesNoComponentOut) {
   FrameSampler sampler;
   Frame frame = frame_of(10000);

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
+#include <vector>
+
+#include "matches.h"
 
 namespace splotchcl::view {
 namespace {
@@ -28,12 +30,10 @@ TEST(PageFiles, NoOthersAreServed) {
 
 TEST(PageFiles, ScriptsImportOnlyThoseThatAreThere) {
   const std::string script(find_page_file("app.js")->text);
-  const std::regex import("from '\\./([a-z_.]+)'");
-  int imports = 0;
-  for (std::sregex_iterator found(script.begin(), script.end(), import), end; found != end;
-       ++found, ++imports)
-    EXPECT_TRUE(find_page_file((*found)[1].str())) << (*found)[1];
-  EXPECT_GT(imports, 3);
+  const std::vector<test::Match> imports = test::matches_of(script, "from '\\./([a-z_.]+)'");
+  for (const test::Match& import : imports)
+    EXPECT_TRUE(find_page_file(import[1])) << import[1];
+  EXPECT_GT(imports.size(), 3U);
 }
 
 }  // namespace

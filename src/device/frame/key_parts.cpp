@@ -9,7 +9,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t most_parts = 256;
 // Sampled splats of each part: fewer would not tell how many splats it has.
 constexpr double fewest_sampled = 4;
 // Of the sample at each end, which do not widen the bins.
@@ -45,8 +44,8 @@ std::optional<KeyParts> choose_key_parts(const std::vector<std::uint64_t>& sampl
                                          double expected_splats, const DeviceTraits& traits) {
   const auto sampled = static_cast<double>(sampled_keys.size());
   const double wanted =
-      std::floor(std::min({static_cast<double>(most_parts), expected_splats / traits.splats_of_part,
-                           sampled / fewest_sampled}));
+      std::floor(std::min({static_cast<double>(most_key_parts),
+                           expected_splats / traits.splats_of_part, sampled / fewest_sampled}));
   if (!(wanted >= traits.fewest_parts)) return std::nullopt;
   KeyParts parts = bins_around(sampled_keys);
   std::vector<std::size_t> sampled_in_bin(KEY_PART_BINS);
@@ -57,7 +56,7 @@ std::optional<KeyParts> choose_key_parts(const std::vector<std::uint64_t>& sampl
   double next = 0;  // sampled splats before the next part
   for (std::size_t bin = 0; bin < KEY_PART_BINS; ++bin) {
     const std::uint64_t first = parts.first_key + (std::uint64_t{bin} << parts.shift);
-    const bool has_more = before < sampled_keys.size() && parts.parts.size() < most_parts;
+    const bool has_more = before < sampled_keys.size() && parts.parts.size() < most_key_parts;
     if (has_more && static_cast<double>(before) >= next) {
       if (!parts.parts.empty()) parts.parts.back().end = first;
       parts.parts.push_back({first, first});

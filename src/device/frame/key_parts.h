@@ -20,11 +20,14 @@ struct KeyPart {
   std::uint64_t first = 0, end = 0;
 };
 
+// As many as a byte tells apart.
+constexpr std::size_t most_key_parts = 256;
+
 struct KeyParts {
   // Bin (upper - first_key) >> shift, or the first or last bin.
   std::uint32_t first_key = 0, shift = 0;
   std::vector<std::uint8_t> part_of_bin;  // KEY_PART_BINS of them, ascending
-  std::vector<KeyPart> parts;             // at most 256, one after the other
+  std::vector<KeyPart> parts;             // at most most_key_parts, one after the other
 };
 
 // Parts of about as many of the expected splats each as the device's traits say, or of more where

@@ -9,6 +9,8 @@
 namespace splotchcl {
 namespace {
 
+static_assert(most_grids_of_level == MOST_BLURS);
+
 // Pixels beside the picture that are as well known: tiles end there, and splats that are not wide
 // lie there.
 constexpr int beside_picture = 128;

@@ -1,5 +1,6 @@
 #include "device/frame/specialization.h"
 
+#include "device/frame/key_parts.h"
 #include "device/frame/shared.h"
 #include "scene/plan/splat_limits.h"
 #include "surroundings/cloud_around.h"
@@ -210,10 +211,9 @@ ProgramSource Specialization::compact() {
   return {"", {"splat.h", "project.h", "compact.cl"}};
 }
 
-// No more parts than bytes tell apart (key_parts.h).
 ProgramSource Specialization::key_parts() const {
   return {define("SPLAT_WORDS " + std::to_string(splat_bytes() / sizeof(cl_uint))) +
-              define("MOST_KEY_PARTS 256"),
+              define("MOST_KEY_PARTS " + std::to_string(most_key_parts)),
           {"splat.h", "project.h", "prefetch.cl", "pieces.cl", "key_parts.cl"}};
 }
 

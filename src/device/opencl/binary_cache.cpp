@@ -1,6 +1,7 @@
 #include "device/opencl/binary_cache.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -63,6 +64,17 @@ std::string text_in(const std::filesystem::path& path) {
   return text;
 }
 
+// Nobody else may write to it, from when it is there.
+void make_own_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), ignored);
+#ifdef SPLOTCHCL_HAS_POSIX_FILES
+  ::mkdir(folder.c_str(), S_IRWXU);
+#else
+  std::filesystem::create_directory(folder, ignored);
+#endif
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> BinaryCache::user_folder() {
@@ -83,8 +95,11 @@ std::optional<std::filesystem::path> BinaryCache::user_folder() {
 std::string BinaryCache::distrust(const std::filesystem::path& folder) {
 #ifdef SPLOTCHCL_HAS_POSIX_FILES
   struct stat status = {};
-  if (stat(folder.c_str(), &status) != 0) return {};  // it will be made
   const std::string what = "the cache of compiled kernels is not used: " + folder.string();
+  if (stat(folder.c_str(), &status) != 0) {
+    if (errno == ENOENT) return {};  // it will be made
+    return what + ": " + std::strerror(errno);
+  }
   if (status.st_uid != geteuid()) return what + " belongs to someone else";
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
     return what + " may be written to by others; chmod go-w mends that";
@@ -105,7 +120,8 @@ std::filesystem::path BinaryCache::file_for(const std::string& key) const {
 }
 
 std::optional<std::string> BinaryCache::find(const std::string& key) const {
-  if (!folder_) return std::nullopt;
+  // Someone else may have made the folder since it was missing.
+  if (!folder_ || !distrust(*folder_).empty()) return std::nullopt;
   const std::string text = text_in(file_for(key));
   const std::size_t key_end = text.find(end_of_key);
   if (key_end == std::string::npos) return std::nullopt;
@@ -118,10 +134,9 @@ std::optional<std::string> BinaryCache::find(const std::string& key) const {
 
 void BinaryCache::keep(const std::string& key, const std::string& binary) const {
   if (!folder_ || binary.empty()) return;
+  make_own_folder(*folder_);
+  if (!distrust(*folder_).empty()) return;
   std::error_code failure;
-  if (std::filesystem::create_directories(*folder_, failure)) {
-    std::filesystem::permissions(*folder_, std::filesystem::perms::owner_all, failure);
-  }
   const std::filesystem::path file = file_for(key);
   std::filesystem::path unfinished = file;
   unfinished += "." + std::to_string(std::random_device()());

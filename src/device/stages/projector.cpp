@@ -16,6 +16,8 @@
 namespace splotchcl {
 namespace {
 
+static_assert(width_octaves == WIDTH_OCTAVES);
+
 // Of all groups, added up on the device.
 Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
   Buffer<shared::BlockCounts> counts = device.pool.get<shared::BlockCounts>(1, "counts of splats");

@@ -39,7 +39,7 @@ RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snap
   finish();
   if (output.empty()) return drawn.stats;
   writing_ = std::async(
-      std::launch::async,
+      std::launch::async | std::launch::deferred,  // later, where there may be no more threads
       [output, pictures = std::move(drawn.pictures),
        options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
         write_pictures(output, pictures, options);

@@ -128,22 +128,25 @@ bool FrameFiles::is_complete(const std::vector<int>& frames) const {
          });
 }
 
+void FrameFiles::check_manifest(const std::string& manifest) const {
+  const std::string found = read_text_file(manifest_);
+  if (found == manifest) return;
+  throw UsageError(fmt::format(
+      "{}: found frames of another film, {}; remove {} to draw all of them anew, or choose "
+      "another output",
+      manifest_.string(), difference(found, manifest), is_film_ ? "the folder" : "this file"));
+}
+
 void FrameFiles::open(const std::string& manifest) {
-  if (is_begun()) {
-    const std::string found = read_text_file(manifest_);
-    if (found == manifest) return;
-    throw UsageError(fmt::format(
-        "{}: found frames of another film, {}; remove {} to draw all of them anew, or choose "
-        "another output",
-        manifest_.string(), difference(found, manifest), is_film_ ? "the folder" : "this file"));
-  }
+  if (is_begun()) return check_manifest(manifest);
   std::error_code error;
   if (is_film_ && !std::filesystem::create_directories(folder_, error) && error) {
     throw DataError(folder_.string() + ": cannot be created: " + error.message());
   }
   UnfinishedFile file(manifest_);
   file.write(manifest.data(), manifest.size());
-  file.finish();
+  // Another part of the film may have begun at the same time.
+  if (!file.finish_unless_there()) check_manifest(manifest);
 }
 
 bool FrameFiles::has(int frame) const {

@@ -61,6 +61,8 @@ class FrameFiles {
   };
 
  private:
+  // Throws UsageError where the one that is there is another.
+  void check_manifest(const std::string& manifest) const;
   void remove_frames() const;
 
   std::filesystem::path output_, folder_, manifest_;

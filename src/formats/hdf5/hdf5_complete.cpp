@@ -6,6 +6,7 @@
 #include <array>
 
 #include "formats/hdf5/hdf5_file.h"
+#include "formats/limits.h"
 #include "scene/ceil_divide.h"
 #include "splotchcl/error.h"
 
@@ -14,9 +15,6 @@ namespace {
 
 using PropertyList = Hdf5Handle<H5Pclose>;
 using Space = Hdf5Handle<H5Sclose>;
-
-// Deflate packs no better than 1032 to 1.
-constexpr std::uint64_t best_packing_of_deflate = 1032;
 
 // None where the count overflows.
 std::optional<std::uint64_t> bytes_of(const Hdf5Dataset& dataset) {

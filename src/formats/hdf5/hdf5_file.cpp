@@ -132,8 +132,11 @@ std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t
     auto& found = *static_cast<Search*>(data);
     // A link may lead nowhere; what does not exist is not listed.
     const Object object(H5Oopen(id, name, found.properties));
-    if (object.is_valid() && H5Iget_type(object.id()) == found.wanted) {
-      found.names.emplace_back(name);
+    try {  // nothing may be thrown through HDF5
+      if (object.is_valid() && H5Iget_type(object.id()) == found.wanted)
+        found.names.emplace_back(name);
+    } catch (const std::exception&) {
+      return -1;
     }
     return 0;
   };

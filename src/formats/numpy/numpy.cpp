@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "formats/limits.h"
 #include "formats/numpy/numpy_array.h"
 #include "formats/numpy/zip_archive.h"
 #include "formats/snapshot_format.h"
@@ -21,8 +22,6 @@ namespace splotchcl {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t most_array_columns = 4096;
 
 // Rows of more numbers without names are taken for those of an image.
 constexpr std::uint64_t most_nameless_columns = 32;
@@ -247,7 +246,7 @@ void NumpyTable::choose_rows() {
 
 void NumpyTable::add(const std::string& name, NumpyColumn column) {
   const int width = column.values.values_per_particle;
-  if ((width != 1 && width != 3) || columns_.size() >= most_array_columns) {
+  if ((width != 1 && width != 3) || columns_.size() >= most_columns) {
     left_out_.push_back(name);
     return;
   }
@@ -302,7 +301,7 @@ void NumpyTable::add_plain(std::size_t array, const std::vector<std::string>& na
     }
   } else if (width >= 3) {
     add("position", plain_column(array, header, 0, 3));
-    for (std::uint64_t i = 3; i < std::min<std::uint64_t>(width, most_array_columns); ++i) {
+    for (std::uint64_t i = 3; i < std::min<std::uint64_t>(width, most_columns); ++i) {
       add(fmt::format("column_{}", i + 1), plain_column(array, header, i, 1));
     }
   } else {

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 
+#include "formats/limits.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-// Deflate packs no better than 1032 to 1.
-constexpr std::uint64_t best_packing = 1032;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what,
                        const std::string& reason) {
@@ -53,7 +51,7 @@ ZipArchive::ZipArchive(const std::filesystem::path& path) : path_(path) {
     const bool is_known = zip_stat_index(handle(archive_.get()), index, 0, &status) == 0 &&
                           (status.valid & needed) == needed;
     if (!is_known) fail(path_, fmt::format("entry {}", i), "it has no name or length");
-    if (status.size / best_packing > status.comp_size) {
+    if (status.size / best_packing_of_deflate > status.comp_size) {
       fail(path_, status.name,
            fmt::format("{} bytes cannot come out of {}", status.size, status.comp_size));
     }

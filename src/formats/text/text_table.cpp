@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "formats/limits.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "snapshot/field_names.h"
@@ -21,7 +22,6 @@ namespace splotchcl {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t most_text_columns = 4096;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
 
 std::string_view trim(std::string_view text) {
@@ -109,7 +109,7 @@ std::string_view take_cell(std::string_view& line, char separator, bool& has_mor
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
-  for (bool has_more = true; has_more && cells.size() < most_text_columns;) {
+  for (bool has_more = true; has_more && cells.size() < most_columns;) {
     cells.push_back(take_cell(line, separator, has_more));
   }
   return cells;

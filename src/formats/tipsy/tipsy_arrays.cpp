@@ -96,7 +96,12 @@ std::vector<TipsyArray> find_tipsy_arrays(const fs::path& path, std::uint64_t pa
     if (!is_beside) continue;
     TipsyArray array;
     array.name = name.substr(prefix.size());
-    array.file = MappedFile::open(entry->path());
+    try {
+      array.file = MappedFile::open(entry->path());
+    } catch (const DataError& failure) {
+      notes.push_back(fmt::format("array {} left out: {}", name, failure.what()));
+      continue;
+    }
     array.is_swapped = is_swapped;
     const std::uint64_t size = array.file->size();
     array.is_text = begins_with_number(content(*array.file), particles);

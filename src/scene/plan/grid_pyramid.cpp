@@ -151,7 +151,7 @@ int reach_of_blurs(const GridPyramid& pyramid) {
 }
 
 int most_blurs(const Frame& frame) {
-  constexpr std::size_t most = 4;  // MOST_BLURS (splat.h)
+  constexpr std::size_t most = most_grids_of_level;
   std::size_t coarse_levels = 0;
   while (has_level(frame, static_cast<int>(coarse_levels) + 1))
     ++coarse_levels;
