@@ -5,6 +5,9 @@
 #define SCALING_LINEAR 0
 #define SCALING_LOG 1
 #define SCALING_ASINH 2
+// Taken of how far values are from the least: log1p((v - m) / m), and asinh of a difference.
+#define SCALING_LOG_FROM_LEAST 3
+#define SCALING_ASINH_FROM_LEAST 4
 
 #define WEIGHT_MASS 0
 #define WEIGHT_DENSITY 1
@@ -25,8 +28,15 @@
 // A field's way to [0, 1] (frame.h, ScalarMap).
 struct FieldScaling {
   int scaling;
-  float minimum, minimum_low;  // a pair: ranges may be far narrower than their values
-  float inverse_range;         // 0 where the range is empty
+  // After scaling; before it of what is taken FROM_LEAST, m. A pair: ranges may be far narrower
+  // than their values.
+  float minimum, minimum_low;
+  float factor;         // FROM_LEAST: 1 / m of logarithms, sqrt(1 + m^2) of asinh
+  float inverse_range;  // 0 where the range is empty; FROM_LEAST of natural logarithms
+};
+// The same for extended numbers, by the same scaling.
+struct ExtendedFieldScaling {
+  struct FloatPair minimum, factor, inverse_range;
 };
 
 // Sort keys are counted by 16 of their bits.
@@ -196,14 +206,14 @@ struct ExtendedParameters {
   struct FloatPair twice_pole[2];                     // in the whole picture
   struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
   struct FloatPair weight_scale;  // as in ProjectParameters
-  struct FloatPair color_minimum, color_inverse_range;
-  struct FloatPair intensity_minimum, intensity_inverse_range;
+  struct ExtendedFieldScaling color, intensity;
   struct FloatPair brightness, absorption_factor;
   float inverse_share;  // 1 / (light that one splat may leave out)
 };
 
 #ifdef __OPENCL_VERSION__
 typedef struct FieldScaling FieldScaling;
+typedef struct ExtendedFieldScaling ExtendedFieldScaling;
 typedef struct WideInteger WideInteger;
 typedef struct DepthKeyParameters DepthKeyParameters;
 typedef struct WidthNeeds WidthNeeds;

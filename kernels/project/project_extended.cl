@@ -1,18 +1,47 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
 // those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
 
-// In [0, 1] (frame.h, ScalarMap).
-static inline Extended extended_normalized(float value, int scaling, FloatPair minimum,
-                                           FloatPair inverse_range) {
-  Extended scaled = extended_of(value);
+// As log_from_least() and asinh_from_least() do it for lanes (limits.cl).
+static inline Extended extended_log_from_least(Extended value, const ExtendedFieldScaling map) {
+  const Extended above = extended_difference(value, extended_pair(map.minimum));
+  if (!(high_part(above) > 0.0f)) return extended_of(0.0f);
+  return extended_log_of_one_more(extended_product(above, extended_pair(map.factor)));
+}
+
+static inline Extended extended_asinh_from_least(float value, const ExtendedFieldScaling map) {
+  const Extended v = extended_of(clamp(value, -1e18f, 1e18f)), m = extended_pair(map.minimum);
+  const Extended root = extended_root(extended_sum(extended_of(1.0f), extended_product(v, v)));
+  const Extended from_v = extended_product(v, extended_pair(map.factor));
+  const Extended from_m = extended_product(m, root);
+  if (!(high_part(v) * high_part(m) > 0.0f))
+    return extended_asinh(extended_difference(from_v, from_m));
+  const Extended part = extended_quotient(extended_sum(v, m), extended_sum(from_v, from_m));
+  return extended_asinh(extended_product(extended_difference(v, m), part));
+}
+
+// log10 or asinh of a value, or the value itself.
+static inline Extended extended_scaled_field(float value, int scaling) {
   if (scaling == SCALING_LOG) {
-    if (!(value > 0.0f)) return extended_of(0.0f);
     const Extended per_ln10 = extended_constant(4.342944920e-01f, -1.010304995e-08f);
-    scaled = extended_product(extended_log(scaled), per_ln10);
+    return extended_product(extended_log(extended_of(value)), per_ln10);
   }
-  if (scaling == SCALING_ASINH) scaled = extended_asinh(value);
-  const Extended place = extended_product(extended_difference(scaled, extended_pair(minimum)),
-                                          extended_pair(inverse_range));
+  return scaling == SCALING_ASINH ? extended_asinh(extended_of(value)) : extended_of(value);
+}
+
+// In [0, 1] (frame.h, ScalarMap).
+static inline Extended extended_normalized(float value, int scaling,
+                                           const ExtendedFieldScaling map) {
+  const int is_log = scaling == SCALING_LOG || scaling == SCALING_LOG_FROM_LEAST;
+  if (!isfinite(value) || (is_log && !(value > 0.0f))) return extended_of(0.0f);
+  Extended above;
+  if (scaling == SCALING_LOG_FROM_LEAST) {
+    above = extended_log_from_least(extended_of(value), map);
+  } else if (scaling == SCALING_ASINH_FROM_LEAST) {
+    above = extended_asinh_from_least(value, map);
+  } else {
+    above = extended_difference(extended_scaled_field(value, scaling), extended_pair(map.minimum));
+  }
+  const Extended place = extended_product(above, extended_pair(map.inverse_range));
   if (!(high_part(place) > 0.0f)) return extended_of(0.0f);
   return high_part(place) >= 1.0f ? extended_of(1.0f) : place;
 }
@@ -258,14 +287,12 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
 #else
   const float share = min(1.0f, 3.2f * high_part(sigma) * high_part(sigma));
 #endif
-  weight = extended_product(
-      extended_limited_weight(weight, brightest * share),
-      extended_normalized(columns.intensities[(size_t)i * p.intensity_stride], p.intensity.scaling,
-                          e.intensity_minimum, e.intensity_inverse_range));
+  weight = extended_product(extended_limited_weight(weight, brightest * share),
+                            extended_normalized(columns.intensities[(size_t)i * p.intensity_stride],
+                                                p.intensity.scaling, e.intensity));
   Extended emission[3], absorption[3];
   const Extended position =
-      extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling,
-                          e.color_minimum, e.color_inverse_range);
+      extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling, e.color);
   extended_amplitudes(position, weight, own, component_colors[p.component], knots, e, emission,
                       absorption);
 

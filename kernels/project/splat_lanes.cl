@@ -297,7 +297,9 @@ INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, f
 #ifndef COPIES
   VALUE beyond_x = max(left * shrink - s.x, s.x - right_end * shrink);
 #ifdef ELLIPSES
-  beyond_x = min(beyond_x, beyond_x * (s.radius / s.radius_x) + 1.0f);
+  // With the half pixel that the first center lies within: it reaches just where one as wide as it
+  // is high does.
+  beyond_x = min(beyond_x, (beyond_x + 0.5f) * (s.radius / s.radius_x) - 0.5f);
 #endif
   beyond = max(beyond, beyond_x);
 #endif

@@ -4,16 +4,19 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/scalar_map.h"
+
 namespace splotchcl {
 namespace {
 
 // Of a field's scaled value, of its largest in the range: of the logarithm or asinh, and of the
-// difference from the least.
+// difference from the least. Where that is taken first, all roundings are parts of the place.
 double error_of_place(const ScalarMap& map) {
-  constexpr double rounding = 0x1p-24, of_function = 4, of_difference = 2;
+  constexpr double rounding = 0x1p-24, of_function = 4, of_difference = 2, from_least = 24;
   const double range = std::abs(map.maximum - map.minimum);
   const double largest = std::max({1.0, std::abs(map.minimum), std::abs(map.maximum)});
   if (map.scaling == Scaling::linear || range == 0) return of_difference * rounding;
+  if (least_before_scaling(map)) return from_least * rounding;
   return rounding * (of_function * largest / range + of_difference);
 }
 

@@ -220,6 +220,10 @@ bool is_within_set_limits(const Depth& depth, const Frame& frame, const DepthKey
 // mirrored over the nearer pole, as far as they reach the picture. At eight sigmas a cloud has
 // 1e-28 of its peak left.
 void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
+  if (splat.splat_part == 0) {  // rays alone find it, wherever they go
+    splats.push_back(splat);
+    return;
+  }
   const double half_period = 0.5 * period_along_x(frame.camera, frame.projection);
   const double reach = 8 * splat.sigma + 2, reach_x = 8 * splat.stretch * splat.sigma + 2;
   const double x = splat.x, y = splat.y, mirrored = mirrored_over_pole(y, frame.camera);

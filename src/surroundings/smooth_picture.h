@@ -7,13 +7,16 @@
 #include "splotchcl/frame.h"
 
 // Pictures of what is smooth: worked out at nodes, pixels so many apart, and interpolated between
-// them. How far apart is found by trying: nodes are halved until those between are foretold.
+// them. How far apart is found by trying: nodes are halved until those between are foretold. They
+// begin so close that none can lie beside all that there is.
 namespace splotchcl {
 
 struct SmoothPictureSettings {
   int width = 0, height = 0;  // of the whole picture: spacings do not depend on what is drawn of it
   Rectangle crop;             // what is wanted
   int channels = 0;           // of a pixel
+  // No detail is narrower than exp(-x^2 / narrowest^2), in pixels.
+  double narrowest = 0;
   // The most that a pixel may err by; `error_of` says by how much it does, from its channels as
   // they are and as they were foretold.
   double allowed = 0;

@@ -199,6 +199,21 @@ Frame narrow_color_range(Scaling scaling, double range, LightPlan plan) {
   return lit(frame_of(setup.width, setup.height, {clouds}), plan);
 }
 
+// So bright that what a logarithm is rounded by shows where the intensity is next to 0.
+Frame bright_least_intensities(LightPlan plan) {
+  CloudSetup setup;
+  setup.count = 300;
+  DrawnComponent clouds = random_clouds(setup);
+  std::vector<float> values;
+  Random random(79);
+  for (std::size_t i = 0; i < clouds.particles.count; ++i)
+    values.push_back(static_cast<float>(1e-3 * (1 + random.logarithmic(1e-7, 1e-3))));
+  clouds.particles.intensity = Column::owning(values);
+  clouds.intensity = {Scaling::log, -3, 3};
+  clouds.brightness = 1e4;
+  return lit(frame_of(setup.width, setup.height, {clouds}), plan);
+}
+
 // A palette whose colours jump from knot to knot, over 12 decades of values.
 Frame steep_palette(LightPlan plan) {
   CloudSetup setup;
@@ -246,10 +261,11 @@ std::vector<HardCase> data_cases() {
       {"ManyComponents", "colours and offsets of each must be its own", many_components},
       {"NarrowLinearColorRange", "the palette's ends need more digits than the values have",
        [](LightPlan plan) { return narrow_color_range(Scaling::linear, 10, plan); }},
-      {"NarrowLogColorRange", "logarithms of the values differ by 1e-3 of themselves",
-       [](LightPlan plan) { return narrow_color_range(Scaling::log, 1e4, plan); }},
+      {"NarrowLogColorRange", "logarithms of the values differ by less than their roundings",
+       [](LightPlan plan) { return narrow_color_range(Scaling::log, 10, plan); }},
       {"NarrowAsinhColorRange", "the same for asinh",
-       [](LightPlan plan) { return narrow_color_range(Scaling::asinh, 1e4, plan); }},
+       [](LightPlan plan) { return narrow_color_range(Scaling::asinh, 10, plan); }},
+      {"BrightLeastIntensities", "logarithms near the least, times 1e4", bright_least_intensities},
       {"SteepPalette", "256 knots that alternate turn 1e-6 of the range into 3e-4 of a colour",
        steep_palette},
   };

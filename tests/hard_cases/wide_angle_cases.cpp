@@ -1,11 +1,13 @@
 // Pictures in all directions with small tolerances: single precision places their clouds a
 // rounding of the direction beside where they are, near poles and behind a dome much more.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
+#include "scene/projection.h"
 #include "splotchcl/cube.h"
 #include "splotchcl/stereo.h"
 
@@ -109,6 +111,37 @@ Frame face(std::size_t face) {
   return frame;
 }
 
+// Their light, not their peak, is what a pixel shows of them.
+Frame stars_beside_a_face(LightPlan plan, std::optional<double> cut) {
+  Frame frame = face(0);
+  frame.tolerance = 1e-3;
+  frame.kernel.cut = cut;
+  Random random(83);
+  std::vector<Cloud> clouds;
+  for (int i = 0; i < 200; ++i) {
+    const double across = (i % 2 == 0 ? 1 : -1) * (1 + random.uniform(0.01, 0.12));
+    const Vec3 direction = {{across, random.uniform(-0.9, 0.9), 1}};
+    const double sigma = random.logarithmic(0.1, 0.6), light = random.logarithmic(0.3, 20);
+    const double column = light * std::max(1.0, 1 / (pi * sigma * sigma));
+    clouds.push_back(cloud_in(frame, direction, 1, sigma, column));
+  }
+  frame.components = {component_of(clouds, one_color(1, 1, 1))};
+  return lit(frame, plan);
+}
+
+// As narrow as a cloud around the camera can be, and far from all pixels whose numbers are
+// multiples of 8.
+Frame narrow_cloud_around(LightPlan plan) {
+  constexpr double place = 136.5, widths = 11;
+  Frame frame = looking_around(Projection::fisheye, 256, 256, 360);
+  frame.through_clouds = true;
+  const Vec3 direction = direction_at(place, place, frame.camera, frame.projection);
+  frame.components = {
+      component_of({cloud_in(frame, direction, 1, frame.camera.focal_pixels / widths, 0.4)},
+                   one_color(1, 1, 1))};
+  return lit(frame, plan);
+}
+
 // A crop of a panorama of 16384 x 8192 around this place, with clouds there only.
 Frame part_of_a_large_panorama(int x, int y, LightPlan plan) {
   Frame frame = looking_around(Projection::equirectangular, 16384, 8192);
@@ -155,6 +188,11 @@ std::vector<HardCase> wide_angle_cases() {
        [](LightPlan plan) { return part_of_a_large_panorama(0, 0, plan); }},
       in_view("FaceOfACube", "every cloud in one of six pictures", face(0), any_direction),
       in_view("EdgesOfACube", "clouds on the edges are in two or three", face(2), on_an_edge),
+      {"StarsBesideAFaceOfACube", "they are wider along x than along y",
+       [](LightPlan plan) { return stars_beside_a_face(plan, std::nullopt); }},
+      {"DiscsBesideAFaceOfACube", "what is cut off ends sharply",
+       [](LightPlan plan) { return stars_beside_a_face(plan, 1.5); }},
+      {"NarrowCloudAround", "what is smooth is worked out at few pixels", narrow_cloud_around},
       in_view("FaceOfACubeFromTheRight", "each direction is turned", seen_from_the_right(face(1)),
               any_direction),
   };

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "device/frame/float_pair.h"
+#include "device/stages/field_scaling.h"
 #include "scene/particle_rules.h"
 #include "scene/projection.h"
 
@@ -44,11 +45,8 @@ void set_camera(const Frame& frame, const DrawnComponent& component,
   copy(turn_axis_in_view(camera), e.turn_axis);
 }
 
-void set_map(const Column& column, const ScalarMap& map, double inverse_if_absent,
-             shared::FloatPair& minimum, shared::FloatPair& inverse_range) {
-  const double range = map.maximum - map.minimum;
-  minimum = pair_of(column.is_absent() ? 0 : map.minimum);
-  inverse_range = pair_of(column.is_absent() ? inverse_if_absent : range > 0 ? 1 / range : 0);
+shared::ExtendedFieldScaling pairs_of(const KernelScaling& exact) {
+  return {pair_of(exact.minimum), pair_of(exact.factor), pair_of(exact.inverse_range)};
 }
 
 }  // namespace
@@ -67,10 +65,8 @@ shared::ExtendedParameters make_extended_parameters(const StageContext& context,
   e.kernel_cut = pair_of(frame.kernel.cut.value_or(0));
   e.min_radius = pair_of(frame.kernel.min_radius_pixels);
   e.weight_scale = pair_of(weight_scale(component, length_scale(frame)));
-  // As in single precision: an absent colour is palette position 0, an absent intensity is 1.
-  set_map(component.particles.color, component.color, 0, e.color_minimum, e.color_inverse_range);
-  set_map(component.particles.intensity, component.intensity, 1, e.intensity_minimum,
-          e.intensity_inverse_range);
+  e.color = pairs_of(color_scaling(component));
+  e.intensity = pairs_of(intensity_scaling(component));
   e.brightness = pair_of(component.brightness);
   e.absorption_factor = pair_of(component.absorption.factor);
   const auto count = static_cast<double>(std::max<std::uint64_t>(1, particle_count(frame))) *

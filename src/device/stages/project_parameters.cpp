@@ -6,6 +6,7 @@
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/float_pair.h"
+#include "device/stages/field_scaling.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
@@ -16,33 +17,14 @@
 namespace splotchcl {
 namespace {
 
-shared::FieldScaling scaling_of(const ScalarMap& map) {
+shared::FieldScaling rounded(const KernelScaling& exact) {
   shared::FieldScaling scaling{};
-  scaling.scaling = map.scaling == Scaling::log     ? SCALING_LOG
-                    : map.scaling == Scaling::asinh ? SCALING_ASINH
-                                                    : SCALING_LINEAR;
-  scaling.minimum = static_cast<float>(map.minimum);
-  scaling.minimum_low = static_cast<float>(map.minimum - static_cast<double>(scaling.minimum));
-  const double range = map.maximum - map.minimum;
-  scaling.inverse_range = range > 0 ? static_cast<float>(1 / range) : 0.0f;
+  scaling.scaling = exact.scaling;
+  scaling.minimum = static_cast<float>(exact.minimum);
+  scaling.minimum_low = static_cast<float>(exact.minimum - static_cast<double>(scaling.minimum));
+  scaling.factor = static_cast<float>(exact.factor);
+  scaling.inverse_range = static_cast<float>(exact.inverse_range);
   return scaling;
-}
-
-// An intensity field that is absent counts as 1.
-shared::FieldScaling intensity_scaling(const DrawnComponent& component) {
-  if (!component.particles.intensity.is_absent()) return scaling_of(component.intensity);
-  shared::FieldScaling one{};
-  one.scaling = SCALING_LINEAR;
-  one.inverse_range = 1;
-  return one;
-}
-
-// A color field that is absent is palette position 0, whatever the map says.
-shared::FieldScaling color_scaling(const DrawnComponent& component) {
-  if (!component.particles.color.is_absent()) return scaling_of(component.color);
-  shared::FieldScaling zero{};
-  zero.scaling = SCALING_LINEAR;
-  return zero;
 }
 
 void copy(const Vec3& from, float (&to)[3]) {
@@ -253,8 +235,8 @@ void set_component(const Frame& frame, const DrawnComponent& component, double l
   p.around_reach =
       static_cast<float>(all_splat * frame.kernel.width * component.size_factor * length_scale);
   p.gray_absorption = is_gray ? static_cast<float>(component.absorption.factor) : 0.0f;
-  p.color = color_scaling(component);
-  p.intensity = intensity_scaling(component);
+  p.color = rounded(color_scaling(component));
+  p.intensity = rounded(intensity_scaling(component));
 }
 
 }  // namespace

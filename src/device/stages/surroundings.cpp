@@ -22,6 +22,7 @@
 #include "scene/projection.h"
 #include "splotchcl/error.h"
 #include "surroundings/clouds_in_blocks.h"
+#include "surroundings/narrowest_detail.h"
 
 namespace splotchcl {
 namespace {
@@ -277,6 +278,7 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   settings.height = frame.height;
   settings.crop = frame.crop;
   settings.channels = is_ordered ? 6 : 3;
+  settings.narrowest = narrowest_detail(clouds, layer.first, layer.end, frame);
   settings.allowed = 0.25 * share_of_promise * plan.shares.promise / static_cast<double>(parts);
   settings.error_of = [light, brightest = brightest()](const double* exact,
                                                        const double* foretold) {

@@ -1,0 +1,51 @@
+#include "surroundings/narrowest_detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/projection.h"
+
+namespace splotchcl {
+namespace {
+
+double distance(const Vec3& a, const Vec3& b) {
+  return std::hypot(a.a[0] - b.a[0], a.a[1] - b.a[1], a.a[2] - b.a[2]);
+}
+
+// Of those all over the picture, its middle and corners among them, in radians.
+double widest_pixel(const Frame& frame) {
+  constexpr int steps = 16;
+  const auto towards = [&frame](double x, double y) {
+    return direction_at(x, y, frame.camera, frame.projection);
+  };
+  double widest = 0;
+  for (int row = 0; row <= steps; ++row) {
+    for (int column = 0; column <= steps; ++column) {
+      const double x = (frame.width - 1.0) * column / steps;
+      const double y = (frame.height - 1.0) * row / steps;
+      const Vec3 corner = towards(x, y);
+      widest = std::max(
+          {widest, distance(corner, towards(x + 1, y)), distance(corner, towards(x, y + 1))});
+    }
+  }
+  return widest;
+}
+
+}  // namespace
+
+double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t first, std::size_t end,
+                        const Frame& frame) {
+  double farthest = 1, narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first; i < end; ++i) {
+    const CloudAround& cloud = clouds[i];
+    const Vec3& center = cloud.center;
+    if (cloud.ray > 0)
+      farthest = std::max(farthest, std::hypot(center.a[0], center.a[1], center.a[2]));
+    for (const SplatAround& splat : cloud.splats)
+      narrowest = std::min({narrowest, splat.sigma_x, splat.sigma_y});
+  }
+  return std::min(narrowest, 1 / (farthest * widest_pixel(frame)));
+}
+
+}  // namespace splotchcl
