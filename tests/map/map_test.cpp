@@ -323,6 +323,7 @@ TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
   Gas gas;
   for (int i = 0; i < 7; ++i)
     gas.add({{-19.5, 0.5, 0}}, 0.01F, 2, 100);
+  gas.add({{-18.5, 0.5, 0}}, 0.01F, 200, 100);  // in the next pixel
   for (int i = 0; i < 5; ++i)
     gas.add({{15.5, 0.5, 0}}, 30, 2, 100);
   Scene scene = map_scene();
@@ -332,7 +333,8 @@ TEST(Map, TellsHowManyParticlesAPixelIsMadeOf) {
     return static_cast<double>(
         map.effective_particles[static_cast<std::size_t>(y * map.width + x)]);
   };
-  EXPECT_NEAR(effective(12, 23), 7, 0.8);
+  EXPECT_NEAR(effective(12, 23), 7, 0.05);
+  EXPECT_NEAR(effective(13, 23), 1, 0.01);
   EXPECT_NEAR(effective(47, 23), 5, 0.05);
 }
 
