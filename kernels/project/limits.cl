@@ -4,32 +4,34 @@
 
 // ln(1 + part), part >= 0: what the sum is rounded by is taken off again by the quotient, so that
 // however small a part keeps all its digits.
-static inline VALUE log_of_one_more(VALUE part) {
+INLINED VALUE log_of_one_more(VALUE part) {
   const VALUE sum = 1.0f + part, there = sum - 1.0f;
   return choose(part, log2_positive(sum) * 0.693147181f * (part / there), there > 0.0f);
 }
 
 // ln of value / m, and 0 below m.
-static inline VALUE log_from_least(VALUE value, const FieldScaling map) {
+INLINED VALUE log_from_least(VALUE value, const FieldScaling map) {
   const VALUE part = ((value - map.minimum) - map.minimum_low) * map.factor;
   return log_of_one_more(min(max(part, (VALUE)(0.0f)), (VALUE)(1e38f)));
 }
 
 // asinh(v) - asinh(m) = asinh(v sqrt(1 + m^2) - m sqrt(1 + v^2)), of two numbers with the same sign
-// by the difference of their squares.
-static inline VALUE asinh_from_least(VALUE value, const FieldScaling map) {
+// by the difference of their squares. A call: hardly any fields are taken so.
+__attribute__((noinline)) static VALUE asinh_from_least(VALUE value, float m, float m_low,
+                                                        float factor) {
   const VALUE v = min(max(value, (VALUE)(-1e18f)), (VALUE)(1e18f));
-  const float m = map.minimum;
-  const VALUE difference = (v - m) - map.minimum_low;
-  const VALUE from_v = v * map.factor, from_m = m * sqrt(1.0f + v * v);
+  const VALUE difference = (v - m) - m_low;
+  const VALUE from_v = v * factor, from_m = m * sqrt(1.0f + v * v);
   return asinh(choose(from_v - from_m, difference * ((v + m) / (from_v + from_m)), v * m > 0.0f));
 }
 
 // A field in [0, 1] (frame.h, ScalarMap).
-static inline VALUE normalized(VALUE value, const FieldScaling map) {
+INLINED VALUE normalized(VALUE value, const FieldScaling map) {
   if (map.scaling >= SCALING_LOG_FROM_LEAST) {
-    const VALUE from_least = map.scaling == SCALING_LOG_FROM_LEAST ? log_from_least(value, map)
-                                                                   : asinh_from_least(value, map);
+    const VALUE from_least =
+        map.scaling == SCALING_LOG_FROM_LEAST
+            ? log_from_least(value, map)
+            : asinh_from_least(value, map.minimum, map.minimum_low, map.factor);
     const VALUE place = clamp(from_least * map.inverse_range, (VALUE)(0.0f), (VALUE)(1.0f));
     return choose((VALUE)(0.0f), place, is_finite(value));
   }
