@@ -97,6 +97,18 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
   return unit;
 }
 
+Column volumes_of(const Column& mass, const Column& density, double density_unit, std::size_t count,
+                  bool streams) {
+  const auto make = [=](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch masses(mass, begin, end), densities(density, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      *out++ = static_cast<float>(static_cast<double>(masses[i]) /
+                                  (density_unit * static_cast<double>(densities[i])));
+    }
+  };
+  return make_column(count, streams || is_streamed(mass) || is_streamed(density), make);
+}
+
 Column lengths_of_vectors(const Column& vectors, bool streams) {
   return of_vectors(vectors, streams, [](const double* v) {
     return std::hypot(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));

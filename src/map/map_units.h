@@ -3,7 +3,7 @@
 #include <string>
 
 #include "map/quantity.h"
-#include "map/unit.h"
+#include "snapshot/unit.h"
 #include "splotchcl/map_settings.h"
 #include "splotchcl/snapshot.h"
 

@@ -17,15 +17,6 @@ bool is_column(const MapSettings& settings) {
   return settings.quantity == "surface_density" || settings.quantity == "counts";
 }
 
-Column volumes(const ComponentFields& fields, std::size_t count) {
-  const Column mass = fields.masses();
-  const Column density = fields.scalars("density", "map.weight");
-  std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i)
-    values[i] = mass[i] / density[i];
-  return Column::owning(std::move(values));
-}
-
 // Positive for what moves away from who looks at the map.
 Column velocities_along(const Vec3& forward, const ComponentFields& fields, std::size_t count) {
   const Column velocity = fields.vectors("velocity", quantity_key);
@@ -41,7 +32,7 @@ Column velocities_along(const Vec3& forward, const ComponentFields& fields, std:
 
 Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
   if (name == "mass") return fields.masses();
-  if (name == "volume") return volumes(fields, count);
+  if (name == "volume") return fields.volumes("map.weight");
   Column weight = fields.scalars(name, "map.weight");
   for (std::size_t i = 0; i < count; ++i) {
     if (!(weight[i] < 0)) continue;
@@ -70,7 +61,7 @@ MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geom
   if (is_column(settings)) return column_of(settings, fields);
   const Column value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
-    return {MapQuantity::Kind::integral, volumes(fields, count), value,
+    return {MapQuantity::Kind::integral, fields.volumes("map.statistic"), value,
             fmt::format("integral of {} along the line of sight", settings.quantity)};
   }
   const bool is_mean = settings.statistic == MapStatistic::mean;

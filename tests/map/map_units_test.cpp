@@ -50,6 +50,25 @@ TEST(MapUnits, OfAFieldAreConverted) {
   EXPECT_NEAR(static_cast<double>(test::at(map_of(scene, snapshot), 32, 24)), 10000, 0.1);
 }
 
+// A thousandth of the density is the same in units a thousand times as large.
+TEST(MapUnits, OfDensitiesNeedNotBeThoseOfMassesAndPositions) {
+  Gas gas = wide_particle();
+  auto plain = gas.snapshot(), scaled = gas.snapshot();
+  for (auto* const snapshot : {&plain, &scaled}) {
+    snapshot->set_unit(0, "mass", "Msun");
+    snapshot->set_unit(0, "position", "kpc");
+  }
+  plain.set_unit(0, "density", "Msun/kpc^3");
+  scaled.set_unit(0, "density", "1e3 Msun/kpc^3");
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  scene.map.statistic = MapStatistic::integral;
+  const Map map = map_of(scene, plain), other = map_of(scene, scaled);
+  EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24) / test::at(other, 32, 24)), 1e3, 1e-2);
+  scaled.set_unit(0, "density", "K");
+  EXPECT_THROW(map_of(scene, scaled), UsageError);
+}
+
 TEST(MapUnits, AreNeverGuessed) {
   Scene scene = map_scene();
   scene.map.unit = "Msun/pc^2";
