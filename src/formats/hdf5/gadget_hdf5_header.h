@@ -30,6 +30,5 @@ std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader
 
 // The units the file states; zeros where it states none.
 BaseUnits read_base_units(const Hdf5File& file);
-UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset);
 
 }  // namespace splotchcl

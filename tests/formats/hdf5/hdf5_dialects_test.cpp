@@ -24,6 +24,25 @@ class Hdf5Dialects : public ::testing::Test {
     write_values(file, "PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
     return file;
   }
+  // Of SWIFT, in Mpc, 1e10 solar masses and some gigayears.
+  Hdf5Output create_swift() const {
+    Hdf5Output file = create();
+    make_group(file, "Code");
+    write_text(file, "Code", "Code", "SWIFT");
+    make_group(file, "Units");
+    write_attribute(file, "Units", "Unit length in cgs (U_L)", {3.08567758e24});
+    write_attribute(file, "Units", "Unit mass in cgs (U_M)", {1.98841e43});
+    write_attribute(file, "Units", "Unit time in cgs (U_t)", {3.08567758e19});
+    return file;
+  }
+  // Of mass, length, time and current.
+  static void state_powers(const Hdf5Output& file, const std::string& dataset,
+                           const std::vector<double>& powers) {
+    const std::vector<const char*> names = {"U_M exponent", "U_L exponent", "U_t exponent",
+                                            "U_I exponent"};
+    for (std::size_t i = 0; i < names.size(); ++i)
+      write_attribute(file, dataset, names[i], {powers[i]});
+  }
   // Of a field of gas.
   std::string unit_of(const char* field) const {
     const auto snapshot = open_snapshot(path_);
@@ -115,6 +134,31 @@ TEST_F(Hdf5Dialects, MassesOfGadgetFoursTableHaveItsUnitOfMass) {
     write_attribute(file, "PartType0/Coordinates", "h_scaling", {-1});
   }
   EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+}
+
+// The power of the scale factor that SWIFT states counts where values are comoving.
+TEST_F(Hdf5Dialects, WhatSwiftStoresAsPhysicalHasNoPowerOfTheScaleFactor) {
+  for (const double is_physical : {0.0, 1.0}) {
+    {
+      const Hdf5Output file = create_swift();
+      write_values(file, "PartType0/Densities", {1, 2});
+      state_powers(file, "PartType0/Densities", {1, -3, 0, 0});
+      write_attribute(file, "PartType0/Densities", "a-scale exponent", {-3});
+      write_attribute(file, "PartType0/Densities", "Value stored as physical", {is_physical});
+    }
+    EXPECT_EQ(unit_of("density"),
+              is_physical != 0 ? "1e10 M_sun Mpc^-3" : "1e10 M_sun Mpc^-3 a^-3");
+  }
+}
+
+// Tesla are kilograms over amperes and seconds squared.
+TEST_F(Hdf5Dialects, SwiftsUnitsOfCurrentsAreNotNamed) {
+  {
+    const Hdf5Output file = create_swift();
+    write_values(file, "PartType0/MagneticFluxDensities", {1, 2, 3, 4, 5, 6}, 3);
+    state_powers(file, "PartType0/MagneticFluxDensities", {1, 0, -2, -1});
+  }
+  EXPECT_EQ(unit_of("MagneticFluxDensities"), "");
 }
 
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
