@@ -52,7 +52,7 @@ std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
   powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
       find_power(file, path, {"h_scaling", "h-scale exponent"}).value_or(0);
-  return unit_name(powers, units);
+  return unit_name(powers, units, file.number(path, "to_cgs").value_or(0));
 }
 
 }  // namespace splotchcl

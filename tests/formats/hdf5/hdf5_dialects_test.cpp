@@ -161,6 +161,31 @@ TEST_F(Hdf5Dialects, SwiftsUnitsOfCurrentsAreNotNamed) {
   EXPECT_EQ(unit_of("MagneticFluxDensities"), "");
 }
 
+// IllustrisTNG's rates are in solar masses per year, though the powers that it states give
+// 1e10 M_sun km / (kpc s).
+TEST_F(Hdf5Dialects, AStatedSizeOfAUnitCountsBeforeThatOfItsProduct) {
+  const std::string rates = "PartType0/StarFormationRate", masses = "PartType0/Masses";
+  for (const double to_cgs : {6.30387e25, 1e20}) {
+    {
+      const Hdf5Output file = create();
+      write_attribute(file, "Header", "UnitLength_in_cm", {3.085678e21});
+      write_attribute(file, "Header", "UnitMass_in_g", {1.989e43});
+      write_attribute(file, "Header", "UnitVelocity_in_cm_per_s", {1e5});
+      write_values(file, rates, {1, 2});
+      write_values(file, masses, {1, 2});
+      for (const auto& [name, power] : std::vector<std::pair<const char*, double>>{
+               {"mass_scaling", 1}, {"length_scaling", -1}, {"velocity_scaling", 1}})
+        write_attribute(file, rates, name, {power});
+      write_attribute(file, rates, "to_cgs", {to_cgs});
+      write_attribute(file, masses, "mass_scaling", {1});
+      write_attribute(file, masses, "h_scaling", {-1});
+      write_attribute(file, masses, "to_cgs", {1.989e43});
+    }
+    EXPECT_EQ(unit_of("star_formation_rate"), to_cgs == 1e20 ? "1e+20 g s^-1" : "M_sun/yr");
+    EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+  }
+}
+
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
   {
     const Hdf5Output file = create();
