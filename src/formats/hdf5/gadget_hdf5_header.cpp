@@ -55,6 +55,8 @@ double read_box_size(const Hdf5File& file) {
   return is_cube ? sides->front() : 0;
 }
 
+}  // namespace
+
 bool is_without_cosmology(const Hdf5File& file) {
   return find_number(file,
                      {{"Parameters", "ComovingIntegrationOn"},
@@ -62,8 +64,6 @@ bool is_without_cosmology(const Hdf5File& file) {
                       {"Cosmology", "Cosmological run"}},
                      1) == 0;
 }
-
-}  // namespace
 
 GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes) {
   constexpr std::size_t most_types = 32;  // more than any code has

@@ -21,6 +21,9 @@ bool is_swift_start_file(const Hdf5File& file);
 // and all others.
 std::string hdf5_dialect(const Hdf5File& file);
 
+// Whether the file says that the run does not follow the expansion.
+bool is_without_cosmology(const Hdf5File& file);
+
 // The cosmology and what the velocities are, where the run follows the expansion: from the
 // header and the attributes of the datasets of positions and velocities (paths). Units that
 // the file does not state are kpc/h and km/s.

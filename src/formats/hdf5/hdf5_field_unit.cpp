@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "formats/hdf5/gadget_hdf5_header.h"
+
 namespace splotchcl {
 namespace {
 
@@ -49,7 +51,9 @@ std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
   // We have no name for currents.
   if (file.number(path, "U_I exponent").value_or(0) != 0) return {};
   UnitPowers powers = stated_powers(file, path);
-  powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
+  // Without cosmology there is no scale factor that they could be powers of.
+  if (!is_without_cosmology(file))
+    powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
       find_power(file, path, {"h_scaling", "h-scale exponent"}).value_or(0);
   return unit_name(powers, units, file.number(path, "to_cgs").value_or(0));

@@ -186,6 +186,19 @@ TEST_F(Hdf5Dialects, AStatedSizeOfAUnitCountsBeforeThatOfItsProduct) {
   }
 }
 
+TEST_F(Hdf5Dialects, SwiftsUnitsHaveNoScaleFactorWithoutCosmology) {
+  for (const double is_cosmological : {0.0, 1.0}) {
+    {
+      const Hdf5Output file = create_swift();
+      make_group(file, "Cosmology");
+      write_attribute(file, "Cosmology", "Cosmological run", {is_cosmological});
+      state_powers(file, "PartType0/Coordinates", {0, 1, 0, 0});
+      write_attribute(file, "PartType0/Coordinates", "a-scale exponent", {1});
+    }
+    EXPECT_EQ(unit_of("position"), is_cosmological != 0 ? "Mpc a" : "Mpc");
+  }
+}
+
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
   {
     const Hdf5Output file = create();
