@@ -117,4 +117,23 @@ std::string unit_name(const UnitPowers& powers, const BaseUnits& units, double s
   return text;
 }
 
+UnitPowers powers_of_field(const std::string& field) {
+  UnitPowers powers;
+  if (field == "position" || field == "smoothing_length") {
+    powers.length = 1;
+  } else if (field == "mass") {
+    powers.mass = 1;
+  } else if (field == "density") {
+    powers.mass = 1;
+    powers.length = -3;
+  } else if (field == "velocity") {
+    powers.velocity = 1;
+  } else if (field == "internal_energy") {
+    powers.velocity = 2;
+  } else if (field == "temperature") {
+    powers.temperature = 1;
+  }
+  return powers;
+}
+
 }  // namespace splotchcl

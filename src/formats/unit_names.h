@@ -22,4 +22,8 @@ struct BaseUnits {
 // of these powers, it counts.
 std::string unit_name(const UnitPowers& powers, const BaseUnits& units, double stated_in_cgs = 0);
 
+// What a field of this canonical name is a product of, without a and h; a pure number where that is
+// not known.
+UnitPowers powers_of_field(const std::string& field);
+
 }  // namespace splotchcl

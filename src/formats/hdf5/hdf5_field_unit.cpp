@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "formats/hdf5/gadget_hdf5_header.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl {
 namespace {
@@ -37,11 +38,21 @@ UnitPowers stated_powers(const Hdf5File& file, const std::string& dataset) {
   return powers;
 }
 
+// EAGLE's files state the size of a unit, but not of what it is one.
+UnitPowers powers_of_eagle(const std::string& label) {
+  const std::string field = canonical_field_name(label);
+  if (field != "star_formation_rate") return powers_of_field(field);
+  UnitPowers powers;
+  powers.mass = powers.velocity = 1;
+  powers.length = -1;
+  return powers;
+}
+
 }  // namespace
 
 std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::string& dataset) {
   const auto power =
-      find_power(file, dataset, {"a_scaling", "a-scale exponent"});
+      find_power(file, dataset, {"a_scaling", "a-scale exponent", "aexp-scale-exponent"});
   return power && are_stored_as_physical(file, dataset) ? 0 : power;
 }
 
@@ -50,13 +61,14 @@ std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
   const std::string& path = dataset.path;
   // We have no name for currents.
   if (file.number(path, "U_I exponent").value_or(0) != 0) return {};
-  UnitPowers powers = stated_powers(file, path);
+  const auto eagle = file.number(path, "CGSConversionFactor");
+  UnitPowers powers = eagle ? powers_of_eagle(dataset.label()) : stated_powers(file, path);
   // Without cosmology there is no scale factor that they could be powers of.
   if (!is_without_cosmology(file))
     powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
-      find_power(file, path, {"h_scaling", "h-scale exponent"}).value_or(0);
-  return unit_name(powers, units, file.number(path, "to_cgs").value_or(0));
+      find_power(file, path, {"h_scaling", "h-scale exponent", "h-scale-exponent"}).value_or(0);
+  return unit_name(powers, units, eagle ? *eagle : file.number(path, "to_cgs").value_or(0));
 }
 
 }  // namespace splotchcl

@@ -12,7 +12,7 @@ namespace splotchcl {
 // it.
 std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::string& dataset);
 
-// The unit that the attributes of a dataset of Gadget 4, AREPO or SWIFT state, in which the
+// The unit that the attributes of a dataset of Gadget 4, AREPO, SWIFT or EAGLE state, in which the
 // file's base units are `units`. Empty where they state none.
 std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
                             const BaseUnits& units);

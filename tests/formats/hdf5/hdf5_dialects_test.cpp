@@ -199,6 +199,41 @@ TEST_F(Hdf5Dialects, SwiftsUnitsHaveNoScaleFactorWithoutCosmology) {
   }
 }
 
+// EAGLE's files say how large a unit is, not what it is one of.
+TEST_F(Hdf5Dialects, EaglesUnitsAreRead) {
+  {
+    const Hdf5Output file = create();
+    const auto state = [&file](const std::string& field, double in_cgs, double a, double h) {
+      const std::string path = "PartType0/" + field;
+      write_attribute(file, path, "CGSConversionFactor", {in_cgs});
+      write_attribute(file, path, "aexp-scale-exponent", {a});
+      write_attribute(file, path, "h-scale-exponent", {h});
+    };
+    for (const char* const field : {"Mass", "Density", "InternalEnergy", "Temperature", "Entropy",
+                                    "StarFormationRate", "Metallicity"})
+      write_values(file, std::string("PartType0/") + field, {1, 2});
+    write_values(file, "PartType0/Velocity", {1, 2, 3, 4, 5, 6}, 3);
+    state("Coordinates", 3.085678e24, 1, -1);
+    state("Mass", 1.989e43, 0, -1);
+    state("Density", 6.769911178294543e-31, -3, 2);
+    state("Velocity", 1e5, 0.5, 0);
+    state("InternalEnergy", 1e10, 0, 0);
+    state("Temperature", 1, 0, 0);
+    state("StarFormationRate", 6.30387e25, 0, 0);
+    state("Metallicity", 1, 0, 0);
+    state("Entropy", 7e-22, 0, 0);
+  }
+  EXPECT_EQ(unit_of("position"), "Mpc h^-1 a");
+  EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+  EXPECT_EQ(unit_of("density"), "6.769911e-31 g cm^-3 h^2 a^-3");
+  EXPECT_EQ(unit_of("velocity"), "km/s a^0.5");
+  EXPECT_EQ(unit_of("internal_energy"), "(km/s)^2");
+  EXPECT_EQ(unit_of("temperature"), "K");
+  EXPECT_EQ(unit_of("star_formation_rate"), "M_sun/yr");
+  EXPECT_EQ(unit_of("metallicity"), "");
+  EXPECT_EQ(unit_of("entropy"), "");
+}
+
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {
   {
     const Hdf5Output file = create();
