@@ -97,17 +97,35 @@ void FieldTable::find_fields() {
   }
 }
 
-// A vector of three columns has its name already; where two fields mean the same quantity, the
-// second keeps that of the file.
+// A vector of three columns has its name already. Where two fields mean the same quantity, the one
+// that the file calls so has its name, else the first; the other keeps that of the file.
 void FieldTable::name_table_fields() {
-  std::vector<std::string> taken;
-  for (TableField& field : fields_) {
-    FieldInfo& info = field.info;
-    const std::string name = info.name.empty() ? canonical_field_name(info.file_name) : info.name;
-    const bool is_new = !name.empty() && std::find(taken.begin(), taken.end(), name) == taken.end();
-    info.name = is_new ? name : info.file_name;
-    taken.push_back(info.name);
+  const auto name_of = [](const FieldInfo& info) {
+    return info.name.empty() ? canonical_field_name(info.file_name) : info.name;
+  };
+  std::map<std::string, const FieldInfo*> owners;
+  for (const TableField& field : fields_) {
+    const FieldInfo*& owner = owners[name_of(field.info)];
+    const bool is_better = owner != nullptr && owner->name.empty() && field.info.name.empty() &&
+                           field.info.file_name == name_of(field.info);
+    if (owner == nullptr || is_better) owner = &field.info;
   }
+  std::vector<std::string> names;
+  for (const TableField& field : fields_) {
+    const std::string name = name_of(field.info);
+    const bool is_owner = !name.empty() && owners.at(name) == &field.info;
+    names.push_back(is_owner ? name : field.info.file_name);
+  }
+  std::vector<TableField> named;
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    // Beside x, y and z a column "position" cannot be told from these by a name.
+    const bool is_told = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
+                                   names[i]) == names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!is_told) continue;
+    named.push_back(std::move(fields_[i]));
+    named.back().info.name = names[i];
+  }
+  fields_ = std::move(named);
 }
 
 ParticleTypeInfo FieldTable::describe(int type) const {

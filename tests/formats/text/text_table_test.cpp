@@ -52,6 +52,12 @@ TEST_F(TextTable, CommasWithAHeaderAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(7, 8));
 }
 
+TEST_F(TextTable, OfTwoColumnsOfAMeaningTheOneThatIsCalledSoHasTheName) {
+  const auto snapshot = open("x y z m mass\n1 2 3 4 5\n5 6 7 8 9\n");
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(5, 9));
+  EXPECT_THAT(values_of(snapshot->read(0, "m")), ElementsAre(4, 8));
+}
+
 TEST_F(TextTable, AByteOrderMarkIsNoPartOfTheFirstName) {
   const auto snapshot = open("\xef\xbb\xbfx,y,z\n1,2,3\n");
   EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3));
