@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -55,6 +56,10 @@ std::string name_of_power(const std::string& unit, int exponent) {
   return power;
 }
 
+bool is_size(const Unit& unit) {
+  return unit.in_cgs > 0 && std::isfinite(unit.in_cgs);
+}
+
 // What the snapshot, and the settings where it is silent, say of units.
 class DataUnits {
  public:
@@ -62,14 +67,19 @@ class DataUnits {
       : settings_(settings), type_(*snapshot.find_type(type)), factors_(unit_factors(snapshot)) {}
 
   NamedUnits length() const {
-    return named(settings_.length_unit, "map.length_unit", unit_of("position"), "code_length");
+    if (!settings_.length_unit.empty())
+      return said(settings_.length_unit, "map.length_unit", "a length", "a kpc/h", "cm");
+    return named("unit of position", unit_of("position"), "code_length");
   }
   NamedUnits mass() const {
-    return named(settings_.mass_unit, "map.mass_unit", unit_of("mass"), "code_mass");
+    if (!settings_.mass_unit.empty())
+      return said(settings_.mass_unit, "map.mass_unit", "a mass", "1e10 Msun/h", "g");
+    return named("unit of mass", unit_of("mass"), "code_mass");
   }
   NamedUnits velocity() const {
-    return named(settings_.velocity_unit, "map.velocity_unit", unit_of("velocity"),
-                 "code_velocity");
+    if (!settings_.velocity_unit.empty())
+      return said(settings_.velocity_unit, "map.velocity_unit", "a velocity", "a^0.5 km/s", "cm/s");
+    return named("unit of velocity", unit_of("velocity"), "code_velocity");
   }
 
   NamedUnits field(const std::string& name) const {
@@ -96,6 +106,13 @@ class DataUnits {
 
   const UnitFactors& factors() const { return factors_; }
 
+  // Also of what this map does not need.
+  void check_settings() const {
+    length();
+    mass();
+    velocity();
+  }
+
  private:
   std::string unit_of(const char* field) const {
     const FieldInfo* const info = find_field(type_, field);
@@ -106,16 +123,24 @@ class DataUnits {
     if (info.name == "mass") return mass();
     if (info.name == "velocity") return velocity();
     if (info.name == "density" && info.unit.empty()) return product(mass(), length(), -3);
-    return named("", "unit of " + info.name, info.unit, "code_" + info.name);
+    return named("unit of " + info.name, info.unit, "code_" + info.name);
   }
   // What the user says counts before what the file says: it may be wrong.
-  NamedUnits named(const std::string& said, const std::string& key, const std::string& stored,
+  NamedUnits said(const std::string& text, const std::string& key, const char* what,
+                  const char* example, const char* in_cgs) const {
+    const Unit unit = parse_unit(text, factors_, "key " + key);
+    if (same_dimension(unit, parse_unit(in_cgs, {}, "unit")) && is_size(unit))
+      return {text, true, unit};
+    throw UsageError(fmt::format("key {}: found \"{}\", expected {} above 0, such as \"{}\"", key,
+                                 text, what, example));
+  }
+  NamedUnits named(const std::string& what, const std::string& stored,
                    const std::string& code_name) const {
-    if (!said.empty()) return {said, true, parse_unit(said, factors_, "key " + key)};
     if (stored.empty()) return {code_name, false, {}};
     // Files may call their units as they like: what we do not know is as good as none.
     try {
-      return {stored, true, parse_unit(stored, factors_, key)};
+      const Unit unit = parse_unit(stored, factors_, what);
+      return {stored, is_size(unit), unit};
     } catch (const UsageError&) {
       return {stored, false, {}};
     }
@@ -183,12 +208,17 @@ std::string name_of_density(const ParticleTypeInfo& type) {
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
                       MapQuantity::Kind kind) {
   const DataUnits data(settings, snapshot, type);
+  data.check_settings();
   const NamedUnits found = unit_of(settings, data, kind);
   MapUnits units;
   units.name = found.name;
   set_lengths(data, units);
   if (settings.unit.empty() || settings.unit == found.name) return units;
   const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
+  if (!is_size(wanted)) {
+    throw UsageError(fmt::format(
+        "key map.unit: found \"{}\", expected a unit above 0, such as Msun/pc^2", settings.unit));
+  }
   if (!found.is_known) refuse_unknown(settings.unit, found);
   if (!same_dimension(wanted, found.unit)) {
     throw UsageError(fmt::format(

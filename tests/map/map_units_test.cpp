@@ -97,6 +97,20 @@ TEST(MapUnits, RefuseAnotherDimension) {
   EXPECT_THAT(refusal(scene), HasSubstr("same dimension"));
 }
 
+TEST(MapUnits, OfTheSettingsHaveTheirDimensionAndASize) {
+  const auto refusal_of = [](std::string MapSettings::*setting, const char* unit) {
+    Scene scene = map_scene();
+    scene.map.*setting = unit;
+    return refusal(scene);
+  };
+  EXPECT_THAT(refusal_of(&MapSettings::length_unit, "K"), HasSubstr("expected a length above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::mass_unit, "km"), HasSubstr("expected a mass above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::mass_unit, "0 g"), HasSubstr("expected a mass above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::velocity_unit, "kpc"),
+              HasSubstr("expected a velocity above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::unit, "0 g"), HasSubstr("expected a unit above 0"));
+}
+
 // The largest float is 3.4e38.
 TEST(MapUnits, RefuseValuesThatNoFloatHolds) {
   Scene scene = map_scene();
@@ -117,8 +131,8 @@ TEST(MapUnits, OfProductsAreWrittenFactorByFactor) {
 TEST(MapUnits, OfProductsOfPowersAreWrittenFactorByFactor) {
   Scene scene = map_scene();
   scene.map.mass_unit = "1e10 Msun";
-  scene.map.length_unit = "Mpc^0.5 kpc/pc^2";
-  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-1 kpc^-2 pc^4");
+  scene.map.length_unit = "Mpc^1.5 kpc^1.5/pc^2";
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-3 kpc^-3 pc^4");
   scene.map.length_unit = "3 kpc";
   EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun (3 kpc)^-2");
 }
