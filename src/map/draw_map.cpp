@@ -92,11 +92,12 @@ void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
       fields.snapshot_info().files.front().string(), fields.label(), matter.count));
 }
 
-int first_type(const Component& component, const SnapshotInfo& info) {
-  for (const int type : component.types) {
-    if (info.find_type(type) != nullptr) return type;
-  }
-  return component.types.front();  // OpenComponents has refused a component without particles
+// OpenComponents has refused a component without particles.
+std::vector<int> present_types(const Component& component, const SnapshotInfo& info) {
+  std::vector<int> types;
+  std::copy_if(component.types.begin(), component.types.end(), std::back_inserter(types),
+               [&info](int type) { return info.find_type(type) != nullptr; });
+  return types;
 }
 
 const char* name_of(MapView view) {
@@ -163,8 +164,9 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   const MapGeometry geometry = decide_geometry(one, snapshot, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   refuse_all_bad(matter, quantity, fields);
-  const MapUnits units = decide_units(settings, fields.snapshot_info(),
-                                      first_type(component, fields.snapshot_info()), quantity.kind);
+  const MapUnits units =
+      decide_units(settings, fields.snapshot_info(),
+                   present_types(component, fields.snapshot_info()), quantity.kind);
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);

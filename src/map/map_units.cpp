@@ -11,6 +11,7 @@
 #include "common/words.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -175,6 +176,36 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
                  "map.mass_unit and map.velocity_unit, as far as the quantity needs them"));
 }
 
+// The field whose values the map's quantity or weight is made of; null where there is none.
+const FieldInfo* source_of(const ParticleTypeInfo& type, const std::string& name) {
+  if (name.empty()) return nullptr;
+  if (name == "line_of_sight_velocity" || name == "speed") return find_field(type, "velocity");
+  if (const FieldInfo* const field = find_field(type, name)) return field;
+  return find_axis(type, name).first;
+}
+
+// Values of several types are added: they need one unit.
+void check_types_agree(const MapSettings& settings, const SnapshotInfo& snapshot,
+                       const std::vector<int>& types) {
+  const ParticleTypeInfo& first = *snapshot.find_type(types.front());
+  for (const int number : types) {
+    const ParticleTypeInfo& type = *snapshot.find_type(number);
+    for (const std::string& name : {std::string("position"), std::string("smoothing_length"),
+                                    std::string("mass"), settings.quantity, settings.weight}) {
+      const FieldInfo *const one = source_of(first, name), *const other = source_of(type, name);
+      if (one == nullptr || other == nullptr) continue;
+      const auto ratio = unit_ratio(other->unit, one->unit, unit_factors(snapshot));
+      constexpr double rounding = 1e-3;
+      if (ratio && std::abs(*ratio - 1) < rounding) continue;
+      throw UsageError(
+          fmt::format("key component.types: found types {} and {}, whose {} is in \"{}\" and in "
+                      "\"{}\", expected "
+                      "types in the same unit; draw a map of each",
+                      first.type, type.type, one->name, one->unit, other->unit));
+    }
+  }
+}
+
 // Lengths without a and h, by a name that other programs know.
 void set_lengths(const DataUnits& data, MapUnits& units) {
   const NamedUnits length = data.length();
@@ -205,9 +236,10 @@ std::string name_of_density(const ParticleTypeInfo& type) {
   return DataUnits::product({mass->unit, true, {}}, {position->unit, true, {}}, -3).name;
 }
 
-MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
-                      MapQuantity::Kind kind) {
-  const DataUnits data(settings, snapshot, type);
+MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
+                      const std::vector<int>& types, MapQuantity::Kind kind) {
+  check_types_agree(settings, snapshot, types);
+  const DataUnits data(settings, snapshot, types.front());
   data.check_settings();
   const NamedUnits found = unit_of(settings, data, kind);
   MapUnits units;

@@ -173,6 +173,28 @@ TEST(MapUnits, RefuseTheSkyWhereLengthsAreNotKnown) {
   EXPECT_THAT(refusal(scene), HasSubstr("expected a length"));
 }
 
+TEST(MapUnits, RefuseTypesInSeveralUnits) {
+  const auto refusal_of = [](const char* unit) {
+    test::MemorySnapshot snapshot = wide_particle().snapshot();
+    snapshot.add(4, "position", {1, 2, 3}, 3);
+    snapshot.add(4, "smoothing_length", {1});
+    snapshot.add(4, "mass", {1});
+    snapshot.set_unit(0, "mass", "Msun");
+    snapshot.set_unit(4, "mass", unit);
+    Scene scene = map_scene();
+    scene.components.front().types = {0, 4};
+    try {
+      map_of(scene, snapshot);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal_of("M_sun"), "");
+  EXPECT_EQ(refusal_of(""), "");
+  EXPECT_THAT(refusal_of("g"), HasSubstr("whose mass is in \"Msun\" and in \"g\""));
+}
+
 TEST(MapUnits, RefuseAUnitForCounts) {
   Scene scene = map_scene();
   scene.map.quantity = "counts";

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
@@ -103,6 +105,25 @@ TEST_F(PlainHdf5, GroupsAreTypesByTheirNames) {
   EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(positions(*snapshot, 1), ElementsAre(7, 8, 9));
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("group /all is left out")));
+}
+
+TEST_F(PlainHdf5, TypesInSeveralUnitsAreConverted) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    for (const auto& [group, length, mass] :
+         std::vector<std::array<std::string, 3>>{{"gas", "kpc", "kg"}, {"stars", "pc", "g"}}) {
+      write_values(file, group + "/pos", {1000, 2000, 3000}, 3);
+      write_text(file, group + "/pos", "units", length);
+      write_values(file, group + "/mass", {500});
+      write_text(file, group + "/mass", "units", mass);
+    }
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1000, 2000, 3000));
+  EXPECT_THAT(positions(*snapshot, 4), ElementsAre(1, 2, 3));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(500));
+  EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(0.5F));
+  EXPECT_THAT(snapshot->info().notes, Contains("mass of type 4 is converted from g to kg"));
 }
 
 TEST_F(PlainHdf5, GroupsOfOtherNamesAreTypesInTheirOrder) {
