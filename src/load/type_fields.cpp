@@ -184,8 +184,8 @@ Column TypeFields::masses() const {
   if (find_field(*type_, "mass") != nullptr) return snapshot_->read(type_->type, "mass");
   if (type_->table_mass) return Column::uniform(static_cast<float>(*type_->table_mass));
   throw UsageError(fmt::format(
-      "{}: weight is \"mass\", but particles of type {} in {} have no masses; set weight to "
-      "\"constant\"",
+      "{}: weight is \"mass\", but particles of type {} in {} have no masses; give them "
+      "masses, or set weight to \"constant\"",
       label_, type_->type, file()));
 }
 

@@ -30,7 +30,20 @@ Column velocities_along(const Vec3& forward, const ComponentFields& fields, std:
   return Column::owning(std::move(values));
 }
 
+// What a map needs masses for can often be had without.
+void require_masses(const ComponentFields& fields, const std::string& what, const char* instead) {
+  if (fields.masses_are_known()) return;
+  throw UsageError(fmt::format("{}: {} needs masses, which its particles in {} do not have; {}",
+                               fields.label(), what, fields.snapshot_info().files.front().string(),
+                               instead));
+}
+
 Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
+  if (name == "constant") return Column::uniform(1);
+  if (name == "mass" || name == "volume") {
+    require_masses(fields, fmt::format("a mean weighted by {}", name),
+                   "set map.weight to \"constant\", or to a field");
+  }
   if (name == "mass") return fields.masses();
   if (name == "volume") return fields.volumes("map.weight");
   Column weight = fields.scalars(name, "map.weight");
@@ -53,6 +66,8 @@ MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields
     return {MapQuantity::Kind::counts, Column::uniform(1), {}, "particles per pixel"};
   }
   const char* const what = settings.slice ? "density in a plane" : "surface density";
+  require_masses(fields, fmt::format("a map of {}", what),
+                 "set map.quantity to \"counts\", or to a field");
   return {MapQuantity::Kind::column, fields.masses(), {}, what};
 }
 
@@ -61,6 +76,7 @@ MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geom
   if (is_column(settings)) return column_of(settings, fields);
   const Column value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
+    require_masses(fields, "an integral", "set map.statistic to \"mean\"");
     return {MapQuantity::Kind::integral, fields.volumes("map.statistic"), value,
             fmt::format("integral of {} along the line of sight", settings.quantity)};
   }

@@ -24,7 +24,7 @@ const std::vector<FieldNames>& known_fields() {
       {"halo_id",
        {"FOFGroupIDs", "FOFGroupID", "GroupNr_bound", "GroupNr_all", "GroupNr", "GroupNumber",
         "GroupIDs", "GroupID", "HaloID"}},
-      {"mass", {"Masses", "mass table", "MassTable", "m"}},
+      {"mass", {"Masses", "mass table", "MassTable", "m", "DynamicalMasses"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
       {"density", {"RHO", "Densities", "den"}},
       {"smoothing_length",
