@@ -163,6 +163,33 @@ TEST_F(PlainHdf5, YtsNamesUnitsAndDomainAreUnderstood) {
   EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "cm");
 }
 
+// Positions in centimeters, the domain in yt's code_length, and the header of the simulation.
+TEST_F(PlainHdf5, YtsDomainIsConvertedToTheUnitOfPositions) {
+  for (const char* const unit : {"kpccm/h", "furlong"}) {
+    {
+      const Hdf5Output file = create_hdf5(path_);
+      write_text(file, "/", "data_type", "yt_data_container");
+      write_attribute(file, "/", "BoxSize", {50000});
+      write_attribute(file, "/", "current_redshift", {1});
+      write_attribute(file, "/", "hubble_constant", {0.5});
+      write_attribute(file, "/", "length_unit", {2});
+      write_text(file, "/", "length_unit_units", unit);
+      write_attribute(file, "/", "domain_left_edge", {0, 0, 0});
+      write_attribute(file, "/", "domain_right_edge", {100, 100, 100});
+      write_text(file, "/", "domain_right_edge_units", "code_length");
+      write_values(file, "gas/particle_position", {1, 2, 3}, 3);
+      write_text(file, "gas/particle_position", "units", "cm");
+    }
+    const auto box = open_snapshot(path_)->info().box_size;
+    if (std::string(unit) == "furlong") {
+      EXPECT_FALSE(box);
+    } else {
+      ASSERT_TRUE(box);
+      EXPECT_NEAR(*box / (200 * 3.0856775815e21), 1, 1e-9);
+    }
+  }
+}
+
 TEST_F(PlainHdf5, IdentifiersThatAreNotWholeAreRefused) {
   {
     const Hdf5Output file = create_hdf5(path_);
