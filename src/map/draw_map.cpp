@@ -17,6 +17,7 @@
 #include "map/sums.h"
 #include "map/weighted_values.h"
 #include "snapshot/field_names.h"
+#include "snapshot/field_statistics.h"
 #include "splotchcl/error.h"
 #include "splotchcl/map.h"
 
@@ -78,6 +79,19 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   return matter;
 }
 
+bool is_infinite(const Column& column, std::size_t value) {
+  return !column.is_absent() && std::isinf(column[value]);
+}
+
+// Of a map's particles the first: all of them are bad.
+std::string advice_on_first(const MapMatter& matter, const MapQuantity& quantity) {
+  const bool is_beyond = is_infinite(matter.position, 0) || is_infinite(matter.position, 1) ||
+                         is_infinite(matter.position, 2) ||
+                         is_infinite(matter.smoothing_length, 0) ||
+                         is_infinite(quantity.weight, 0) || is_infinite(quantity.value, 0);
+  return is_beyond ? "; " + advice_on_infinite_values() : "";
+}
+
 // A map of nothing but bad particles would look like one of empty space.
 void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
                     const ComponentFields& fields) {
@@ -88,8 +102,9 @@ void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
   throw DataError(fmt::format(
       "{}: {}: none of its {} particles can be mapped: all have a position, smoothing length, "
       "weight or value that is not finite, a smoothing length not above 0, or a weight below 0; "
-      "splotchcl info tells which",
-      fields.snapshot_info().files.front().string(), fields.label(), matter.count));
+      "splotchcl info tells which{}",
+      fields.snapshot_info().files.front().string(), fields.label(), matter.count,
+      advice_on_first(matter, quantity)));
 }
 
 // OpenComponents has refused a component without particles.

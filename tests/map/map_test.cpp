@@ -125,6 +125,13 @@ TEST(Map, HasTheWeightedMeanAlongTheLine) {
   }
 }
 
+TEST(Map, SaysWhyAllValuesAreInfinite) {
+  Gas gas = one_particle({{0, 0, 0}}, 10);
+  gas.mass[0] = std::numeric_limits<float>::infinity();
+  EXPECT_THAT([&] { map_of(map_scene(), gas.snapshot()); },
+              ThrowsMessage<DataError>(HasSubstr("numbers beyond single precision")));
+}
+
 TEST(Map, SaysWhatCanBeHadWithoutMasses) {
   test::MemorySnapshot snapshot;
   snapshot.add(0, "position", {0, 0, 0}, 3);
