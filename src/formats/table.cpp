@@ -109,8 +109,7 @@ std::vector<double> FieldTable::factors_of_axes(const TableField& field, Snapsho
     if (!factor) {
       throw DataError(fmt::format(
           "{}: the columns {} are a vector, but {} is in \"{}\" and others in \"{}\", expected "
-          "units "
-          "that can be compared: give them one unit",
+          "units that can be compared: give them one unit",
           info.files.front().string(), field.info.file_name, name, unit, field.info.unit));
     }
     if (*factor != 1)
@@ -125,8 +124,9 @@ std::vector<double> FieldTable::factors_of_axes(const TableField& field, Snapsho
 void FieldTable::convert_to(UnitsOfFields& units, int type, SnapshotInfo& info) {
   const auto to_common = [&](TableField& field, const std::string& name) {
     std::string& unit = units[name];
-    if (unit.empty()) unit = field.info.unit;
-    if (field.info.unit.empty() || field.info.unit == unit) return;
+    // A size tells nothing of positions without a unit.
+    if (unit.empty() && name == field.info.name) unit = field.info.unit;
+    if (unit.empty() || field.info.unit.empty() || field.info.unit == unit) return;
     const auto factor = unit_ratio(field.info.unit, unit, unit_factors(info));
     if (!factor || *factor == 1) return;  // what cannot be compared is left as it is
     info.notes.push_back(fmt::format("{} of type {} is converted from {} to {}", field.info.name,

@@ -18,10 +18,16 @@ std::optional<Unit> known_unit(const std::string& text, const UnitFactors& facto
   }
 }
 
+bool is_number(const Unit& unit) {
+  return same_dimension(unit, Unit());
+}
+
 std::optional<double> ratio(const std::string& from, const std::string& to,
                             const UnitFactors& factors) {
   const std::optional<Unit> a = known_unit(from, factors), b = known_unit(to, factors);
   if (!a && !b) return 1;
+  // Tables may number their columns: "x (1)".
+  if (a && b && is_number(*a) && is_number(*b)) return 1;
   if (!a || !b || !same_dimension(*a, *b)) return std::nullopt;
   const double found = a->in_cgs / b->in_cgs;
   return std::isfinite(found) && found > 0 ? std::optional(found) : std::nullopt;

@@ -8,9 +8,9 @@
 namespace splotchcl {
 
 // What numbers in the unit `from` have to be multiplied by to be in the unit `to`. 1 where nothing
-// tells them apart: one of them is not said, or neither is known. None where they cannot be
-// compared: they have different dimensions, one alone is known, or they differ by powers of a or h
-// whose values are not known.
+// tells them apart: one of them is not said, neither is known, or both are mere numbers. None where
+// they cannot be compared: they have different dimensions, one alone is known, or they differ by
+// powers of a or h whose values are not known.
 std::optional<double> unit_ratio(const std::string& from, const std::string& to,
                                  const UnitFactors& factors);
 

@@ -15,6 +15,8 @@ TEST(UnitRatio, ConvertsWhatIsKnown) {
 TEST(UnitRatio, IsOneWhereNothingTellsUnitsApart) {
   EXPECT_EQ(unit_ratio("", "g", {}), 1.0);
   EXPECT_EQ(unit_ratio("g", "", {}), 1.0);
+  EXPECT_EQ(unit_ratio("2", "1", {}), 1.0);
+  EXPECT_EQ(unit_ratio("1", "0", {}), 1.0);
   EXPECT_EQ(unit_ratio("code_mass", "code_mass", {}), 1.0);
   EXPECT_EQ(unit_ratio("code_mass/code_length**3", "(code_mass) (code_length)^-3", {}), 1.0);
 }

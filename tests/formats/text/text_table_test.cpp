@@ -66,6 +66,11 @@ TEST_F(TextTable, AxesWhoseUnitsCannotBeComparedAreRefused) {
               HasSubstr("y is in \"K\" and others in \"kpc\""));
 }
 
+TEST_F(TextTable, NumbersOfColumnsAreNoUnits) {
+  const auto snapshot = open("x(0),y(1),z(2)\n1,2,3\n5,6,7\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+}
+
 TEST_F(TextTable, SmoothingLengthsAreInTheUnitOfPositions) {
   const auto snapshot = open("h [pc] x [kpc] y [kpc] z [kpc]\n500 1 2 3\n250 5 6 7\n");
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
