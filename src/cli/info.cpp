@@ -86,6 +86,12 @@ std::string row_text(const FieldRow& row, const FieldInfo& field, const Widths& 
                      field.unit);
 }
 
+std::string note_on_infinite(const FieldRow& row) {
+  if (row.statistics.infinite == 0) return {};
+  return fmt::format("  {} infinite values of {}: {}\n", row.statistics.infinite,
+                     printable(row.name), advice_on_infinite_values());
+}
+
 // What the header tells of a type.
 std::string type_header_text(const ParticleTypeInfo& type) {
   std::string text = fmt::format("\ntype {}, {}: {} particles\n", type.type,
@@ -111,11 +117,15 @@ std::string type_text(const Snapshot& snapshot, const ParticleTypeInfo& type, Co
   std::string text = type_header_text(type);
   text += fmt::format("  {:{}} {:{}} {:>13} {:>13} {:>13} {:>8} {}\n", "field", widths.name,
                       "in the file", widths.label, "minimum", "maximum", "mean", "bad", "unit");
+  std::string notes;
   for (const FieldInfo& field : type.fields) {
     console.status("reading " + field.name);
-    for (const FieldRow& row : read_rows(snapshot, type.type, field))
+    for (const FieldRow& row : read_rows(snapshot, type.type, field)) {
       text += row_text(row, field, widths);
+      notes += note_on_infinite(row);
+    }
   }
+  text += notes;
   text += printable(fmt::format("  derived: {}", fmt::join(derivable_fields(type), ", "))) + "\n";
   return text;
 }

@@ -15,7 +15,7 @@ void add_quantity_options(CLI::App& sub, MapOptions& options) {
                          "integral"))
       ->type_name("NAME");
   sub.add_option("--weight", options.weight,
-                 wrapped("Of means: mass (the default), volume, or a field"))
+                 wrapped("Of means: mass (the default), volume, constant, or a field"))
       ->type_name("NAME");
   sub.add_flag("--slice", options.slice,
                wrapped("In the plane through the center instead of along the line of sight"));

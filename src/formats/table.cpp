@@ -10,6 +10,7 @@
 #include "formats/position_origin.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -18,16 +19,28 @@ namespace {
 struct TableField {
   FieldInfo info;
   std::vector<TableValue> values;  // one, or three
+  std::vector<double> factors;     // what these are multiplied by, to be in the field's unit
+
+  bool is_converted() const {
+    return std::any_of(factors.begin(), factors.end(), [](double factor) { return factor != 1; });
+  }
 };
+
+// The unit of each field in all types, by the field's name.
+using UnitsOfFields = std::map<std::string, std::string>;
 
 // A table, and the fields that its columns are.
 class FieldTable {
  public:
-  explicit FieldTable(std::unique_ptr<const Table> table);
+  // `info` is what is known of the snapshot, and takes notes.
+  FieldTable(std::unique_ptr<const Table> table, SnapshotInfo& info);
 
   const Table& table() const { return *table_; }
   const std::vector<NameAndUnit>& names() const { return names_; }
   ParticleTypeInfo describe(int type) const;
+  // Where fields of a type have another unit than the types before it, or sizes another than
+  // positions: to that one.
+  void convert_to(UnitsOfFields& units, int type, SnapshotInfo& info);
   const TableField& field_of(const FieldInfo& info) const;
   // Calls use(values) for the positions of some rows, in increasing order.
   template <class Use>
@@ -37,8 +50,10 @@ class FieldTable {
 
  private:
   std::optional<std::size_t> find_column(const std::string& name) const;
-  std::optional<TableField> find_vector(std::size_t first, std::vector<bool>& used) const;
-  void find_fields();
+  std::optional<TableField> find_vector(std::size_t first, std::vector<bool>& used,
+                                        SnapshotInfo& info) const;
+  std::vector<double> factors_of_axes(const TableField& field, SnapshotInfo& info) const;
+  void find_fields(SnapshotInfo& info);
   void name_table_fields();
 
   std::unique_ptr<const Table> table_;
@@ -46,10 +61,11 @@ class FieldTable {
   std::vector<TableField> fields_;
 };
 
-FieldTable::FieldTable(std::unique_ptr<const Table> table) : table_(std::move(table)) {
+FieldTable::FieldTable(std::unique_ptr<const Table> table, SnapshotInfo& info)
+    : table_(std::move(table)) {
   for (const TableColumn& column : table_->columns())
     names_.push_back(split_unit(column.name));
-  find_fields();
+  find_fields(info);
   name_table_fields();
 }
 
@@ -61,8 +77,8 @@ std::optional<std::size_t> FieldTable::find_column(const std::string& name) cons
 }
 
 // The vector that begins with this column, if its other two axes are there.
-std::optional<TableField> FieldTable::find_vector(std::size_t first,
-                                                  std::vector<bool>& used) const {
+std::optional<TableField> FieldTable::find_vector(std::size_t first, std::vector<bool>& used,
+                                                  SnapshotInfo& info) const {
   const std::string& name = names_[first].name;
   const std::string vector = vector_name(name);
   if (vector.empty() || table_->columns()[first].values_per_row != 1) return std::nullopt;
@@ -76,15 +92,62 @@ std::optional<TableField> FieldTable::find_vector(std::size_t first,
   }
   for (const TableValue& value : field.values)
     used[value.column] = true;
-  field.info = {vector, file_name, 3, names_[first].unit};
+  field.info = {vector, file_name, 3, ""};
+  for (const TableValue& value : field.values) {
+    if (field.info.unit.empty()) field.info.unit = names_[value.column].unit;
+  }
+  field.factors = factors_of_axes(field, info);
   return field;
 }
 
-void FieldTable::find_fields() {
+// A vector has one unit, that of the first axis that names one.
+std::vector<double> FieldTable::factors_of_axes(const TableField& field, SnapshotInfo& info) const {
+  std::vector<double> factors;
+  for (const TableValue& value : field.values) {
+    const auto& [name, unit] = names_[value.column];
+    const auto factor = unit_ratio(unit, field.info.unit, unit_factors(info));
+    if (!factor) {
+      throw DataError(fmt::format(
+          "{}: the columns {} are a vector, but {} is in \"{}\" and others in \"{}\", expected "
+          "units that can be compared: give them one unit",
+          info.files.front().string(), field.info.file_name, name, unit, field.info.unit));
+    }
+    if (*factor != 1)
+      info.notes.push_back(
+          fmt::format("{} is converted from {} to {}, the unit of the other axes of {}", name, unit,
+                      field.info.unit, field.info.file_name));
+    factors.push_back(*factor);
+  }
+  return factors;
+}
+
+void FieldTable::convert_to(UnitsOfFields& units, int type, SnapshotInfo& info) {
+  const auto to_common = [&](TableField& field, const std::string& name) {
+    std::string& unit = units[name];
+    // A size tells nothing of positions without a unit.
+    if (unit.empty() && name == field.info.name) unit = field.info.unit;
+    if (unit.empty() || field.info.unit.empty() || field.info.unit == unit) return;
+    const auto factor = unit_ratio(field.info.unit, unit, unit_factors(info));
+    if (!factor || *factor == 1) return;  // what cannot be compared is left as it is
+    info.notes.push_back(fmt::format("{} of type {} is converted from {} to {}", field.info.name,
+                                     type, field.info.unit, unit));
+    for (double& value_factor : field.factors)
+      value_factor *= *factor;
+    field.info.unit = unit;
+  };
+  // First: sizes are converted to the unit of positions.
+  for (TableField& field : fields_) {
+    if (field.info.name == "position") to_common(field, field.info.name);
+  }
+  for (TableField& field : fields_)
+    to_common(field, field.info.name == "smoothing_length" ? "position" : field.info.name);
+}
+
+void FieldTable::find_fields(SnapshotInfo& info) {
   std::vector<bool> used(names_.size(), false);
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (used[i]) continue;
-    if (auto vector = find_vector(i, used)) fields_.push_back(std::move(*vector));
+    if (auto vector = find_vector(i, used, info)) fields_.push_back(std::move(*vector));
   }
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (used[i] || names_[i].name.empty()) continue;
@@ -93,21 +156,40 @@ void FieldTable::find_fields() {
     field.info = {"", names_[i].name, width, names_[i].unit};
     for (int axis = 0; axis < width; ++axis)
       field.values.push_back({i, axis});
+    field.factors.assign(field.values.size(), 1);
     fields_.push_back(std::move(field));
   }
 }
 
-// A vector of three columns has its name already; where two fields mean the same quantity, the
-// second keeps that of the file.
+// A vector of three columns has its name already. Where two fields mean the same quantity, the one
+// that the file calls so has its name, else the first; the other keeps that of the file.
 void FieldTable::name_table_fields() {
-  std::vector<std::string> taken;
-  for (TableField& field : fields_) {
-    FieldInfo& info = field.info;
-    const std::string name = info.name.empty() ? canonical_field_name(info.file_name) : info.name;
-    const bool is_new = !name.empty() && std::find(taken.begin(), taken.end(), name) == taken.end();
-    info.name = is_new ? name : info.file_name;
-    taken.push_back(info.name);
+  const auto name_of = [](const FieldInfo& info) {
+    return info.name.empty() ? canonical_field_name(info.file_name) : info.name;
+  };
+  std::map<std::string, const FieldInfo*> owners;
+  for (const TableField& field : fields_) {
+    const FieldInfo*& owner = owners[name_of(field.info)];
+    const bool is_better = owner != nullptr && owner->name.empty() && field.info.name.empty() &&
+                           field.info.file_name == name_of(field.info);
+    if (owner == nullptr || is_better) owner = &field.info;
   }
+  std::vector<std::string> names;
+  for (const TableField& field : fields_) {
+    const std::string name = name_of(field.info);
+    const bool is_owner = !name.empty() && owners.at(name) == &field.info;
+    names.push_back(is_owner ? name : field.info.file_name);
+  }
+  std::vector<TableField> named;
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    // Beside x, y and z a column "position" cannot be told from these by a name.
+    const bool is_told = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
+                                   names[i]) == names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!is_told) continue;
+    named.push_back(std::move(fields_[i]));
+    named.back().info.name = names[i];
+  }
+  fields_ = std::move(named);
 }
 
 ParticleTypeInfo FieldTable::describe(int type) const {
@@ -138,9 +220,10 @@ void FieldTable::for_ranges(const TableField& positions, const std::vector<Sampl
 }
 
 bool FieldTable::is_single_precision(const TableField& field) const {
-  return std::all_of(field.values.begin(), field.values.end(), [this](const TableValue& value) {
-    return table_->is_single_precision(value.column);
-  });
+  return !field.is_converted() &&
+         std::all_of(field.values.begin(), field.values.end(), [this](const TableValue& value) {
+           return table_->is_single_precision(value.column);
+         });
 }
 
 class TableSnapshot : public Snapshot {
@@ -166,8 +249,10 @@ class TableSnapshot : public Snapshot {
 };
 
 TableSnapshot::TableSnapshot(TablesByType tables, SnapshotInfo info) : info_(std::move(info)) {
+  UnitsOfFields units;
   for (auto& [type, table] : tables) {
-    const FieldTable& added = tables_.emplace(type, FieldTable(std::move(table))).first->second;
+    FieldTable& added = tables_.emplace(type, FieldTable(std::move(table), info_)).first->second;
+    added.convert_to(units, type, info_);
     info_.types.push_back(added.describe(type));
     check_positions(info_.types.back());
   }
@@ -208,8 +293,10 @@ Vec3 TableSnapshot::find_origin() const {
     std::vector<SampleRange> of_part;
     std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(of_part),
                  [part](const SampleRange& range) { return range.part == part; });
-    tables_.at(type).for_ranges(positions_of(type), of_part, [&sample](const double* values) {
-      sample.push_back({values[0], values[1], values[2]});
+    const TableField& positions = positions_of(type);
+    const std::vector<double>& factors = positions.factors;
+    tables_.at(type).for_ranges(positions, of_part, [&](const double* values) {
+      sample.push_back({factors[0] * values[0], factors[1] * values[1], factors[2] * values[2]});
     });
   }
   return choose_position_origin(sample);
@@ -234,7 +321,8 @@ Column TableSnapshot::read(int type, const std::string& name) const {
     // Not before the table has seen that the rows are all there.
     if (values.empty()) values.reserve(table.table().rows() * field.values.size());
     for (std::size_t axis = 0; axis < field.values.size(); ++axis) {
-      values.push_back(static_cast<float>(row[axis] - (is_vector ? origin.a[axis] : 0)));
+      values.push_back(
+          static_cast<float>(field.factors[axis] * row[axis] - (is_vector ? origin.a[axis] : 0)));
     }
   });
   return Column::owning(std::move(values));

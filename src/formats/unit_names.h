@@ -18,7 +18,12 @@ struct BaseUnits {
 };
 
 // For example "kpc h^-1 a". Empty when a base unit that the field needs is unknown or when
-// the field is a pure number.
-std::string unit_name(const UnitPowers& powers, const BaseUnits& units);
+// the field is a pure number. Where the size of the unit is stated as another one than the product
+// of these powers, it counts.
+std::string unit_name(const UnitPowers& powers, const BaseUnits& units, double stated_in_cgs = 0);
+
+// What a field of this canonical name is a product of, without a and h; a pure number where that is
+// not known.
+UnitPowers powers_of_field(const std::string& field);
 
 }  // namespace splotchcl

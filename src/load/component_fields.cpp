@@ -238,6 +238,11 @@ Column ComponentFields::masses() const {
   return collected("mass", [](const TypeFields& type) { return type.masses(); });
 }
 
+Column ComponentFields::volumes(const std::string& key) const {
+  return collected("volume of mass and density",
+                   [&](const TypeFields& type) { return type.volumes(key); });
+}
+
 bool ComponentFields::stand_for_the_same() const {
   const double first = types_.front().info().particles_per_drawn;
   return std::all_of(types_.begin(), types_.end(), [first](const TypeFields& type) {

@@ -81,8 +81,11 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
 
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field) {
   if (field.unit.empty()) {
-    // Gadget's own unit, of which its files say nothing.
-    return begins_with(info.format, "Gadget") ? std::optional(1e10) : std::nullopt;
+    // Gadget's own unit, and that of its descendants, of which their files say nothing.
+    const bool is_of_gadget = begins_with(info.format, "Gadget") ||
+                              begins_with(info.format, "AREPO") ||
+                              begins_with(info.format, "GIZMO");
+    return is_of_gadget ? std::optional(1e10) : std::nullopt;
   }
   const std::size_t end = field.unit.find(")^2");
   if (end == std::string::npos) return std::nullopt;
@@ -95,6 +98,18 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
     unit = factor ? std::optional(*unit * *factor) : std::nullopt;
   }
   return unit;
+}
+
+Column volumes_of(const Column& mass, const Column& density, double density_unit, std::size_t count,
+                  bool streams) {
+  const auto make = [=](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch masses(mass, begin, end), densities(density, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      *out++ = static_cast<float>(static_cast<double>(masses[i]) /
+                                  (density_unit * static_cast<double>(densities[i])));
+    }
+  };
+  return make_column(count, streams || is_streamed(mass) || is_streamed(density), make);
 }
 
 Column lengths_of_vectors(const Column& vectors, bool streams) {

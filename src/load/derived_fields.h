@@ -26,6 +26,10 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
 // when it is not known.
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field);
 
+// Mass over density, whose unit is `density_unit` times that of mass over volume.
+Column volumes_of(const Column& mass, const Column& density, double density_unit, std::size_t count,
+                  bool streams);
+
 // |v| of vectors, 3 values each.
 Column lengths_of_vectors(const Column& vectors, bool streams);
 // One axis of vectors, to which `added` is added in double precision.

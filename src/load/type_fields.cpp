@@ -17,6 +17,7 @@
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -183,8 +184,8 @@ Column TypeFields::masses() const {
   if (find_field(*type_, "mass") != nullptr) return snapshot_->read(type_->type, "mass");
   if (type_->table_mass) return Column::uniform(static_cast<float>(*type_->table_mass));
   throw UsageError(fmt::format(
-      "{}: weight is \"mass\", but particles of type {} in {} have no masses; set weight to "
-      "\"constant\"",
+      "{}: weight is \"mass\", but particles of type {} in {} have no masses; give them "
+      "masses, or set weight to \"constant\"",
       label_, type_->type, file()));
 }
 
@@ -206,16 +207,50 @@ Column TypeFields::smoothing_lengths() const {
                     [this] { return find_lengths(); });
 }
 
+// Of the file's densities, in the unit of mass over the cube of that of positions. None where these
+// cannot be compared.
+std::optional<double> TypeFields::unit_of_densities() const {
+  const FieldInfo* const density = find_field(*type_, "density");
+  if (density == nullptr) return 1;
+  return unit_ratio(density->unit, unit_of_matching_density(*type_),
+                    unit_factors(snapshot_->info()));
+}
+
+std::optional<double> TypeFields::unit_of_volumes() const {
+  return unit_ratio(find_field(*type_, "volume")->unit, unit_of_matching_volume(*type_),
+                    unit_factors(snapshot_->info()));
+}
+
+Column TypeFields::volumes(const std::string& key) const {
+  const std::optional<double> unit = unit_of_densities();
+  if (!unit) {
+    throw UsageError(fmt::format(
+        "{}: {} needs volumes, which are mass over density, but the densities of type {} in {} are "
+        "in \"{}\", expected a unit that can be compared with {}, those of its masses and "
+        "positions",
+        label_, key, type_->type, file(), find_field(*type_, "density")->unit,
+        unit_of_matching_density(*type_)));
+  }
+  return volumes_of(masses(), scalars("density", key), *unit, count(), streams());
+}
+
 // From densities and masses or the volumes of cells, where they give all particles a size.
-std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) const {
+std::optional<Column> TypeFields::lengths_from_volumes(std::string& reason) const {
   const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
   if (!has_density && find_field(*type_, "volume") == nullptr) return std::nullopt;
+  const std::optional<double> unit = has_density ? unit_of_densities() : unit_of_volumes();
+  if (!unit) {
+    reason = fmt::format(
+        ", and the unit of its {} is not comparable with {}", has_density ? "densities" : "volumes",
+        has_density ? unit_of_matching_density(*type_) : unit_of_matching_volume(*type_));
+    return std::nullopt;
+  }
   const Column lengths =
       has_density
           ? smoothing_lengths_from_density(masses(), snapshot_->read(type_->type, "density"),
-                                           count(), sizes_.neighbors, streams())
+                                           count(), sizes_.neighbors, streams(), *unit)
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
-                                          sizes_.neighbors, streams());
+                                          sizes_.neighbors, streams(), *unit);
   if (all_are_sizes(lengths, pass_over(*snapshot_, type_->type))) {
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
                     type_->type, has_density ? "density and mass" : "the volumes of its cells"));
@@ -227,7 +262,7 @@ std::optional<Column> TypeFields::lengths_from_volumes(const char*& reason) cons
 }
 
 Column TypeFields::find_lengths() const {
-  const char* reason = "";
+  std::string reason;
   if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "

@@ -30,6 +30,8 @@ class TypeFields {
   Column vectors(const std::string& field, const std::string& key) const;
   Column positions() const;
   Column masses() const;
+  // Mass over density, in the cube of the positions' unit.
+  Column volumes(const std::string& key) const;
   // The file's; else from densities or neighbours.
   Column smoothing_lengths() const;
   std::vector<std::uint64_t> ids() const;
@@ -51,7 +53,9 @@ class TypeFields {
   Column derived_temperatures(const std::string& key) const;
   Column densities() const;
   Column find_lengths() const;
-  std::optional<Column> lengths_from_volumes(const char*& reason) const;
+  std::optional<Column> lengths_from_volumes(std::string& reason) const;
+  std::optional<double> unit_of_densities() const;
+  std::optional<double> unit_of_volumes() const;
   std::optional<double> periodic_box(const Column& position) const;
   bool streams() const;
   void say(const std::string& text) const;

@@ -17,6 +17,7 @@
 #include "map/sums.h"
 #include "map/weighted_values.h"
 #include "snapshot/field_names.h"
+#include "snapshot/field_statistics.h"
 #include "splotchcl/error.h"
 #include "splotchcl/map.h"
 
@@ -78,6 +79,19 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   return matter;
 }
 
+bool is_infinite(const Column& column, std::size_t value) {
+  return !column.is_absent() && std::isinf(column[value]);
+}
+
+// Of a map's particles the first: all of them are bad.
+std::string advice_on_first(const MapMatter& matter, const MapQuantity& quantity) {
+  const bool is_beyond = is_infinite(matter.position, 0) || is_infinite(matter.position, 1) ||
+                         is_infinite(matter.position, 2) ||
+                         is_infinite(matter.smoothing_length, 0) ||
+                         is_infinite(quantity.weight, 0) || is_infinite(quantity.value, 0);
+  return is_beyond ? "; " + advice_on_infinite_values() : "";
+}
+
 // A map of nothing but bad particles would look like one of empty space.
 void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
                     const ComponentFields& fields) {
@@ -88,15 +102,17 @@ void refuse_all_bad(const MapMatter& matter, const MapQuantity& quantity,
   throw DataError(fmt::format(
       "{}: {}: none of its {} particles can be mapped: all have a position, smoothing length, "
       "weight or value that is not finite, a smoothing length not above 0, or a weight below 0; "
-      "splotchcl info tells which",
-      fields.snapshot_info().files.front().string(), fields.label(), matter.count));
+      "splotchcl info tells which{}",
+      fields.snapshot_info().files.front().string(), fields.label(), matter.count,
+      advice_on_first(matter, quantity)));
 }
 
-int first_type(const Component& component, const SnapshotInfo& info) {
-  for (const int type : component.types) {
-    if (info.find_type(type) != nullptr) return type;
-  }
-  return component.types.front();  // OpenComponents has refused a component without particles
+// OpenComponents has refused a component without particles.
+std::vector<int> present_types(const Component& component, const SnapshotInfo& info) {
+  std::vector<int> types;
+  std::copy_if(component.types.begin(), component.types.end(), std::back_inserter(types),
+               [&info](int type) { return info.find_type(type) != nullptr; });
+  return types;
 }
 
 const char* name_of(MapView view) {
@@ -163,8 +179,9 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   const MapGeometry geometry = decide_geometry(one, snapshot, matter, box);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   refuse_all_bad(matter, quantity, fields);
-  const MapUnits units = decide_units(settings, fields.snapshot_info(),
-                                      first_type(component, fields.snapshot_info()), quantity.kind);
+  const MapUnits units =
+      decide_units(settings, fields.snapshot_info(),
+                   present_types(component, fields.snapshot_info()), quantity.kind);
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);

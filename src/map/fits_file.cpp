@@ -94,6 +94,13 @@ class FitsFile {
   int status_ = 0;
 };
 
+std::vector<float> times(std::vector<float> values, double factor) {
+  if (factor == 1) return values;
+  for (float& value : values)
+    value = static_cast<float>(factor * static_cast<double>(value));
+  return values;
+}
+
 struct Axis {
   std::string name, unit;
   double center, step;
@@ -128,9 +135,10 @@ void add_place(FitsFile& file, const Map& map) {
 std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
                                        const MapMetadata& metadata) {
   FitsFile file(path);
-  file.add_image(map, map.values);
+  const FitsUnit unit = readable_fits_unit(map.unit);
+  file.add_image(map, times(map.values, unit.factor));
   file.announce_long_texts();
-  file.add_text("BUNIT", fits_unit(map.unit), "");
+  file.add_text("BUNIT", unit.text, "");
   add_place(file, map);
   file.add_text("QUANTITY", map.quantity, "");
   file.add_text("VIEW", map.view, "axes to the right and upwards");

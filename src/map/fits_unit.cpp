@@ -1,7 +1,15 @@
 #include "map/fits_unit.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstddef>
 #include <map>
+
+#include "snapshot/unit.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -27,6 +35,56 @@ std::string power_of_ten(const std::string& number) {
   return number.rfind("1e", 0) == 0 ? "10**" + number.substr(2) : number;
 }
 
+bool is_whole(const std::string& number) {
+  const std::size_t first = number.rfind('-', 0) == 0 ? 1 : 0;
+  return number.size() > first &&
+         std::all_of(number.begin() + static_cast<std::ptrdiff_t>(first), number.end(),
+                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+}
+
+// Whether the standard has this factor of a unit: a name to a whole power, or, as the first one, a
+// power of ten.
+bool is_factor_of_fits(const std::string& factor, bool is_first) {
+  const std::size_t mark = std::min(factor.find("**"), factor.size());
+  const std::string base = factor.substr(0, mark);
+  const bool is_to_whole = mark == factor.size() || is_whole(factor.substr(mark + 2));
+  if (base == "10") return is_first && mark != factor.size();
+  return is_to_whole && base != "m_p" && !base.empty() &&
+         std::all_of(base.begin(), base.end(), [](char c) { return begins_name(c) || c == '_'; });
+}
+
+bool is_of_fits(const std::string& text) {
+  for (std::size_t first = 0; first < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" /", first), text.size());
+    if (end > first && !is_factor_of_fits(text.substr(first, end - first), first == 0))
+      return false;
+    first = end + 1;
+  }
+  return true;
+}
+
+// "cm**-2", "g**(0.5)": powers that are not whole are in parentheses.
+void append_power(std::string& text, const char* base, double power) {
+  constexpr double rounding = 1e-6;
+  if (std::abs(power) < rounding) return;
+  const double whole = std::round(power);
+  const bool is_near_whole = std::abs(power - whole) < rounding;
+  text += (text.empty() ? "" : " ") + std::string(base);
+  if (is_near_whole && whole != 1) text += fmt::format("**{:.0f}", whole);
+  if (!is_near_whole) text += fmt::format("**({:.6g})", power);
+}
+
+FitsUnit in_cgs(const Unit& unit) {
+  const double exponent = std::floor(std::log10(unit.in_cgs));
+  FitsUnit result;
+  result.factor = unit.in_cgs / std::pow(10, exponent);
+  append_power(result.text, "10", exponent);
+  constexpr const char* names[] = {"cm", "g", "s", "K"};
+  for (const std::size_t i : {1U, 0U, 2U, 3U})
+    append_power(result.text, names[i], unit.powers[i]);
+  return result;
+}
+
 }  // namespace
 
 std::string fits_unit(const std::string& unit) {
@@ -47,6 +105,18 @@ std::string fits_unit(const std::string& unit) {
     i = end;
   }
   return result;
+}
+
+FitsUnit readable_fits_unit(const std::string& unit) {
+  const std::string text = fits_unit(unit);
+  if (is_of_fits(text)) return {text};
+  try {
+    const Unit known = parse_unit(unit, {}, "unit");
+    if (known.in_cgs > 0 && std::isfinite(known.in_cgs)) return in_cgs(known);
+  } catch (const UsageError&) {
+    // With a and h, or names that nobody else knows.
+  }
+  return {text};
 }
 
 }  // namespace splotchcl

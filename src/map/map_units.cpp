@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "common/words.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -55,6 +57,10 @@ std::string name_of_power(const std::string& unit, int exponent) {
   return power;
 }
 
+bool is_size(const Unit& unit) {
+  return unit.in_cgs > 0 && std::isfinite(unit.in_cgs);
+}
+
 // What the snapshot, and the settings where it is silent, say of units.
 class DataUnits {
  public:
@@ -62,14 +68,19 @@ class DataUnits {
       : settings_(settings), type_(*snapshot.find_type(type)), factors_(unit_factors(snapshot)) {}
 
   NamedUnits length() const {
-    return named(settings_.length_unit, "map.length_unit", unit_of("position"), "code_length");
+    if (!settings_.length_unit.empty())
+      return said(settings_.length_unit, "map.length_unit", "a length", "a kpc/h", "cm");
+    return named("unit of position", unit_of("position"), "code_length");
   }
   NamedUnits mass() const {
-    return named(settings_.mass_unit, "map.mass_unit", unit_of("mass"), "code_mass");
+    if (!settings_.mass_unit.empty())
+      return said(settings_.mass_unit, "map.mass_unit", "a mass", "1e10 Msun/h", "g");
+    return named("unit of mass", unit_of("mass"), "code_mass");
   }
   NamedUnits velocity() const {
-    return named(settings_.velocity_unit, "map.velocity_unit", unit_of("velocity"),
-                 "code_velocity");
+    if (!settings_.velocity_unit.empty())
+      return said(settings_.velocity_unit, "map.velocity_unit", "a velocity", "a^0.5 km/s", "cm/s");
+    return named("unit of velocity", unit_of("velocity"), "code_velocity");
   }
 
   NamedUnits field(const std::string& name) const {
@@ -96,6 +107,13 @@ class DataUnits {
 
   const UnitFactors& factors() const { return factors_; }
 
+  // Also of what this map does not need.
+  void check_settings() const {
+    length();
+    mass();
+    velocity();
+  }
+
  private:
   std::string unit_of(const char* field) const {
     const FieldInfo* const info = find_field(type_, field);
@@ -106,16 +124,24 @@ class DataUnits {
     if (info.name == "mass") return mass();
     if (info.name == "velocity") return velocity();
     if (info.name == "density" && info.unit.empty()) return product(mass(), length(), -3);
-    return named("", "unit of " + info.name, info.unit, "code_" + info.name);
+    return named("unit of " + info.name, info.unit, "code_" + info.name);
   }
   // What the user says counts before what the file says: it may be wrong.
-  NamedUnits named(const std::string& said, const std::string& key, const std::string& stored,
+  NamedUnits said(const std::string& text, const std::string& key, const char* what,
+                  const char* example, const char* in_cgs) const {
+    const Unit unit = parse_unit(text, factors_, "key " + key);
+    if (same_dimension(unit, parse_unit(in_cgs, {}, "unit")) && is_size(unit))
+      return {text, true, unit};
+    throw UsageError(fmt::format("key {}: found \"{}\", expected {} above 0, such as \"{}\"", key,
+                                 text, what, example));
+  }
+  NamedUnits named(const std::string& what, const std::string& stored,
                    const std::string& code_name) const {
-    if (!said.empty()) return {said, true, parse_unit(said, factors_, "key " + key)};
     if (stored.empty()) return {code_name, false, {}};
     // Files may call their units as they like: what we do not know is as good as none.
     try {
-      return {stored, true, parse_unit(stored, factors_, key)};
+      const Unit unit = parse_unit(stored, factors_, what);
+      return {stored, is_size(unit), unit};
     } catch (const UsageError&) {
       return {stored, false, {}};
     }
@@ -150,6 +176,36 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
                  "map.mass_unit and map.velocity_unit, as far as the quantity needs them"));
 }
 
+// The field whose values the map's quantity or weight is made of; null where there is none.
+const FieldInfo* source_of(const ParticleTypeInfo& type, const std::string& name) {
+  if (name.empty()) return nullptr;
+  if (name == "line_of_sight_velocity" || name == "speed") return find_field(type, "velocity");
+  if (const FieldInfo* const field = find_field(type, name)) return field;
+  return find_axis(type, name).first;
+}
+
+// Values of several types are added: they need one unit.
+void check_types_agree(const MapSettings& settings, const SnapshotInfo& snapshot,
+                       const std::vector<int>& types) {
+  const ParticleTypeInfo& first = *snapshot.find_type(types.front());
+  for (const int number : types) {
+    const ParticleTypeInfo& type = *snapshot.find_type(number);
+    for (const std::string& name : {std::string("position"), std::string("smoothing_length"),
+                                    std::string("mass"), settings.quantity, settings.weight}) {
+      const FieldInfo *const one = source_of(first, name), *const other = source_of(type, name);
+      if (one == nullptr || other == nullptr) continue;
+      const auto ratio = unit_ratio(other->unit, one->unit, unit_factors(snapshot));
+      constexpr double rounding = 1e-3;
+      if (ratio && std::abs(*ratio - 1) < rounding) continue;
+      throw UsageError(
+          fmt::format("key component.types: found types {} and {}, whose {} is in \"{}\" and in "
+                      "\"{}\", expected "
+                      "types in the same unit; draw a map of each",
+                      first.type, type.type, one->name, one->unit, other->unit));
+    }
+  }
+}
+
 // Lengths without a and h, by a name that other programs know.
 void set_lengths(const DataUnits& data, MapUnits& units) {
   const NamedUnits length = data.length();
@@ -180,15 +236,21 @@ std::string name_of_density(const ParticleTypeInfo& type) {
   return DataUnits::product({mass->unit, true, {}}, {position->unit, true, {}}, -3).name;
 }
 
-MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
-                      MapQuantity::Kind kind) {
-  const DataUnits data(settings, snapshot, type);
+MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
+                      const std::vector<int>& types, MapQuantity::Kind kind) {
+  check_types_agree(settings, snapshot, types);
+  const DataUnits data(settings, snapshot, types.front());
+  data.check_settings();
   const NamedUnits found = unit_of(settings, data, kind);
   MapUnits units;
   units.name = found.name;
   set_lengths(data, units);
   if (settings.unit.empty() || settings.unit == found.name) return units;
   const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
+  if (!is_size(wanted)) {
+    throw UsageError(fmt::format(
+        "key map.unit: found \"{}\", expected a unit above 0, such as Msun/pc^2", settings.unit));
+  }
   if (!found.is_known) refuse_unknown(settings.unit, found);
   if (!same_dimension(wanted, found.unit)) {
     throw UsageError(fmt::format(

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "map/quantity.h"
-#include "map/unit.h"
+#include "snapshot/unit.h"
 #include "splotchcl/map_settings.h"
 #include "splotchcl/snapshot.h"
 
@@ -28,9 +29,9 @@ struct MapUnits {
 // Of a mass per volume in the units that the file names for the type's; empty where it does not.
 std::string name_of_density(const ParticleTypeInfo& type);
 
-// From the first of the types, which must be there. Throws UsageError for a unit that is none, that
-// has another dimension, or that is asked for where the snapshot's is not known.
-MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
-                      MapQuantity::Kind kind);
+// Of types that are there, at least one. Throws UsageError where their units differ, for a unit
+// that is none, that has another dimension, or that is asked for where the snapshot's is not known.
+MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
+                      const std::vector<int>& types, MapQuantity::Kind kind);
 
 }  // namespace splotchcl

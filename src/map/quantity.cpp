@@ -17,15 +17,6 @@ bool is_column(const MapSettings& settings) {
   return settings.quantity == "surface_density" || settings.quantity == "counts";
 }
 
-Column volumes(const ComponentFields& fields, std::size_t count) {
-  const Column mass = fields.masses();
-  const Column density = fields.scalars("density", "map.weight");
-  std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i)
-    values[i] = mass[i] / density[i];
-  return Column::owning(std::move(values));
-}
-
 // Positive for what moves away from who looks at the map.
 Column velocities_along(const Vec3& forward, const ComponentFields& fields, std::size_t count) {
   const Column velocity = fields.vectors("velocity", quantity_key);
@@ -39,9 +30,22 @@ Column velocities_along(const Vec3& forward, const ComponentFields& fields, std:
   return Column::owning(std::move(values));
 }
 
+// What a map needs masses for can often be had without.
+void require_masses(const ComponentFields& fields, const std::string& what, const char* instead) {
+  if (fields.masses_are_known()) return;
+  throw UsageError(fmt::format("{}: {} needs masses, which its particles in {} do not have; {}",
+                               fields.label(), what, fields.snapshot_info().files.front().string(),
+                               instead));
+}
+
 Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
+  if (name == "constant") return Column::uniform(1);
+  if (name == "mass" || name == "volume") {
+    require_masses(fields, fmt::format("a mean weighted by {}", name),
+                   "set map.weight to \"constant\", or to a field");
+  }
   if (name == "mass") return fields.masses();
-  if (name == "volume") return volumes(fields, count);
+  if (name == "volume") return fields.volumes("map.weight");
   Column weight = fields.scalars(name, "map.weight");
   for (std::size_t i = 0; i < count; ++i) {
     if (!(weight[i] < 0)) continue;
@@ -62,6 +66,8 @@ MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields
     return {MapQuantity::Kind::counts, Column::uniform(1), {}, "particles per pixel"};
   }
   const char* const what = settings.slice ? "density in a plane" : "surface density";
+  require_masses(fields, fmt::format("a map of {}", what),
+                 "set map.quantity to \"counts\", or to a field");
   return {MapQuantity::Kind::column, fields.masses(), {}, what};
 }
 
@@ -70,7 +76,8 @@ MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geom
   if (is_column(settings)) return column_of(settings, fields);
   const Column value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
-    return {MapQuantity::Kind::integral, volumes(fields, count), value,
+    require_masses(fields, "an integral", "set map.statistic to \"mean\"");
+    return {MapQuantity::Kind::integral, fields.volumes("map.statistic"), value,
             fmt::format("integral of {} along the line of sight", settings.quantity)};
   }
   const bool is_mean = settings.statistic == MapStatistic::mean;

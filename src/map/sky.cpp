@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "map/angular_distance.h"
-#include "map/unit.h"
 #include "scene/constants.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

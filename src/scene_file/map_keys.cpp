@@ -59,8 +59,9 @@ Keys quantity_keys() {
           {"What is done with a field along each line of sight: its weighted mean, its standard "
            "deviation about that mean, or its integral over the length."}),
       text_key("weight", &MapSettings::weight,
-               {"The weights of means: `mass`, `volume`, or a field of values >= 0.", "",
-                "`\"mass\"`; of a slice `\"volume\"`"}),
+               {"The weights of means: `mass`, `volume`, `constant` (all particles alike), or a "
+                "field of values >= 0.",
+                "", "`\"mass\"`; of a slice `\"volume\"`"}),
       key("map.slice", boolean(), &MapSettings::slice,
           {"In the plane through the center, instead of along the line of sight."}),
   };

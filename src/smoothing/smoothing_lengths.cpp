@@ -308,17 +308,18 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
 }
 
 Column smoothing_lengths_from_volume(const Column& volume, std::size_t count, int neighbors,
-                                     bool streams) {
-  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors, streams);
+                                     bool streams, double volume_unit) {
+  return smoothing_lengths_from_density(volume, Column::uniform(1), count, neighbors, streams,
+                                        1 / volume_unit);
 }
 
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbors, bool streams) {
+                                      int neighbors, bool streams, double density_unit) {
   const auto make = [=](std::size_t begin, std::size_t end, float* lengths) {
     const ColumnStretch masses(mass, begin, end), densities(density, begin, end);
     for (std::size_t i = begin; i < end; ++i) {
-      const double volume =
-          neighbors * static_cast<double>(masses[i]) / static_cast<double>(densities[i]);
+      const double volume = neighbors * static_cast<double>(masses[i]) /
+                            (density_unit * static_cast<double>(densities[i]));
       *lengths++ = static_cast<float>(std::cbrt(volume / unit_sphere));
     }
   };

@@ -42,13 +42,16 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
 
 // The length whose sphere holds the mass of `neighbours` particles at the particle's density:
 // h = (3 * neighbours m / (4 pi rho))^(1/3). Not finite or not positive where mass or density
-// are. Here and below values are held in memory, or made as they are wanted.
+// are. Here and below values are held in memory, or made as they are wanted. `density_unit` is the
+// unit of the densities in that of masses over the cube of that of lengths.
 Column smoothing_lengths_from_density(const Column& mass, const Column& density, std::size_t count,
-                                      int neighbors = particles_in_sphere, bool streams = false);
+                                      int neighbors = particles_in_sphere, bool streams = false,
+                                      double density_unit = 1);
 
-// The same for cells of a mesh: m / rho is a cell's volume.
+// The same for cells of a mesh: m / rho is a cell's volume, in units of `volume_unit`.
 Column smoothing_lengths_from_volume(const Column& volume, std::size_t count,
-                                     int neighbors = particles_in_sphere, bool streams = false);
+                                     int neighbors = particles_in_sphere, bool streams = false,
+                                     double volume_unit = 1);
 
 // The inverse: rho = neighbours m / (4 pi h^3 / 3).
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <vector>
 
 #include "splotchcl/error.h"
@@ -24,7 +24,7 @@ const std::vector<FieldNames>& known_fields() {
       {"halo_id",
        {"FOFGroupIDs", "FOFGroupID", "GroupNr_bound", "GroupNr_all", "GroupNr", "GroupNumber",
         "GroupIDs", "GroupID", "HaloID"}},
-      {"mass", {"Masses", "mass table", "MassTable", "m"}},
+      {"mass", {"Masses", "mass table", "MassTable", "m", "DynamicalMasses"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
       {"density", {"RHO", "Densities", "den"}},
       {"smoothing_length",
@@ -78,11 +78,18 @@ std::string canonical_field_name(std::string_view label) {
 }
 
 void name_fields(ParticleTypeInfo& type) {
-  std::set<std::string> taken;
+  std::map<std::string, const FieldInfo*> owners;  // of the canonical names
+  for (const FieldInfo& field : type.fields) {
+    const std::string canonical = canonical_field_name(field.file_name);
+    if (canonical.empty()) continue;
+    const FieldInfo*& owner = owners[canonical];
+    // Else the name would mean the one and the other.
+    if (owner == nullptr || field.file_name == canonical) owner = &field;
+  }
   for (FieldInfo& field : type.fields) {
     const std::string canonical = canonical_field_name(field.file_name);
-    const bool is_first = !canonical.empty() && taken.insert(canonical).second;
-    field.name = is_first ? canonical : field.file_name;
+    const bool is_owner = !canonical.empty() && owners.at(canonical) == &field;
+    field.name = is_owner ? canonical : field.file_name;
   }
 }
 

@@ -12,7 +12,8 @@ namespace splotchcl {
 std::string canonical_field_name(std::string_view label);
 
 // Names the fields of one type: FieldInfo::name becomes the canonical name, or the file's
-// own where there is none or where another field of the type already has it.
+// own where there is none or where another field of the type has it: the one that the file calls
+// so, else the first.
 void name_fields(ParticleTypeInfo& type);
 
 // The field that `name` means: a canonical name, the file's own label or any other label

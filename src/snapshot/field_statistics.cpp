@@ -16,6 +16,7 @@ FieldStatistics find_statistics(const Column& values) {
     const float value = values[i];
     if (!std::isfinite(value)) {
       ++result.bad;
+      if (std::isinf(value)) ++result.infinite;
       continue;
     }
     minimum = std::min(minimum, value);
@@ -27,6 +28,12 @@ FieldStatistics find_statistics(const Column& values) {
   result.maximum = static_cast<double>(maximum);
   result.mean = sum / static_cast<double>(result.count - result.bad);
   return result;
+}
+
+std::string advice_on_infinite_values() {
+  return "numbers beyond single precision, which ends at 3.4e38, are read as infinite: store them "
+         "in "
+         "a larger unit, as masses in Msun in place of g";
 }
 
 }  // namespace splotchcl

@@ -85,6 +85,14 @@ TEST(Temperature, TakesTheUnitThatTheFileSays) {
   EXPECT_NEAR(kelvin("(km/s)^2 h a"), 0.125, 1e-6);
 }
 
+TEST(Temperature, OfGadgetsDescendantsIsInTheSameUnitWhereTheFileSaysNone) {
+  for (const char* const format : {"AREPO HDF5", "GIZMO HDF5"}) {
+    EXPECT_NEAR(
+        field("temperature", GasWithUnit(format, ""))[0] / (kelvin_of_1000 * ionised_weight), 1,
+        1e-6);
+  }
+}
+
 TEST(Temperature, IsRefusedWhereTheUnitIsNotKnown) {
   EXPECT_THAT(refusal(colored_by("temperature"), GasWithUnit("Tipsy", "")),
               HasSubstr("needs the unit of internal_energy, but memory has none"));

@@ -156,5 +156,46 @@ TEST(CellSizes, FollowFromTheirVolumes) {
   EXPECT_NEAR(h[1], 2 * expected, 1e-6);
 }
 
+// A particle of each length, of 1e6 solar masses at 3e9 of them per cubic kiloparsec.
+class SizesOfUnits : public ::testing::Test {
+ protected:
+  SizesOfUnits() {
+    snapshot_.add(0, "position", {0, 0, 0, 1, 1, 1}, 3);
+    snapshot_.add(0, "mass", {1e6F, 1e6F});
+    snapshot_.set_unit(0, "position", "kpc");
+    snapshot_.set_unit(0, "mass", "Msun");
+  }
+  void add_densities(float value, const std::string& unit) {
+    snapshot_.add(0, "density", {value, value});
+    snapshot_.set_unit(0, "density", unit);
+  }
+  double length() {
+    const Scene scene = parse_scene(
+        "[camera]\nposition = [0, 0, -9]\nlook_at = [0, 0, 0]\n[[component]]\nname = 'gas'\n",
+        "scene");
+    const Frame frame = load_frame(scene, snapshot_, notes_);
+    return static_cast<double>(frame.components[0].particles.smoothing_length[0]);
+  }
+  test::MemorySnapshot snapshot_;
+  std::vector<std::string> notes_;
+};
+
+TEST_F(SizesOfUnits, FollowFromDensitiesInAnyUnit) {
+  add_densities(2.03037e-22F, "g/cm**3");
+  EXPECT_NEAR(length(), std::cbrt(3 * 64 * 1e6 / (4 * 3.14159265 * 3e9)), 1e-5);
+}
+
+TEST_F(SizesOfUnits, FollowFromVolumesInAnyUnit) {
+  snapshot_.add(0, "volume", {1e9F, 1e9F});
+  snapshot_.set_unit(0, "volume", "pc^3");
+  EXPECT_NEAR(length(), std::cbrt(3 * 64 / (4 * 3.14159265)), 1e-5);
+}
+
+TEST_F(SizesOfUnits, AreThoseOfNeighborsWhereUnitsCannotBeCompared) {
+  add_densities(3e9F, "code_density");
+  EXPECT_NEAR(length(), std::sqrt(3), 1e-6);
+  EXPECT_THAT(notes_, Contains(HasSubstr("the unit of its densities is not comparable")));
+}
+
 }  // namespace
 }  // namespace splotchcl

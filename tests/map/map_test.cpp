@@ -108,20 +108,52 @@ TEST(Map, HasTheWeightedMeanAlongTheLine) {
   Scene scene = map_scene();
   scene.map.quantity = "temperature";
   scene.map.floor = 1e-9;
-  for (const char* const weight : {"mass", "volume"}) {
+  for (const std::string weight : {"mass", "volume", "constant"}) {
     scene.map.weight = weight;
-    const bool is_volume = std::string(weight) == "volume";
     const Map map = map_of(scene, gas.snapshot());
     for (const auto& [x, y] : some_pixels) {
       const Sums sums = brute_force(
           gas, x, y,
           [&](std::size_t i, double) {
-            return static_cast<double>(is_volume ? gas.mass[i] / gas.density[i] : gas.mass[i]);
+            if (weight == "constant") return 1.0;
+            return static_cast<double>(weight == "volume" ? gas.mass[i] / gas.density[i]
+                                                          : gas.mass[i]);
           },
           [&](std::size_t i) { return static_cast<double>(gas.temperature[i]); });
       EXPECT_NEAR(static_cast<double>(at(map, x, y)) / (sums.value / sums.weight), 1, 3e-6);
     }
   }
+}
+
+TEST(Map, SaysWhyAllValuesAreInfinite) {
+  Gas gas = one_particle({{0, 0, 0}}, 10);
+  gas.mass[0] = std::numeric_limits<float>::infinity();
+  EXPECT_THAT([&] { map_of(map_scene(), gas.snapshot()); },
+              ThrowsMessage<DataError>(HasSubstr("numbers beyond single precision")));
+}
+
+TEST(Map, SaysWhatCanBeHadWithoutMasses) {
+  test::MemorySnapshot snapshot;
+  snapshot.add(0, "position", {0, 0, 0}, 3);
+  snapshot.add(0, "smoothing_length", {10});
+  snapshot.add(0, "temperature", {5});
+  const auto refusal_of = [&snapshot](const Scene& scene) {
+    try {
+      map_of(scene, snapshot);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Scene scene = map_scene();
+  EXPECT_THAT(refusal_of(scene), HasSubstr("set map.quantity to \"counts\""));
+  scene.map.quantity = "temperature";
+  EXPECT_THAT(refusal_of(scene), HasSubstr("set map.weight to \"constant\""));
+  scene.map.weight = "constant";
+  EXPECT_NEAR(static_cast<double>(at(map_of(scene, snapshot), 32, 24)), 5, 1e-5);
+  scene.map.weight.clear();
+  scene.map.statistic = MapStatistic::integral;
+  EXPECT_THAT(refusal_of(scene), HasSubstr("set map.statistic to \"mean\""));
 }
 
 TEST(Map, HasTheMeanAndTheDispersionOfVelocitiesAlongTheLine) {

@@ -50,6 +50,25 @@ TEST(MapUnits, OfAFieldAreConverted) {
   EXPECT_NEAR(static_cast<double>(test::at(map_of(scene, snapshot), 32, 24)), 10000, 0.1);
 }
 
+// A thousandth of the density is the same in units a thousand times as large.
+TEST(MapUnits, OfDensitiesNeedNotBeThoseOfMassesAndPositions) {
+  Gas gas = wide_particle();
+  auto plain = gas.snapshot(), scaled = gas.snapshot();
+  for (auto* const snapshot : {&plain, &scaled}) {
+    snapshot->set_unit(0, "mass", "Msun");
+    snapshot->set_unit(0, "position", "kpc");
+  }
+  plain.set_unit(0, "density", "Msun/kpc^3");
+  scaled.set_unit(0, "density", "1e3 Msun/kpc^3");
+  Scene scene = map_scene();
+  scene.map.quantity = "temperature";
+  scene.map.statistic = MapStatistic::integral;
+  const Map map = map_of(scene, plain), other = map_of(scene, scaled);
+  EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24) / test::at(other, 32, 24)), 1e3, 1e-2);
+  scaled.set_unit(0, "density", "K");
+  EXPECT_THROW(map_of(scene, scaled), UsageError);
+}
+
 TEST(MapUnits, AreNeverGuessed) {
   Scene scene = map_scene();
   scene.map.unit = "Msun/pc^2";
@@ -78,6 +97,20 @@ TEST(MapUnits, RefuseAnotherDimension) {
   EXPECT_THAT(refusal(scene), HasSubstr("same dimension"));
 }
 
+TEST(MapUnits, OfTheSettingsHaveTheirDimensionAndASize) {
+  const auto refusal_of = [](std::string MapSettings::*setting, const char* unit) {
+    Scene scene = map_scene();
+    scene.map.*setting = unit;
+    return refusal(scene);
+  };
+  EXPECT_THAT(refusal_of(&MapSettings::length_unit, "K"), HasSubstr("expected a length above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::mass_unit, "km"), HasSubstr("expected a mass above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::mass_unit, "0 g"), HasSubstr("expected a mass above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::velocity_unit, "kpc"),
+              HasSubstr("expected a velocity above 0"));
+  EXPECT_THAT(refusal_of(&MapSettings::unit, "0 g"), HasSubstr("expected a unit above 0"));
+}
+
 // The largest float is 3.4e38.
 TEST(MapUnits, RefuseValuesThatNoFloatHolds) {
   Scene scene = map_scene();
@@ -98,8 +131,8 @@ TEST(MapUnits, OfProductsAreWrittenFactorByFactor) {
 TEST(MapUnits, OfProductsOfPowersAreWrittenFactorByFactor) {
   Scene scene = map_scene();
   scene.map.mass_unit = "1e10 Msun";
-  scene.map.length_unit = "Mpc^0.5 kpc/pc^2";
-  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-1 kpc^-2 pc^4");
+  scene.map.length_unit = "Mpc^1.5 kpc^1.5/pc^2";
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun Mpc^-3 kpc^-3 pc^4");
   scene.map.length_unit = "3 kpc";
   EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "1e10 Msun (3 kpc)^-2");
 }
@@ -138,6 +171,28 @@ TEST(MapUnits, RefuseTheSkyWhereLengthsAreNotKnown) {
   scene.map.length_unit = "kpc";
   scene.map.distance = "3 K";
   EXPECT_THAT(refusal(scene), HasSubstr("expected a length"));
+}
+
+TEST(MapUnits, RefuseTypesInSeveralUnits) {
+  const auto refusal_of = [](const char* unit) {
+    test::MemorySnapshot snapshot = wide_particle().snapshot();
+    snapshot.add(4, "position", {1, 2, 3}, 3);
+    snapshot.add(4, "smoothing_length", {1});
+    snapshot.add(4, "mass", {1});
+    snapshot.set_unit(0, "mass", "Msun");
+    snapshot.set_unit(4, "mass", unit);
+    Scene scene = map_scene();
+    scene.components.front().types = {0, 4};
+    try {
+      map_of(scene, snapshot);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal_of("M_sun"), "");
+  EXPECT_EQ(refusal_of(""), "");
+  EXPECT_THAT(refusal_of("g"), HasSubstr("whose mass is in \"Msun\" and in \"g\""));
 }
 
 TEST(MapUnits, RefuseAUnitForCounts) {

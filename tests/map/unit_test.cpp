@@ -1,4 +1,4 @@
-#include "map/unit.h"
+#include "snapshot/unit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -71,6 +71,14 @@ TEST(FieldNames, TheSecondFieldOfTheSameQuantityKeepsItsOwnName) {
   EXPECT_EQ(find_field(type, "GFM_Metallicity")->file_name, "GFM_Metallicity");
 }
 
+TEST(FieldNames, OfTwoFieldsTheOneThatIsCalledSoHasTheName) {
+  const ParticleTypeInfo type = type_with({"Masses", "mass"});
+  EXPECT_EQ(type.fields[0].name, "Masses");
+  EXPECT_EQ(type.fields[1].name, "mass");
+  EXPECT_EQ(find_field(type, "mass")->file_name, "mass");
+  EXPECT_EQ(find_field(type, "Masses")->file_name, "Masses");
+}
+
 TEST(FieldNames, StarSmoothingLengthsStandInOnlyWhereThereAreNoOthers) {
   EXPECT_EQ(find_field(type_with({"HSMS"}), "smoothing_length")->file_name, "HSMS");
   EXPECT_EQ(find_field(type_with({"HSMS", "HSML"}), "smoothing_length")->file_name, "HSML");

@@ -24,6 +24,7 @@ TEST(FieldStatistics, CountBadValuesAndLeaveThemOut) {
       find_statistics(Column::owning({nan, 2, infinity, 4, -infinity}));
   EXPECT_EQ(statistics.count, 5U);
   EXPECT_EQ(statistics.bad, 3U);
+  EXPECT_EQ(statistics.infinite, 2U);
   EXPECT_EQ(statistics.minimum, 2);
   EXPECT_EQ(statistics.maximum, 4);
   EXPECT_EQ(statistics.mean, 3);

@@ -30,6 +30,11 @@ class MemorySnapshot : public Snapshot {
     particles.fields.push_back(info);
     columns_[{type, field}] = Column::owning(std::move(values));
   }
+  void set_unit(int type, const std::string& field, const std::string& unit) {
+    for (FieldInfo& info : type_info(type).fields) {
+      if (info.name == field) info.unit = unit;
+    }
+  }
   void set_table_mass(int type, double mass) { type_info(type).table_mass = mass; }
   void set_cosmology(const Cosmology& cosmology) { info_.cosmology = cosmology; }
   void set_hubble_parameter(double h) { info_.hubble_parameter = h; }

@@ -10,6 +10,7 @@
 #include "formats/hdf5/gadget_hdf5_header.h"
 #include "formats/hdf5/gizmo_units.h"
 #include "formats/hdf5/hdf5_column.h"
+#include "formats/hdf5/hdf5_field_unit.h"
 #include "formats/hdf5/hdf5_formats.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
@@ -155,7 +156,7 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
                       field.dataset.path));
       continue;
     }
-    const std::string unit = unit_name(read_unit_powers(file, field.dataset), units);
+    const std::string unit = read_field_unit(file, field.dataset, units);
     type.fields.push_back({"", field.label, field.values_per_particle, unit});
   }
   add_table_mass(type, "MassTable", info_.notes);

@@ -8,6 +8,7 @@
 
 #include "common/physical_constants.h"
 #include "formats/hdf5/gizmo_units.h"
+#include "formats/hdf5/hdf5_field_unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -54,6 +55,8 @@ double read_box_size(const Hdf5File& file) {
   return is_cube ? sides->front() : 0;
 }
 
+}  // namespace
+
 bool is_without_cosmology(const Hdf5File& file) {
   return find_number(file,
                      {{"Parameters", "ComovingIntegrationOn"},
@@ -61,8 +64,6 @@ bool is_without_cosmology(const Hdf5File& file) {
                       {"Cosmology", "Cosmological run"}},
                      1) == 0;
 }
-
-}  // namespace
 
 GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes) {
   constexpr std::size_t most_types = 32;  // more than any code has
@@ -145,14 +146,10 @@ std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader
       std::abs(cosmology.scale_factor * (1 + header.redshift) - 1) < rounding;
   if (!is_cosmological) return std::nullopt;
 
-  const auto power = [&file](const std::string& dataset, const char* gadget, const char* swift) {
-    const auto value = file.number(dataset, gadget);
-    return value ? value : file.number(dataset, swift);
-  };
-  cosmology.velocity_power =
-      power(velocities, "a_scaling", "a-scale exponent").value_or(is_swift ? 0 : 0.5);
+  cosmology.velocity_power = read_scale_factor_power(file, velocities).value_or(is_swift ? 0 : 0.5);
   const double hubble_power =
-      power(positions, "h_scaling", "h-scale exponent").value_or(is_swift ? 0 : -1);
+      find_number(file, {{positions.c_str(), "h_scaling"}, {positions.c_str(), "h-scale exponent"}},
+                  is_swift ? 0 : -1);
   const BaseUnits units = read_base_units(file);
   const double length = units.length_in_cm > 0 ? units.length_in_cm : kpc_in_cm;
   const double velocity = units.velocity_in_cm_per_s > 0 ? units.velocity_in_cm_per_s : 1e5;
@@ -186,23 +183,6 @@ BaseUnits read_base_units(const Hdf5File& file) {
   const double time = file.number("Units", "Unit time in cgs (U_t)").value_or(0);
   if (time > 0) units.velocity_in_cm_per_s = units.length_in_cm / time;
   return units;
-}
-
-UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset) {
-  const auto power = [&](const char* gadget, const char* swift) {
-    const auto value = file.number(dataset.path, gadget);
-    return value ? *value : file.number(dataset.path, swift).value_or(0);
-  };
-  UnitPowers powers;
-  powers.mass = power("mass_scaling", "U_M exponent");
-  powers.scale_factor = power("a_scaling", "a-scale exponent");
-  powers.hubble = power("h_scaling", "h-scale exponent");
-  powers.temperature = power("temperature_scaling", "U_T exponent");
-  // A time is a length over a velocity.
-  const double time = file.number(dataset.path, "U_t exponent").value_or(0);
-  powers.length = power("length_scaling", "U_L exponent") + time;
-  powers.velocity = file.number(dataset.path, "velocity_scaling").value_or(0) - time;
-  return powers;
 }
 
 }  // namespace splotchcl

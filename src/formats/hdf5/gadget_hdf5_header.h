@@ -21,6 +21,9 @@ bool is_swift_start_file(const Hdf5File& file);
 // and all others.
 std::string hdf5_dialect(const Hdf5File& file);
 
+// Whether the file says that the run does not follow the expansion.
+bool is_without_cosmology(const Hdf5File& file);
+
 // The cosmology and what the velocities are, where the run follows the expansion: from the
 // header and the attributes of the datasets of positions and velocities (paths). Units that
 // the file does not state are kpc/h and km/s.
@@ -30,6 +33,5 @@ std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader
 
 // The units the file states; zeros where it states none.
 BaseUnits read_base_units(const Hdf5File& file);
-UnitPowers read_unit_powers(const Hdf5File& file, const Hdf5Dataset& dataset);
 
 }  // namespace splotchcl

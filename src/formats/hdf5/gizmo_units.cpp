@@ -18,22 +18,8 @@ bool is_comoving(const Hdf5File& file, const SnapshotInfo& info) {
 
 // What GIZMO writes: comoving lengths, and velocities over the root of the scale factor.
 UnitPowers gizmo_powers_of(const std::string& field) {
-  UnitPowers powers;
-  if (field == "position" || field == "smoothing_length") {
-    powers.length = powers.scale_factor = 1;
-  } else if (field == "mass") {
-    powers.mass = 1;
-  } else if (field == "density") {
-    powers.mass = 1;
-    powers.length = powers.scale_factor = -3;
-  } else if (field == "velocity") {
-    powers.velocity = 1;
-    powers.scale_factor = 0.5;
-  } else if (field == "internal_energy") {
-    powers.velocity = 2;
-  } else if (field == "temperature") {
-    powers.temperature = 1;
-  }
+  UnitPowers powers = powers_of_field(field);
+  powers.scale_factor = field == "velocity" ? 0.5 : powers.length;
   return powers;
 }
 

@@ -12,6 +12,7 @@
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/particle_types.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -234,17 +235,42 @@ std::optional<double> find_number(const Hdf5File& file, const std::vector<const 
   return std::nullopt;
 }
 
-// yt's domain, where it is a cube in the positions' unit.
-std::optional<double> find_domain(const Hdf5File& file, const std::string& position_unit) {
+// "kpccm/h" as yt calls comoving lengths, with our symbols.
+std::string without_comoving(std::string unit) {
+  const std::size_t parsec = unit.find("pccm");
+  return parsec == std::string::npos ? unit : unit.replace(parsec, 4, "pc a");
+}
+
+// What lengths are in that yt says to be in `unit`: its code_length is a number of another one.
+std::string unit_of_yt(const Hdf5File& file, const std::string& unit) {
+  const auto number = file.number("/", "length_unit");
+  const auto of_number = file.text("/", "length_unit_units");
+  if (unit != "code_length" || !number || !of_number) return without_comoving(unit);
+  return fmt::format("{} {}", *number, without_comoving(*of_number));
+}
+
+std::optional<double> ratio_of_yt(const Hdf5File& file, const std::string& from,
+                                  const std::string& to, const UnitFactors& factors) {
+  if (from == to) return 1;
+  // Without a unit nothing says that they are the same.
+  if (from.empty() || to.empty()) return std::nullopt;
+  return unit_ratio(unit_of_yt(file, from), unit_of_yt(file, to), factors);
+}
+
+// yt's domain in the positions' unit, where it is a cube.
+std::optional<double> find_domain(const Hdf5File& file, const std::string& position_unit,
+                                  const UnitFactors& factors) {
   const auto low = file.numbers("/", "domain_left_edge");
   const auto high = file.numbers("/", "domain_right_edge");
   if (!low || !high || low->size() != 3 || high->size() != 3) return std::nullopt;
-  if (position_unit != file.text("/", "domain_right_edge_units").value_or("")) return std::nullopt;
+  const auto ratio = ratio_of_yt(file, file.text("/", "domain_right_edge_units").value_or(""),
+                                 position_unit, factors);
+  if (!ratio) return std::nullopt;
   const double side = high->front() - low->front();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if ((*high)[axis] - (*low)[axis] != side) return std::nullopt;
   }
-  return side;
+  return side * *ratio;
 }
 
 void read_numbers(const Hdf5File& file, SnapshotInfo& info) {
@@ -253,7 +279,10 @@ void read_numbers(const Hdf5File& file, SnapshotInfo& info) {
   if (is_of_expansion) {
     info.redshift = find_number(file, {"redshift", "Redshift", "current_redshift"});
   }
-  info.hubble_parameter = find_number(file, {"HubbleParam"});
+  info.hubble_parameter = find_number(file, {"HubbleParam", "hubble_constant"});
+}
+
+void read_box(const Hdf5File& file, SnapshotInfo& info) {
   const auto box = find_number(file, {"box_size", "BoxSize", "boxsize"});
   if (box && *box > 0) info.box_size = box;
 }
@@ -280,8 +309,11 @@ std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path) {
   note_refused(file.links(), info.notes);
   const std::vector<TableColumn>& columns = tables.begin()->second->columns();
   const auto positions = find_positions(columns);
+  // What yt hands on of the simulation's header is in other units than what it writes.
+  if (!is_of_yt) read_box(file, info);
   if (!info.box_size && positions) {
-    info.box_size = find_domain(file, split_unit(columns[*positions].name).unit);
+    info.box_size =
+        find_domain(file, split_unit(columns[*positions].name).unit, unit_factors(info));
   }
   return make_table_snapshot(std::move(tables), std::move(info));
 }

@@ -130,7 +130,8 @@ def column(
         None: the surface density. "counts", "line_of_sight_velocity", or a field, of which the
         weighted mean is shown.
     weight : str, optional
-        Of means: "mass" (None says the same; of slices "volume"), "volume", or a field.
+        Of means: "mass" (None says the same; of slices "volume"), "volume", "constant" (all particles
+        alike), or a field.
     types : str or sequence, optional
         Particle types, such as "gas" or "gas,stars", that the first component has in place of its own.
     statistic : {"mean", "dispersion", "integral"}, optional

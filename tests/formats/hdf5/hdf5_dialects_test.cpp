@@ -24,6 +24,25 @@ class Hdf5Dialects : public ::testing::Test {
     write_values(file, "PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
     return file;
   }
+  // Of SWIFT, in Mpc, 1e10 solar masses and some gigayears.
+  Hdf5Output create_swift() const {
+    Hdf5Output file = create();
+    make_group(file, "Code");
+    write_text(file, "Code", "Code", "SWIFT");
+    make_group(file, "Units");
+    write_attribute(file, "Units", "Unit length in cgs (U_L)", {3.08567758e24});
+    write_attribute(file, "Units", "Unit mass in cgs (U_M)", {1.98841e43});
+    write_attribute(file, "Units", "Unit time in cgs (U_t)", {3.08567758e19});
+    return file;
+  }
+  // Of mass, length, time and current.
+  static void state_powers(const Hdf5Output& file, const std::string& dataset,
+                           const std::vector<double>& powers) {
+    const std::vector<const char*> names = {"U_M exponent", "U_L exponent", "U_t exponent",
+                                            "U_I exponent"};
+    for (std::size_t i = 0; i < names.size(); ++i)
+      write_attribute(file, dataset, names[i], {powers[i]});
+  }
   // Of a field of gas.
   std::string unit_of(const char* field) const {
     const auto snapshot = open_snapshot(path_);
@@ -115,6 +134,104 @@ TEST_F(Hdf5Dialects, MassesOfGadgetFoursTableHaveItsUnitOfMass) {
     write_attribute(file, "PartType0/Coordinates", "h_scaling", {-1});
   }
   EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+}
+
+// The power of the scale factor that SWIFT states counts where values are comoving.
+TEST_F(Hdf5Dialects, WhatSwiftStoresAsPhysicalHasNoPowerOfTheScaleFactor) {
+  for (const double is_physical : {0.0, 1.0}) {
+    {
+      const Hdf5Output file = create_swift();
+      write_values(file, "PartType0/Densities", {1, 2});
+      state_powers(file, "PartType0/Densities", {1, -3, 0, 0});
+      write_attribute(file, "PartType0/Densities", "a-scale exponent", {-3});
+      write_attribute(file, "PartType0/Densities", "Value stored as physical", {is_physical});
+    }
+    EXPECT_EQ(unit_of("density"),
+              is_physical != 0 ? "1e10 M_sun Mpc^-3" : "1e10 M_sun Mpc^-3 a^-3");
+  }
+}
+
+// Tesla are kilograms over amperes and seconds squared.
+TEST_F(Hdf5Dialects, SwiftsUnitsOfCurrentsAreNotNamed) {
+  {
+    const Hdf5Output file = create_swift();
+    write_values(file, "PartType0/MagneticFluxDensities", {1, 2, 3, 4, 5, 6}, 3);
+    state_powers(file, "PartType0/MagneticFluxDensities", {1, 0, -2, -1});
+  }
+  EXPECT_EQ(unit_of("MagneticFluxDensities"), "");
+}
+
+// IllustrisTNG's rates are in solar masses per year, though the powers that it states give
+// 1e10 M_sun km / (kpc s).
+TEST_F(Hdf5Dialects, AStatedSizeOfAUnitCountsBeforeThatOfItsProduct) {
+  const std::string rates = "PartType0/StarFormationRate", masses = "PartType0/Masses";
+  for (const double to_cgs : {6.30387e25, 1e20}) {
+    {
+      const Hdf5Output file = create();
+      write_attribute(file, "Header", "UnitLength_in_cm", {3.085678e21});
+      write_attribute(file, "Header", "UnitMass_in_g", {1.989e43});
+      write_attribute(file, "Header", "UnitVelocity_in_cm_per_s", {1e5});
+      write_values(file, rates, {1, 2});
+      write_values(file, masses, {1, 2});
+      for (const auto& [name, power] : std::vector<std::pair<const char*, double>>{
+               {"mass_scaling", 1}, {"length_scaling", -1}, {"velocity_scaling", 1}})
+        write_attribute(file, rates, name, {power});
+      write_attribute(file, rates, "to_cgs", {to_cgs});
+      write_attribute(file, masses, "mass_scaling", {1});
+      write_attribute(file, masses, "h_scaling", {-1});
+      write_attribute(file, masses, "to_cgs", {1.989e43});
+    }
+    EXPECT_EQ(unit_of("star_formation_rate"), to_cgs == 1e20 ? "1e+20 g s^-1" : "M_sun/yr");
+    EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+  }
+}
+
+TEST_F(Hdf5Dialects, SwiftsUnitsHaveNoScaleFactorWithoutCosmology) {
+  for (const double is_cosmological : {0.0, 1.0}) {
+    {
+      const Hdf5Output file = create_swift();
+      make_group(file, "Cosmology");
+      write_attribute(file, "Cosmology", "Cosmological run", {is_cosmological});
+      state_powers(file, "PartType0/Coordinates", {0, 1, 0, 0});
+      write_attribute(file, "PartType0/Coordinates", "a-scale exponent", {1});
+    }
+    EXPECT_EQ(unit_of("position"), is_cosmological != 0 ? "Mpc a" : "Mpc");
+  }
+}
+
+// EAGLE's files say how large a unit is, not what it is one of.
+TEST_F(Hdf5Dialects, EaglesUnitsAreRead) {
+  {
+    const Hdf5Output file = create();
+    const auto state = [&file](const std::string& field, double in_cgs, double a, double h) {
+      const std::string path = "PartType0/" + field;
+      write_attribute(file, path, "CGSConversionFactor", {in_cgs});
+      write_attribute(file, path, "aexp-scale-exponent", {a});
+      write_attribute(file, path, "h-scale-exponent", {h});
+    };
+    for (const char* const field : {"Mass", "Density", "InternalEnergy", "Temperature", "Entropy",
+                                    "StarFormationRate", "Metallicity"})
+      write_values(file, std::string("PartType0/") + field, {1, 2});
+    write_values(file, "PartType0/Velocity", {1, 2, 3, 4, 5, 6}, 3);
+    state("Coordinates", 3.085678e24, 1, -1);
+    state("Mass", 1.989e43, 0, -1);
+    state("Density", 6.769911178294543e-31, -3, 2);
+    state("Velocity", 1e5, 0.5, 0);
+    state("InternalEnergy", 1e10, 0, 0);
+    state("Temperature", 1, 0, 0);
+    state("StarFormationRate", 6.30387e25, 0, 0);
+    state("Metallicity", 1, 0, 0);
+    state("Entropy", 7e-22, 0, 0);
+  }
+  EXPECT_EQ(unit_of("position"), "Mpc h^-1 a");
+  EXPECT_EQ(unit_of("mass"), "1e10 M_sun h^-1");
+  EXPECT_EQ(unit_of("density"), "6.769911e-31 g cm^-3 h^2 a^-3");
+  EXPECT_EQ(unit_of("velocity"), "km/s a^0.5");
+  EXPECT_EQ(unit_of("internal_energy"), "(km/s)^2");
+  EXPECT_EQ(unit_of("temperature"), "K");
+  EXPECT_EQ(unit_of("star_formation_rate"), "M_sun/yr");
+  EXPECT_EQ(unit_of("metallicity"), "");
+  EXPECT_EQ(unit_of("entropy"), "");
 }
 
 TEST_F(Hdf5Dialects, InitialConditionsForSwiftHaveTheKernelsScale) {

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
@@ -105,6 +107,25 @@ TEST_F(PlainHdf5, GroupsAreTypesByTheirNames) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("group /all is left out")));
 }
 
+TEST_F(PlainHdf5, TypesInSeveralUnitsAreConverted) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    for (const auto& [group, length, mass] :
+         std::vector<std::array<std::string, 3>>{{"gas", "kpc", "kg"}, {"stars", "pc", "g"}}) {
+      write_values(file, group + "/pos", {1000, 2000, 3000}, 3);
+      write_text(file, group + "/pos", "units", length);
+      write_values(file, group + "/mass", {500});
+      write_text(file, group + "/mass", "units", mass);
+    }
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1000, 2000, 3000));
+  EXPECT_THAT(positions(*snapshot, 4), ElementsAre(1, 2, 3));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(500));
+  EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(0.5F));
+  EXPECT_THAT(snapshot->info().notes, Contains("mass of type 4 is converted from g to kg"));
+}
+
 TEST_F(PlainHdf5, GroupsOfOtherNamesAreTypesInTheirOrder) {
   {
     const Hdf5Output file = create_hdf5(path_);
@@ -140,6 +161,33 @@ TEST_F(PlainHdf5, YtsNamesUnitsAndDomainAreUnderstood) {
   EXPECT_THAT(values_of(snapshot->read(4, "mass")), ElementsAre(5, 6));
   EXPECT_THAT(snapshot->read_ids(4), ElementsAre(9007199254740991U, 10U));
   EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "cm");
+}
+
+// Positions in centimeters, the domain in yt's code_length, and the header of the simulation.
+TEST_F(PlainHdf5, YtsDomainIsConvertedToTheUnitOfPositions) {
+  for (const char* const unit : {"kpccm/h", "furlong"}) {
+    {
+      const Hdf5Output file = create_hdf5(path_);
+      write_text(file, "/", "data_type", "yt_data_container");
+      write_attribute(file, "/", "BoxSize", {50000});
+      write_attribute(file, "/", "current_redshift", {1});
+      write_attribute(file, "/", "hubble_constant", {0.5});
+      write_attribute(file, "/", "length_unit", {2});
+      write_text(file, "/", "length_unit_units", unit);
+      write_attribute(file, "/", "domain_left_edge", {0, 0, 0});
+      write_attribute(file, "/", "domain_right_edge", {100, 100, 100});
+      write_text(file, "/", "domain_right_edge_units", "code_length");
+      write_values(file, "gas/particle_position", {1, 2, 3}, 3);
+      write_text(file, "gas/particle_position", "units", "cm");
+    }
+    const auto box = open_snapshot(path_)->info().box_size;
+    if (std::string(unit) == "furlong") {
+      EXPECT_FALSE(box);
+    } else {
+      ASSERT_TRUE(box);
+      EXPECT_NEAR(*box / (200 * 3.0856775815e21), 1, 1e-9);
+    }
+  }
 }
 
 TEST_F(PlainHdf5, IdentifiersThatAreNotWholeAreRefused) {

@@ -52,6 +52,36 @@ TEST_F(TextTable, CommasWithAHeaderAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "internal_energy")), ElementsAre(7, 8));
 }
 
+TEST_F(TextTable, AxesInSeveralUnitsAreConverted) {
+  const auto snapshot =
+      open("x [kpc] y [pc] z vx [km/s] vy vz [cm/s]\n1 2000 3 4 1 1e5\n5 6000 7 8 1 2e5\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(4, 1, 1, 8, 1, 2));
+  EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc");
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("y is converted from pc to kpc")));
+}
+
+TEST_F(TextTable, AxesWhoseUnitsCannotBeComparedAreRefused) {
+  EXPECT_THAT(refusal_of("x [kpc] y [K] z [kpc]\n1 2 3\n5 6 7\n"),
+              HasSubstr("y is in \"K\" and others in \"kpc\""));
+}
+
+TEST_F(TextTable, NumbersOfColumnsAreNoUnits) {
+  const auto snapshot = open("x(0),y(1),z(2)\n1,2,3\n5,6,7\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+}
+
+TEST_F(TextTable, SmoothingLengthsAreInTheUnitOfPositions) {
+  const auto snapshot = open("h [pc] x [kpc] y [kpc] z [kpc]\n500 1 2 3\n250 5 6 7\n");
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+}
+
+TEST_F(TextTable, OfTwoColumnsOfAMeaningTheOneThatIsCalledSoHasTheName) {
+  const auto snapshot = open("x y z m mass\n1 2 3 4 5\n5 6 7 8 9\n");
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(5, 9));
+  EXPECT_THAT(values_of(snapshot->read(0, "m")), ElementsAre(4, 8));
+}
+
 TEST_F(TextTable, AByteOrderMarkIsNoPartOfTheFirstName) {
   const auto snapshot = open("\xef\xbb\xbfx,y,z\n1,2,3\n");
   EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3));

@@ -1,4 +1,4 @@
-#include "map/unit.h"
+#include "snapshot/unit.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,74 @@
+#include "formats/hdf5/hdf5_field_unit.h"
+
+#include <vector>
+
+#include "formats/hdf5/gadget_hdf5_header.h"
+#include "snapshot/field_names.h"
+
+namespace splotchcl {
+namespace {
+
+// The first of these attributes that is a number.
+std::optional<double> find_power(const Hdf5File& file, const std::string& dataset,
+                                 const std::vector<const char*>& attributes) {
+  for (const char* const attribute : attributes) {
+    if (const auto number = file.number(dataset, attribute)) return number;
+  }
+  return std::nullopt;
+}
+
+// SWIFT keeps some values as they are in physical coordinates; the exponent then tells what would
+// make them comoving.
+bool are_stored_as_physical(const Hdf5File& file, const std::string& dataset) {
+  return file.number(dataset, "Value stored as physical").value_or(0) != 0;
+}
+
+// Of Gadget 4, AREPO and SWIFT, which say what a field is a product of.
+UnitPowers stated_powers(const Hdf5File& file, const std::string& dataset) {
+  const auto power = [&](const std::vector<const char*>& attributes) {
+    return find_power(file, dataset, attributes).value_or(0);
+  };
+  UnitPowers powers;
+  powers.mass = power({"mass_scaling", "U_M exponent"});
+  powers.temperature = power({"temperature_scaling", "U_T exponent"});
+  // A time is a length over a velocity.
+  const double time = power({"U_t exponent"});
+  powers.length = power({"length_scaling", "U_L exponent"}) + time;
+  powers.velocity = power({"velocity_scaling"}) - time;
+  return powers;
+}
+
+// EAGLE's files state the size of a unit, but not of what it is one.
+UnitPowers powers_of_eagle(const std::string& label) {
+  const std::string field = canonical_field_name(label);
+  if (field != "star_formation_rate") return powers_of_field(field);
+  UnitPowers powers;
+  powers.mass = powers.velocity = 1;
+  powers.length = -1;
+  return powers;
+}
+
+}  // namespace
+
+std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::string& dataset) {
+  const auto power =
+      find_power(file, dataset, {"a_scaling", "a-scale exponent", "aexp-scale-exponent"});
+  return power && are_stored_as_physical(file, dataset) ? 0 : power;
+}
+
+std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
+                            const BaseUnits& units) {
+  const std::string& path = dataset.path;
+  // We have no name for currents.
+  if (file.number(path, "U_I exponent").value_or(0) != 0) return {};
+  const auto eagle = file.number(path, "CGSConversionFactor");
+  UnitPowers powers = eagle ? powers_of_eagle(dataset.label()) : stated_powers(file, path);
+  // Without cosmology there is no scale factor that they could be powers of.
+  if (!is_without_cosmology(file))
+    powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
+  powers.hubble =
+      find_power(file, path, {"h_scaling", "h-scale exponent", "h-scale-exponent"}).value_or(0);
+  return unit_name(powers, units, eagle ? *eagle : file.number(path, "to_cgs").value_or(0));
+}
+
+}  // namespace splotchcl
