@@ -69,3 +69,14 @@ def test_comoving_and_physical_lengths_are_not_mixed(arrays):
     particles = Particles().gas(position=length(arrays["position"], True))
     with pytest.raises(UsageError, match=r"physical.*comoving"):
         particles.gas(smoothing_length=length(arrays["smoothing_length"], False))
+
+
+@pytest.mark.parametrize("has_unit", [False, True])
+def test_values_that_astropy_masks_are_refused(arrays, has_unit):
+    masked = pytest.importorskip("astropy.utils.masked").Masked
+    mass = in_astropy(arrays["mass"], "g") if has_unit else arrays["mass"]
+    particles = Particles().gas(position=arrays["position"])
+    with pytest.raises(UsageError, match="field mass: 7 values are masked"):
+        particles.gas(mass=masked(mass, mask=np.arange(500) < 7))
+    particles.gas(mass=masked(mass, mask=np.zeros(500, bool)))
+    assert np.array_equal(particles["gas"]["mass"], arrays["mass"])

@@ -46,14 +46,7 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
         given = values if isinstance(values, np.ndarray) else np.asarray(values)
     except ValueError as error:
         raise UsageError(f"field {field}: {error}, expected an array of numbers") from error
-    if isinstance(given, np.ma.MaskedArray):
-        if np.ma.is_masked(given):
-            raise UsageError(
-                f"field {field}: {int(np.ma.getmaskarray(given).sum())} values are masked, expected "
-                "none; leave these particles out of all fields, or fill the values"
-            )
-        given = given.data
-    plain = given.view(np.ndarray)
+    plain = _unmasked(f"field {field}", given).view(np.ndarray)
     if plain.dtype.kind not in "fiub":
         raise UsageError(
             f"field {field}: values of dtype {plain.dtype}, expected real numbers"
@@ -70,6 +63,24 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
         is_borrowed = wanted == np.float32 and isinstance(values, np.ndarray)
         return plain, None if is_borrowed else note
     return np.require(plain, wanted, ["C", "A"]), note
+
+
+# The values of numpy's and astropy's arrays with a mask, if that hides none of them.
+def _unmasked(what: str, given: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    mask = getattr(given, "mask", None)
+    # Elsewhere a method, or something else altogether.
+    if not isinstance(mask, bool | np.bool_ | np.ndarray):
+        return given
+    masked = int(np.count_nonzero(mask))
+    if masked > 0:
+        raise UsageError(
+            f"{what}: {masked} values are masked, expected none; leave these particles out of all "
+            "fields, or fill the values"
+        )
+    if isinstance(given, np.ma.MaskedArray):
+        return np.asarray(given.data)
+    unmasked: np.ndarray[Any, Any] = getattr(given, "unmasked", given)
+    return unmasked
 
 
 def _copy_note(field: str, values: Any, given: np.ndarray[Any, Any]) -> str:
