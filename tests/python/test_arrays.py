@@ -288,3 +288,9 @@ def test_mixed_units_are_refused(arrays):
         particles.gas(smoothing_length=in_unit(arrays["smoothing_length"], "Mpc"))
     with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
         particles.stars(position=in_unit(arrays["position"], "Mpc"))
+
+
+def test_masses_that_there_are_not_are_told_of_in_words_of_python(arrays):
+    particles = Particles().gas(position=arrays["position"])
+    with pytest.raises(UsageError, match="gas has no masses, expected one of .*; set mass="):
+        particles["gas"]["mass"]

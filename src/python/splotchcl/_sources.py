@@ -82,6 +82,12 @@ class ParticleType:
                 self._source.read_integers(self._number, field)
             )
             return exact.view(_IDENTIFIERS[name])
+        if name == "mass" and name not in self and self._described["mass"] is None:
+            raise UsageError(
+                f"field {field!r}: {self.name} has no masses, expected one of "
+                f"{', '.join([*self.fields, *self.derived])}"
+                + ("; set mass=..., an array or a number for all" if is_of_arrays else "")
+            )
         values: np.ndarray[Any, Any] = np.asarray(self._source.read(self._number, field))
         origin = np.array(self._source.position_origin())
         if origin.any() and name == "position":
