@@ -34,6 +34,9 @@ class ArraySnapshot : public Snapshot {
   // was read of it has them, and may be let go by any thread that uses one.
   void set_field(int type, const std::string& field, const float* values, std::uint64_t count,
                  int values_per_particle, std::shared_ptr<const void> owner);
+  // What a field's values are in, as files name units: "kpc", "g/cm^3". Setting the field again
+  // forgets it. Throws UsageError for a field that has not been set.
+  void set_unit(int type, const std::string& field, const std::string& unit);
   // The same mass for all of a type, in the unit that a field "mass" would have. Throws UsageError
   // for a type outside 0 to 31, and for what is no finite number >= 0.
   void set_mass(int type, double mass);

@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <mutex>
+#include <optional>
 
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
@@ -9,6 +10,7 @@
 #include "python/source.h"
 #include "snapshot/field_names.h"
 #include "snapshot/particle_types.h"
+#include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"
@@ -121,6 +123,30 @@ ReadSettings read_settings(const std::vector<std::string>& settings) {
   return apply_settings(Scene(), settings).read;
 }
 
+// Whether maps of snapshots that do not say a and h can read a unit; of the dimension of `like`,
+// where that is not empty.
+bool is_unit(const std::string& text, const std::string& like) {
+  try {
+    const Unit unit = parse_unit(text, {}, "unit");
+    return like.empty() || same_dimension(unit, parse_unit(like, {}, "unit"));
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+// What numbers in the unit `from` are multiplied by to be in `to`; none where that cannot be said.
+std::optional<double> ratio_of_units(const std::string& from, const std::string& to,
+                                     const Snapshot& snapshot) {
+  if (from == to) return 1;
+  if (from.empty() || to.empty()) return std::nullopt;
+  try {
+    parse_unit(from, {1, 1}, "unit");  // a and h may cancel
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+  return unit_ratio(from, to, unit_factors(snapshot.info()));
+}
+
 Vec3 vector_of(const std::array<double, 3>& values) {
   return {{values[0], values[1], values[2]}};
 }
@@ -195,6 +221,14 @@ void bind_sources(py::module_& module) {
                  return std::make_shared<Source>(open_snapshot_for(path, read_settings(settings)));
                });
              });
+  module.def("is_unit", &is_unit);
+  module.def(
+      "ratio_of_units", [](const std::string& from, const std::string& to, const Source& source) {
+        return without_python([&] {
+          return source.in_turn([&](const Snapshot& s) { return ratio_of_units(from, to, s); });
+        });
+      });
+  module.def("canonical_field_name", &canonical_field_name);
   module.def("find_particle_type", &find_particle_type);
   module.def("particle_type_name", &particle_type_name);
 }

@@ -65,7 +65,8 @@ void change(Turn& turn, Change&& work) {
 
 ParticleArrays::ParticleArrays() : ParticleArrays(std::make_shared<ArraySnapshot>()) {}
 
-void ParticleArrays::set_field(int type, const std::string& field, const py::buffer& values) {
+void ParticleArrays::set_field(int type, const std::string& field, const py::buffer& values,
+                               const std::string& unit) {
   const auto info = shared(values.request());
   const int width = values_per_particle(field, *info);
   const auto count = static_cast<std::uint64_t>(info->shape[0]);
@@ -81,6 +82,7 @@ void ParticleArrays::set_field(int type, const std::string& field, const py::buf
     } else {
       arrays_->set_field(type, field, static_cast<const double*>(info->ptr), count, width);
     }
+    arrays_->set_unit(type, field, unit);
   });
 }
 

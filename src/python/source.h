@@ -45,8 +45,9 @@ class ParticleArrays : public Source {
   ParticleArrays();
 
   // Floats in C order of the shape (count) or (count, 3) are borrowed; doubles are copied. Throws
-  // UsageError for others.
-  void set_field(int type, const std::string& field, const py::buffer& values);
+  // UsageError for others. The unit is as files name units; empty: not known.
+  void set_field(int type, const std::string& field, const py::buffer& values,
+                 const std::string& unit);
   void set_mass(int type, double mass);
   void clear(int type);
   void set_box_size(double size);

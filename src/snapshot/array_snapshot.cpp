@@ -131,6 +131,23 @@ void ArraySnapshot::set_field(int type, const std::string& field, const double* 
   has_double_positions_ = has_double_positions_ || is_position;
 }
 
+void ArraySnapshot::set_unit(int type, const std::string& field, const std::string& unit) {
+  check_type(type, fmt::format("the unit of field {}", field));
+  const ParticleTypeInfo* const known = info_.find_type(type);
+  ParticleTypeInfo info = known == nullptr ? empty_type(type) : *known;
+  const auto found = std::find_if(info.fields.begin(), info.fields.end(),
+                                  [&](const FieldInfo& f) { return f.file_name == field; });
+  if (found == info.fields.end()) {
+    throw UsageError(
+        fmt::format("the unit of field {} of type {}: there is no such field, expected one that "
+                    "has been set; set the field first",
+                    field, type));
+  }
+  found->unit = unit;
+  changed();
+  replace(std::move(info));
+}
+
 void ArraySnapshot::set_mass(int type, double mass) {
   check_type(type, "a mass");
   if (!std::isfinite(mass) || mass < 0) {

@@ -294,3 +294,46 @@ def test_masses_that_there_are_not_are_told_of_in_words_of_python(arrays):
     particles = Particles().gas(position=arrays["position"])
     with pytest.raises(UsageError, match="gas has no masses, expected one of .*; set mass="):
         particles["gas"]["mass"]
+
+
+def test_a_refused_array_leaves_no_unit(arrays):
+    particles = Particles()
+    with pytest.raises(UsageError):
+        particles.gas(position=in_unit(arrays["position"].T, "Mpc"))
+    assert particles.units == {}
+    particles.gas(position=in_unit(arrays["position"], "kpc"))
+    assert particles.units == {"length": "kpc"}
+
+
+def test_units_go_with_their_arrays(arrays):
+    particles = Particles().gas(position=in_unit(arrays["position"], "kpc"))
+    particles.gas(position=in_unit(arrays["position"], "Mpc"))
+    assert particles.units == {"length": "Mpc"}
+    particles.clear("gas")
+    assert particles.units == {}
+    particles.gas(position=in_unit(arrays["position"], "pc"))
+    particles.gas(position=arrays["position"])
+    assert particles.units == {}
+
+
+def test_lengths_that_are_replaced_together_may_change_their_unit(arrays):
+    particles = Particles()
+    for unit in ("kpc", "Mpc"):
+        particles.gas(
+            position=in_unit(arrays["position"], unit),
+            smoothing_length=in_unit(arrays["smoothing_length"], unit),
+        )
+    assert particles.units == {"length": "Mpc"}
+
+
+def test_the_unit_of_a_field_has_one_name_for_all_types(arrays):
+    particles = Particles().gas(Masses=in_unit(arrays["mass"], "g"))
+    with pytest.raises(UsageError, match="field mass: the unit kg, expected g"):
+        particles.stars(mass=in_unit(arrays["mass"], "kg"))
+
+
+def test_a_field_has_the_unit_of_its_array(arrays):
+    particles = Particles().gas(
+        position=arrays["position"], temperature=in_unit(arrays["temperature"], "keV")
+    )
+    assert particles["gas"].fields == {"position": "", "temperature": "keV"}

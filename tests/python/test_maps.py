@@ -181,9 +181,42 @@ def test_a_map_is_in_the_units_that_arrays_carry(renderer, arrays):
     assert drawn.values == pytest.approx(plain.values * 1e10 / 1e6, rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("unit", "wanted", "factor"),
+    [("g/cm**3", "kg/cm^3", 1e-3), ("g / cm3", "kg cm^-3", 1e-3), ("1e3*keV", "eV", 1e6)],
+)
+def test_a_map_of_a_field_is_in_the_unit_that_it_carries(renderer, arrays, unit, wanted, factor):
+    density = np.full(500, 7, np.float32)
+    particles = Particles().gas(
+        **{name: arrays[name] for name in ("position", "mass", "smoothing_length")},
+        density=in_unit(density, unit),
+    )
+    drawn = splotchcl.column(particles, "density", size=(8, 8), unit=wanted)
+    assert drawn.values[np.isfinite(drawn.values)] == pytest.approx(7 * factor, rel=1e-4)
+
+
+def test_smoothing_lengths_follow_from_densities_in_a_unit_of_their_own(arrays):
+    density = np.full(500, 7e9, np.float32)
+    in_kpc = {
+        "position": in_unit(arrays["position"], "kpc"),
+        "mass": in_unit(arrays["mass"], "Msun"),
+    }
+    one = Particles().gas(**in_kpc, density=in_unit(density, "Msun/kpc^3"))
+    other = Particles().gas(**in_kpc, density=in_unit(density * 1e-9, "Msun/pc^3"))
+    assert other["gas"]["smoothing_length"] == pytest.approx(
+        one["gas"]["smoothing_length"], rel=1e-5
+    )
+
+
+def test_units_that_maps_do_not_know_do_no_harm(renderer, arrays):
+    drawn = map_of(arrays, "furlong", "stone")
+    assert drawn.unit == "stone/furlong^2"
+    assert sum("maps cannot convert" in note for note in drawn.notes) == 2
+
+
 def test_units_that_need_a_scale_factor_are_noted(renderer, arrays):
     notes = map_of(arrays, "Mpc a h**-1", "Msol h**-1").notes
-    assert sum("does not take over" in note for note in notes) == 2
+    assert sum("maps cannot convert" in note for note in notes) == 2
 
 
 def test_units_of_the_scene_come_before_those_of_arrays(renderer, arrays):

@@ -86,6 +86,18 @@ def test_a_sphere_of_yt(real_file):
     assert np.all(radius - gas["smoothing_length"] < 0.2 * dataset.domain_width[0].value)
 
 
+def test_a_map_of_yt_is_that_of_its_file(renderer, real_file):
+    yt = pytest.importorskip("yt")
+    yt.set_log_level(50)
+    path = real_file("lcdm/fmt3_snapshot_006.hdf5")
+    says = {"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}
+    shown = {"types": "gas", "size": (16, 16), "unit": "Msun/kpc^2"}
+    taken = splotchcl.column(Particles.of(yt.load(str(path))), **shown)
+    read = splotchcl.column(path, **shown, settings=says)
+    assert taken.extent == pytest.approx(read.extent, rel=1e-4)
+    assert taken.values == pytest.approx(read.values, rel=1e-3)
+
+
 def test_an_object_is_drawn_as_its_file(renderer, gadget):
     pynbody = pytest.importorskip("pynbody")
     particles = Particles.of(pynbody.load(str(gadget)))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import splotchcl
 from splotchcl import Particles, UsageError
 
 
@@ -80,3 +81,51 @@ def test_values_that_astropy_masks_are_refused(arrays, has_unit):
         particles.gas(mass=masked(mass, mask=np.arange(500) < 7))
     particles.gas(mass=masked(mass, mask=np.zeros(500, bool)))
     assert np.array_equal(particles["gas"]["mass"], arrays["mass"])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_refused_array_leaves_no_unit(arrays, kind):
+    particles = Particles()
+    with pytest.raises(UsageError):
+        particles.gas(position=kind(arrays["position"].T, "Mpc"))
+    particles.gas(position=kind(arrays["position"], "kpc"))
+    assert particles.units == {"length": "kpc"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_unit_of_a_density_is_that_of_its_map(renderer, arrays, kind):
+    unit = "Msun * kpc**-3" if kind is in_unyt else "Msun kpc**-3"
+    if kind is in_pynbody:
+        unit = "Msol kpc**-3"
+    density = kind(np.full(500, 1000, np.float32), unit)
+    particles = Particles().gas(
+        position=kind(arrays["position"], "kpc"), mass=arrays["mass"], density=density
+    )
+    drawn = splotchcl.column(particles, "density", size=(8, 8), unit="g/cm^3")
+    assert np.nanmax(drawn.values) == pytest.approx(6.76790e-29, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "in_pc"),
+    [
+        (in_astropy, "lyr", 0.306601),
+        (in_astropy, "1e3 pc", 1000),
+        (in_unyt, "ly", 0.306601),
+        (in_unyt, "1e3*pc", 1000),
+        (in_pynbody, "3.085678e18 cm", 1),
+    ],
+)
+def test_a_unit_that_maps_do_not_know_is_converted_by_its_package(
+    renderer, arrays, kind, unit, in_pc
+):
+    mass = np.ones(500, np.float32)
+    given = Particles().gas(position=kind(arrays["position"], unit), mass=kind(mass, "g"))
+    plain = Particles().gas(position=arrays["position"], mass=mass)
+    drawn = splotchcl.column(given, size=(8, 8), unit="g/pc^2")
+    expected = splotchcl.column(plain, size=(8, 8)).values / in_pc**2
+    assert drawn.values == pytest.approx(expected, rel=1e-4)  # packages differ in their constants
+
+
+def test_units_of_pynbody_keep_their_digits(arrays):
+    particles = Particles().gas(position=in_pynbody(arrays["position"], "3.085678e+21 cm"))
+    assert particles.units == {"length": "3.085678e21 cm"}

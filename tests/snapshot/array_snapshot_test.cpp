@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 
@@ -43,6 +44,19 @@ TEST(ArraySnapshot, AFilesNamesForAFieldFindIt) {
   snapshot.set_field(0, "HSML", values.data(), 2);
   EXPECT_EQ(snapshot.read(0, "smoothing_length")[1], 2);
   EXPECT_EQ(snapshot.read(0, "SmoothingLength")[1], 2);
+}
+
+TEST(ArraySnapshot, AUnitIsThatOfTheFieldUntilItIsSetAgain) {
+  const std::vector<float> values = {1, 2};
+  ArraySnapshot snapshot;
+  EXPECT_THROW(snapshot.set_unit(0, "Density", "g/cm^3"), UsageError);
+  snapshot.set_field(0, "Density", values.data(), 2);
+  snapshot.set_unit(0, "Density", "g/cm^3");
+  EXPECT_EQ(require_field(snapshot.info(), 0, "density").unit, "g/cm^3");
+  snapshot.set_field(0, "Mass", values.data(), 2);
+  EXPECT_EQ(require_field(snapshot.info(), 0, "density").unit, "g/cm^3");
+  snapshot.set_field(0, "Density", values.data(), 2);
+  EXPECT_EQ(require_field(snapshot.info(), 0, "density").unit, "");
 }
 
 TEST(ArraySnapshot, DoublePositionsKeepTheirOffsetsFromTheOrigin) {

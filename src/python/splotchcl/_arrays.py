@@ -2,29 +2,11 @@
 
 from __future__ import annotations
 
-from types import MethodType
 from typing import Any
 
 import numpy as np
 
 from ._core import UsageError
-
-# By which array libraries call the unit of an array.
-_UNIT_ATTRIBUTES = ("units", "unit")
-_NO_UNITS = ("", "NoUnit()", "dimensionless", "1.00e+00")
-
-
-def unit_of(values: Any) -> str | None:
-    """The unit that an array carries with it (unyt, swiftsimio, pynbody, astropy), as text."""
-    for attribute in _UNIT_ATTRIBUTES:
-        unit = getattr(values, attribute, None)
-        # Units may be called, too: what is called to get one is a method.
-        if unit is None or isinstance(unit, MethodType) or str(unit) in _NO_UNITS:
-            continue
-        is_comoving = getattr(values, "comoving", None)
-        frame = "" if is_comoving is None else " (comoving)" if is_comoving else " (physical)"
-        return f"{unit}{frame}"
-    return None
 
 
 def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None]:

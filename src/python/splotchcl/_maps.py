@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
@@ -185,25 +184,20 @@ def column(
     return Map(drawn, notes, what.scene, what.source)
 
 
-# A number, names of units with powers, and what joins them: but for a and h, whose values arrays do
-# not say.
-_PLAIN_UNIT = re.compile(r"(?!.*\b[ah]\b)[\w.+*/^ -]+")
-
-
-# What maps of arrays are in, unless the scene says so; notes on units that cannot be used.
+# What maps of arrays are in, unless the scene says so: also those of types whose own arrays carry
+# no unit. Notes on units that cannot be converted.
 def _use_carried_units(scene: Scene, source: Source) -> list[str]:
     notes = []
-    carried = source.units if isinstance(source, Particles) else {}
-    for kind, key in (("length", "map.length_unit"), ("mass", "map.mass_unit")):
+    carried = source._carried_units() if isinstance(source, Particles) else {}
+    for kind, key, like in (("length", "map.length_unit", "cm"), ("mass", "map.mass_unit", "g")):
         unit = carried.get(kind)
         if unit is None or scene[key]:
             continue
-        text = unit.removesuffix(" (physical)").replace("**", "^").replace("Msol", "Msun")
-        if _PLAIN_UNIT.fullmatch(text):
-            scene[key] = text.replace("*", " ")
+        if _core.is_unit(unit.name, like):
+            scene[key] = unit.name
         else:
             notes.append(
-                f"arrays carry {kind} in {unit}, which the map does not take over; name its unit as "
+                f"arrays carry {kind} in {unit.text}, which maps cannot convert; name its unit as "
                 f"settings['{key}']"
             )
     return notes

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import as_values, unit_of
+from ._arrays import as_values
 from ._core import UsageError
+from ._units import CarriedUnit, unit_of
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
 # Some files say by a number below 0 that a particle is in no halo.
@@ -241,7 +242,8 @@ class Particles(Source):
     ) -> None:
         self._arrays = _core.ParticleArrays()
         self._source = self._arrays
-        self._units: dict[str, str] = {}
+        # By type and field.
+        self._units: dict[tuple[int, str], CarriedUnit] = {}
         self._notes: dict[tuple[int, str], str] = {}
         if box_size is not None:
             self._arrays.set_box_size(float(box_size))
@@ -280,7 +282,7 @@ class Particles(Source):
     @property
     def units(self) -> dict[str, str]:
         """The units that arrays carried, as text: "length" and names of fields."""
-        return dict(self._units)
+        return {what: unit.text for what, unit in self._carried_units().items()}
 
     @property
     def notes(self) -> list[str]:
@@ -311,17 +313,29 @@ class Particles(Source):
             set.
         """
         number = self._number(type)
+        units = {
+            (number, field): unit_of(values)
+            for field, values in fields.items()
+            if not (field == "mass" and _is_number(values))
+        }
+        self._check_units(units)
         for field, values in fields.items():
-            if field == "mass" and _is_number(values):
-                self._arrays.set_mass(number, float(values))
-                continue
-            self._check_unit(field, values)
-            array, note = as_values(field, values)
-            self._arrays.set_field(number, field, array)
-            self._notes.pop((number, field), None)
-            if note is not None:
-                self._notes[(number, field)] = note
+            self._set(number, field, values, units.get((number, field)))
         return self
+
+    def _set(self, number: int, field: str, values: Any, unit: CarriedUnit | None) -> None:
+        key = number, field
+        if field == "mass" and _is_number(values):
+            self._arrays.set_mass(number, float(values))
+            return
+        array, note = as_values(field, values)
+        self._arrays.set_field(number, field, array, "" if unit is None else unit.name)
+        self._notes.pop(key, None)
+        if note is not None:
+            self._notes[key] = note
+        self._units.pop(key, None)
+        if unit is not None:
+            self._units[key] = unit
 
     def gas(self, **fields: Any) -> Particles:
         """`add` for gas."""
@@ -340,6 +354,7 @@ class Particles(Source):
         number = self._number(type)
         self._arrays.clear(number)
         self._notes = {key: note for key, note in self._notes.items() if key[0] != number}
+        self._units = {key: unit for key, unit in self._units.items() if key[0] != number}
 
     def _number(self, type: str | int) -> int:
         if not isinstance(type, str):
@@ -352,18 +367,30 @@ class Particles(Source):
             )
         return number
 
-    # All that has a meaning together must have one unit.
-    def _check_unit(self, field: str, values: Any) -> None:
-        unit = unit_of(values)
-        if unit is None:
-            return
-        kind = "length" if field in ("position", "smoothing_length") else field
-        known = self._units.setdefault(kind, unit)
-        if known != unit:
-            raise UsageError(
-                f"field {field}: the unit {unit}, expected {known} as for other particles; convert "
-                "one of them"
-            )
+    def _carried_units(self) -> dict[str, CarriedUnit]:
+        return {_shared_kind(field): unit for (_, field), unit in self._units.items()}
+
+    # All that has a meaning together must have one unit. `given` are those of fields that are about
+    # to take the place of others.
+    def _check_units(self, given: Mapping[tuple[int, str], CarriedUnit | None]) -> None:
+        known = {
+            _shared_kind(key[1]): unit for key, unit in self._units.items() if key not in given
+        }
+        for (_, field), unit in given.items():
+            if unit is None:
+                continue
+            expected = known.setdefault(_shared_kind(field), unit)
+            if unit.text != expected.text:
+                raise UsageError(
+                    f"field {field}: the unit {unit.text}, expected {expected.text} as for other "
+                    "particles; convert one of them"
+                )
+
+
+# Positions and smoothing lengths are lengths; other fields are themselves, whatever they are called.
+def _shared_kind(field: str) -> str:
+    name = _core.canonical_field_name(field) or field
+    return "length" if name in ("position", "smoothing_length") else name
 
 
 def _type_name(word: str) -> str:
