@@ -290,12 +290,6 @@ def test_mixed_units_are_refused(arrays):
         particles.stars(position=in_unit(arrays["position"], "Mpc"))
 
 
-def test_masses_that_there_are_not_are_told_of_in_words_of_python(arrays):
-    particles = Particles().gas(position=arrays["position"])
-    with pytest.raises(UsageError, match="gas has no masses, expected one of .*; set mass="):
-        particles["gas"]["mass"]
-
-
 def test_a_refused_array_leaves_no_unit(arrays):
     particles = Particles()
     with pytest.raises(UsageError):
@@ -337,3 +331,42 @@ def test_a_field_has_the_unit_of_its_array(arrays):
         position=arrays["position"], temperature=in_unit(arrays["temperature"], "keV")
     )
     assert particles["gas"].fields == {"position": "", "temperature": "keV"}
+
+
+def test_a_number_for_all_masses_keeps_its_unit(arrays):
+    particles = Particles().gas(position=arrays["position"], mass=in_unit(arrays["mass"], "g"))
+    with pytest.raises(UsageError, match="the unit kg, expected g"):
+        particles.stars(position=arrays["position"], mass=in_unit(np.array(2.0), "kg"))
+    particles.stars(position=arrays["position"], mass=in_unit(np.array(2.0), "g"))
+    assert particles.units == {"mass": "g"}
+
+
+def test_a_number_for_all_masses_takes_the_place_of_an_array(arrays):
+    particles = Particles().gas(position=arrays["position"], mass=in_unit(arrays["mass"], "g"))
+    particles.gas(mass=in_unit(np.array(2.0), "kg"))
+    assert particles.units == {"mass": "kg"}
+    assert particles["gas"].fields["mass"] == "kg"
+    assert np.all(particles["gas"]["mass"] == 2)
+
+
+def test_a_box_in_another_unit_is_converted_to_that_of_positions(arrays):
+    particles = Particles(box_size=in_unit(np.array(10e3), "kpc"))
+    assert particles.box_size == 10e3
+    particles.gas(position=in_unit(arrays["position"], "Mpc"))
+    assert particles.box_size == pytest.approx(10)
+    with pytest.raises(UsageError, match="box_size: the unit g, expected one that"):
+        Particles(box_size=in_unit(np.array(1.0), "g")).gas(
+            position=in_unit(arrays["position"], "Mpc")
+        )
+
+
+def test_an_origin_in_another_unit_than_positions_is_refused(arrays):
+    particles = Particles(origin=in_unit(np.ones(3), "kpc"))
+    with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
+        particles.gas(position=in_unit(arrays["position"], "Mpc"))
+
+
+def test_masses_that_there_are_not_are_told_of_in_words_of_python(arrays):
+    particles = Particles().gas(position=arrays["position"])
+    with pytest.raises(UsageError, match="gas has no masses, expected one of .*; set mass="):
+        particles["gas"]["mass"]

@@ -214,6 +214,32 @@ def test_units_that_maps_do_not_know_do_no_harm(renderer, arrays):
     assert sum("maps cannot convert" in note for note in drawn.notes) == 2
 
 
+def test_lengths_in_another_unit_are_converted(renderer, arrays):
+    center = in_unit(np.array([5e6, 5e6, 5e6]), "pc")
+    drawn = map_of(arrays, "Mpc", "Msun", center=center, width=in_unit(np.array(4e3), "kpc"))
+    plain = map_of(arrays, "Mpc", "Msun", center=[5, 5, 5], width=4)
+    assert drawn.extent == pytest.approx(plain.extent, rel=1e-6)
+    mixed = [5, in_unit(np.array(5e3), "kpc"), in_unit(np.array(5.0), "Mpc")]
+    assert map_of(arrays, "Mpc", "Msun", center=mixed, width=4).extent == plain.extent
+
+
+def test_a_length_in_a_unit_is_converted_for_a_file(renderer, universe):
+    says = {"map.length_unit": "kpc"}
+    plain = splotchcl.column(universe, size=(8, 8), settings=says, width=4)
+    given = in_unit(np.array(4e3), "pc")
+    drawn = splotchcl.column(universe, size=(8, 8), settings=says, width=given)
+    assert drawn.extent == pytest.approx(plain.extent, rel=1e-6)
+
+
+@pytest.mark.parametrize("unit", ["Msun", "furlong"])
+def test_a_length_that_cannot_be_converted_is_refused(renderer, arrays, unit):
+    with pytest.raises(UsageError, match=f"map.width: found the unit {unit}, expected one that"):
+        map_of(arrays, "kpc", "Msun", width=in_unit(np.array(4.0), unit))
+    plain = Particles().gas(position=arrays["position"])
+    with pytest.raises(UsageError, match="which it does not say; give a number without"):
+        splotchcl.column(plain, size=(8, 8), width=in_unit(np.array(4.0), "kpc"))
+
+
 def test_units_that_need_a_scale_factor_are_noted(renderer, arrays):
     notes = map_of(arrays, "Mpc a h**-1", "Msol h**-1").notes
     assert sum("maps cannot convert" in note for note in notes) == 2

@@ -72,17 +72,6 @@ def test_comoving_and_physical_lengths_are_not_mixed(arrays):
         particles.gas(smoothing_length=length(arrays["smoothing_length"], False))
 
 
-@pytest.mark.parametrize("has_unit", [False, True])
-def test_values_that_astropy_masks_are_refused(arrays, has_unit):
-    masked = pytest.importorskip("astropy.utils.masked").Masked
-    mass = in_astropy(arrays["mass"], "g") if has_unit else arrays["mass"]
-    particles = Particles().gas(position=arrays["position"])
-    with pytest.raises(UsageError, match="field mass: 7 values are masked"):
-        particles.gas(mass=masked(mass, mask=np.arange(500) < 7))
-    particles.gas(mass=masked(mass, mask=np.zeros(500, bool)))
-    assert np.array_equal(particles["gas"]["mass"], arrays["mass"])
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_refused_array_leaves_no_unit(arrays, kind):
     particles = Particles()
@@ -90,6 +79,14 @@ def test_a_refused_array_leaves_no_unit(arrays, kind):
         particles.gas(position=kind(arrays["position"].T, "Mpc"))
     particles.gas(position=kind(arrays["position"], "kpc"))
     assert particles.units == {"length": "kpc"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_number_keeps_its_unit(arrays, kind):
+    particles = Particles().gas(position=arrays["position"], mass=kind(arrays["mass"], "g"))
+    with pytest.raises(UsageError, match="the unit kg, expected g"):
+        particles.stars(position=arrays["position"], mass=kind(2.0, "kg"))
+    particles.stars(position=arrays["position"], mass=kind(2.0, "g"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -103,6 +100,18 @@ def test_the_unit_of_a_density_is_that_of_its_map(renderer, arrays, kind):
     )
     drawn = splotchcl.column(particles, "density", size=(8, 8), unit="g/cm^3")
     assert np.nanmax(drawn.values) == pytest.approx(6.76790e-29, rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_lengths_with_units_are_converted(renderer, arrays, kind):
+    particles = Particles(box_size=kind(10e3, "pc"))
+    particles.gas(position=kind(arrays["position"], "kpc"), mass=arrays["mass"])
+    assert particles.box_size == pytest.approx(10)
+    settings = {"size": (8, 8), "depth": kind(2000.0, "pc"), "width": kind(4000.0, "pc")}
+    drawn = splotchcl.column(particles, center=kind([5000.0, 5000.0, 5000.0], "pc"), **settings)
+    plain = splotchcl.column(particles, size=(8, 8), center=[5, 5, 5], depth=2, width=4)
+    assert drawn.extent == pytest.approx(plain.extent)
+    assert drawn.values == pytest.approx(plain.values, rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -129,3 +138,14 @@ def test_a_unit_that_maps_do_not_know_is_converted_by_its_package(
 def test_units_of_pynbody_keep_their_digits(arrays):
     particles = Particles().gas(position=in_pynbody(arrays["position"], "3.085678e+21 cm"))
     assert particles.units == {"length": "3.085678e21 cm"}
+
+
+@pytest.mark.parametrize("has_unit", [False, True])
+def test_values_that_astropy_masks_are_refused(arrays, has_unit):
+    masked = pytest.importorskip("astropy.utils.masked").Masked
+    mass = in_astropy(arrays["mass"], "g") if has_unit else arrays["mass"]
+    particles = Particles().gas(position=arrays["position"])
+    with pytest.raises(UsageError, match="field mass: 7 values are masked"):
+        particles.gas(mass=masked(mass, mask=np.arange(500) < 7))
+    particles.gas(mass=masked(mass, mask=np.zeros(500, bool)))
+    assert np.array_equal(particles["gas"]["mass"], arrays["mass"])

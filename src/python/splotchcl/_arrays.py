@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,21 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
         is_borrowed = wanted == np.float32 and isinstance(values, np.ndarray)
         return plain, None if is_borrowed else note
     return np.require(plain, wanted, ["C", "A"]), note
+
+
+def is_number(value: Any) -> bool:
+    """Whether it is a single number, with or without a unit."""
+    return isinstance(value, Real) or (isinstance(value, np.ndarray) and value.ndim == 0)
+
+
+def as_number(what: str, value: Any) -> float:
+    """A single number, without its unit; `what` it is, for messages."""
+    if isinstance(value, np.ndarray):
+        value = _unmasked(what, value).view(np.ndarray)
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{what}: found {value!r}, expected a number") from error
 
 
 # The values of numpy's and astropy's arrays with a mask, if that hides none of them.

@@ -12,10 +12,13 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arrays import as_number, is_number
+from ._core import UsageError
 from ._opencl import using_opencl
 from ._render import Progress, keys_of, open_drawable
 from ._scene import Scene
 from ._sources import Particles, Source
+from ._units import CarriedUnit, unit_of
 
 
 @dataclass
@@ -139,9 +142,9 @@ def column(
     view : {"xy", "xz", "yz", "camera"}
         The first axis points to the right, the second upwards.
     center : 3 floats or {"box", "mass", "densest"}, optional
-        The middle, in the snapshot's unit of length.
+        The middle, in the snapshot's unit of length; values with a unit of their own are converted.
     width, depth : float, optional
-        In the snapshot's unit of length.
+        In the snapshot's unit of length; a value with a unit of its own is converted.
     unit : str, optional
         Of the map, such as "Msun/pc^2"; None: what the snapshot's units give, or those that arrays
         carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
@@ -157,11 +160,13 @@ def column(
     UsageError, DataError, DeviceError
     """
     keys = keys_of(size, tolerance, settings)
-    keys |= _map_keys(field, weight, statistic, view, unit, center)
-    if width is not None:
-        keys["map.width"] = float(width)
-    if depth is not None:
-        keys["map.depth"] = float(depth)
+    keys |= _map_keys(field, weight, statistic, view, unit)
+    if isinstance(center, str):
+        keys["map.center_at"], center = center, None
+    lengths = {"map.center": center, "map.width": width, "map.depth": depth}
+    lengths = {key: value for key, value in lengths.items() if value is not None}
+    with_units = {key for key, value in lengths.items() if _carries_unit(value)}
+    keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units}
     if slice:
         keys["map.slice"] = True
     if noise:
@@ -171,6 +176,10 @@ def column(
         keys[f"component.{keys.get('map.component', 0)}.types"] = names
     what = open_drawable(scene, particles, keys)
     what.notes.extend(_use_carried_units(what.scene, what.source))
+    # Only now it is known what the snapshot's lengths are in.
+    what.scene.update(
+        {key: _converted(key, lengths[key], what.scene, what.source) for key in with_units}
+    )
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
@@ -203,13 +212,54 @@ def _use_carried_units(scene: Scene, source: Source) -> list[str]:
     return notes
 
 
+def _carries_unit(length: Any) -> bool:
+    return unit_of(length) is not None or (
+        isinstance(length, list | tuple) and any(unit_of(x) is not None for x in length)
+    )
+
+
+# A width or a center, without its units.
+def _numbers(key: str, length: Any) -> float | list[float]:
+    if is_number(length):
+        return as_number(f"key {key}", length)
+    return [as_number(f"key {key}", x) for x in length]
+
+
+# A width or a center in the snapshot's unit of length. Of a list each number may have its own unit.
+def _converted(key: str, length: Any, scene: Scene, source: Source) -> float | list[float]:
+    unit = unit_of(length)
+    if unit is not None:
+        ratio = _ratio_to_lengths(key, unit, scene, source)
+        values = np.asarray(_numbers(key, length)) * ratio
+        converted: float | list[float] = values.tolist()
+        return converted
+    numbers = []
+    for value in length:
+        unit = unit_of(value)
+        ratio = 1 if unit is None else _ratio_to_lengths(key, unit, scene, source)
+        numbers.append(as_number(f"key {key}", value) * ratio)
+    return numbers
+
+
+def _ratio_to_lengths(key: str, unit: CarriedUnit, scene: Scene, source: Source) -> float:
+    units = (kind.fields.get("position", "") for kind in source.types.values())
+    wanted = scene["map.length_unit"] or next(filter(None, units), "")
+    ratio = _core.ratio_of_units(unit.name, wanted, source._source)
+    if ratio is None:
+        raise UsageError(
+            f"key {key}: found the unit {unit.text}, expected one that can be converted to the "
+            f"snapshot's of length, {wanted or 'which it does not say'}; give a number without a "
+            "unit, or name the snapshot's as settings['map.length_unit']"
+        )
+    return ratio
+
+
 def _map_keys(
     quantity: str | None,
     weight: str | None,
     statistic: str | None,
     view: str,
     unit: str | None,
-    center: Sequence[float] | str | None,
 ) -> dict[str, Any]:
     keys: dict[str, Any] = {
         "map.quantity": quantity,
@@ -218,8 +268,4 @@ def _map_keys(
         "map.view": view,
         "map.unit": unit,
     }
-    if isinstance(center, str):
-        keys["map.center_at"] = center
-    elif center is not None:
-        keys["map.center"] = [float(x) for x in center]
     return {key: value for key, value in keys.items() if value is not None}

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, KeysView, Mapping, Sequence
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_values
+from ._arrays import as_number, as_values, is_number
 from ._core import UsageError
 from ._units import CarriedUnit, unit_of
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
 # Some files say by a number below 0 that a particle is in no halo.
 _IDENTIFIERS: dict[str, type[np.generic]] = {"id": np.uint64, "halo_id": np.int64}
+# Where the unit of what all types share is kept, among those of types and fields.
+_ORIGIN = (-1, "origin")
 
 
 class ParticleType:
@@ -220,7 +221,8 @@ class Particles(Source):
     Parameters
     ----------
     box_size : float, optional
-        Side of the periodic box, in the unit of positions. None: there is none.
+        Side of the periodic box, in the unit of positions; a value with a unit of its own is
+        converted to theirs. None: there is none.
     time : float, optional
         In the simulation's unit, for texts in pictures.
     origin : sequence of 3 floats, optional
@@ -245,12 +247,17 @@ class Particles(Source):
         # By type and field.
         self._units: dict[tuple[int, str], CarriedUnit] = {}
         self._notes: dict[tuple[int, str], str] = {}
+        self._box_unit = unit_of(box_size)
+        self._given_box = 0.0 if box_size is None else as_number("box_size", box_size)
         if box_size is not None:
-            self._arrays.set_box_size(float(box_size))
+            self._arrays.set_box_size(self._given_box)
         if time is not None:
-            self._arrays.set_time(float(time))
+            self._arrays.set_time(as_number("time", time))
         if origin is not None:
-            self._arrays.set_origin([float(x) for x in origin])
+            self._arrays.set_origin([as_number("origin", x) for x in origin])
+            unit = unit_of(origin)
+            if unit is not None:
+                self._units[_ORIGIN] = unit
 
     @classmethod
     def of(cls, obj: Any, *, fields: Sequence[str] = ()) -> Particles:
@@ -313,29 +320,37 @@ class Particles(Source):
             set.
         """
         number = self._number(type)
-        units = {
-            (number, field): unit_of(values)
-            for field, values in fields.items()
-            if not (field == "mass" and _is_number(values))
-        }
+        units = {(number, field): unit_of(values) for field, values in fields.items()}
         self._check_units(units)
         for field, values in fields.items():
-            self._set(number, field, values, units.get((number, field)))
+            self._set(number, field, values, units[number, field])
         return self
 
     def _set(self, number: int, field: str, values: Any, unit: CarriedUnit | None) -> None:
         key = number, field
-        if field == "mass" and _is_number(values):
-            self._arrays.set_mass(number, float(values))
-            return
-        array, note = as_values(field, values)
-        self._arrays.set_field(number, field, array, "" if unit is None else unit.name)
-        self._notes.pop(key, None)
-        if note is not None:
-            self._notes[key] = note
+        if field == "mass" and is_number(values):
+            mass = as_number("field mass", values)
+            self._arrays.set_mass(number, mass)
+            self._replace_masses(number, mass, unit)
+        else:
+            array, note = as_values(field, values)
+            self._arrays.set_field(number, field, array, "" if unit is None else unit.name)
+            self._notes.pop(key, None)
+            if note is not None:
+                self._notes[key] = note
         self._units.pop(key, None)
         if unit is not None:
             self._units[key] = unit
+            if _shared_kind(field) == "length" and self._box_unit is not None:
+                self._arrays.set_box_size(self._box_in(unit))
+
+    # An array of masses counts before the number for all, which is to take its place.
+    def _replace_masses(self, number: int, mass: float, unit: CarriedUnit | None) -> None:
+        for kind in self.types.values():
+            if kind._number == number and "mass" in kind.fields:
+                array = np.full(len(kind), mass, np.float32)
+                self._arrays.set_field(number, "mass", array, "" if unit is None else unit.name)
+                self._notes.pop((number, "mass"), None)
 
     def gas(self, **fields: Any) -> Particles:
         """`add` for gas."""
@@ -385,18 +400,29 @@ class Particles(Source):
                     f"field {field}: the unit {unit.text}, expected {expected.text} as for other "
                     "particles; convert one of them"
                 )
+        if "length" in known:
+            self._box_in(known["length"])
+
+    # The side of the box in a unit of positions.
+    def _box_in(self, length: CarriedUnit) -> float:
+        if self._box_unit is None:
+            return self._given_box
+        ratio = _core.ratio_of_units(self._box_unit.name, length.name, self._source)
+        if ratio is None:
+            raise UsageError(
+                f"box_size: the unit {self._box_unit.text}, expected one that can be converted to "
+                f"{length.text}, that of positions; give it in that unit"
+            )
+        return self._given_box * ratio
 
 
-# Positions and smoothing lengths are lengths; other fields are themselves, whatever they are called.
+# Positions, smoothing lengths and the origin are lengths; other fields are themselves, whatever
+# they are called.
 def _shared_kind(field: str) -> str:
     name = _core.canonical_field_name(field) or field
-    return "length" if name in ("position", "smoothing_length") else name
+    return "length" if name in ("position", "smoothing_length", "origin") else name
 
 
 def _type_name(word: str) -> str:
     number = _core.find_particle_type(word)
     return word if number is None else _core.particle_type_name(number)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, Real) or (isinstance(value, np.ndarray) and value.ndim == 0)
