@@ -8,9 +8,9 @@
 
 namespace splotchcl {
 
-// The square of a Gaussian is one of sigma / sqrt(2), and drawn so wide, that those far below a pixel
-// stay in theirs. With s^2 = sigma^2 + 1 / (2 pi) in pixels a particle of mass m adds m^2 / (2 pi s^2)
-// in all, which for one far below a pixel is m^2.
+// The square of a Gaussian is one of sigma / sqrt(2), and drawn so wide, that those far below a
+// pixel stay in theirs. With s^2 = sigma^2 + 1 / (2 pi) in pixels a particle of mass m adds m^2 /
+// (2 pi s^2) in all, which for one far below a pixel is m^2.
 std::vector<float> draw_effective_particles(const PlacedParticles& placed,
                                             const WeightedValues& weighted,
                                             const SumPicture& picture, double floor,
@@ -33,7 +33,8 @@ std::vector<float> draw_effective_particles(const PlacedParticles& placed,
   const double white = squares > 0 ? floor * floor * squares / pixels : 1;
   const PixelSums sums =
       draw_sums(placed, size, {std::move(weight), std::move(factors), white}, picture, draw);
-  // Of equal weights all would count, and one at least does: beyond that lies the error of both sums.
+  // Of equal weights all would count, and one at least does: beyond that lies the error of both
+  // sums.
   const auto most = static_cast<double>(std::count_if(
       weighted.weights().begin(), weighted.weights().end(), [](float w) { return w > 0; }));
   std::vector<float> effective(sums[0].size(), std::numeric_limits<float>::quiet_NaN());
