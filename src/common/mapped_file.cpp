@@ -85,6 +85,14 @@ void MappedFile::check_size() const {
                   path_.string(), size, size_));
 }
 
+std::shared_ptr<const MappedFile> MappedFile::open_if_possible(const std::filesystem::path& path) {
+  try {
+    return open(path);
+  } catch (const DataError&) {
+    return nullptr;
+  }
+}
+
 std::shared_ptr<const MappedFile> MappedFile::of_bytes(const std::filesystem::path& path,
                                                        std::vector<std::byte> bytes) {
   std::shared_ptr<MappedFile> file(new MappedFile(path, bytes.size()));

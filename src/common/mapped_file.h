@@ -21,6 +21,9 @@ class MappedFile {
   // Throws DataError when the file is missing, not a regular file, or cannot be mapped.
   static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
 
+  // Null in place of DataError: of files that one can do without, such as someone else's caches.
+  static std::shared_ptr<const MappedFile> open_if_possible(const std::filesystem::path& path);
+
   // A file's content that had to be unpacked, under the file's name.
   static std::shared_ptr<const MappedFile> of_bytes(const std::filesystem::path& path,
                                                     std::vector<std::byte> bytes);

@@ -19,14 +19,11 @@
 #include "ranks/agreement.h"
 #include "ranks/spread_particles.h"
 #include "ranks/values.h"
+#include "scene/picture_limits.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-// Kernels count pixels, those of planes and guard bands among them, in 32 bits.
-constexpr int most_side = 65536;
-constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 
 void check_frame(const Frame& frame) {
   const Rectangle& crop = frame.crop;
@@ -37,13 +34,13 @@ void check_frame(const Frame& frame) {
                      ", expected a part of the picture, which is " + std::to_string(frame.width) +
                      " x " + std::to_string(frame.height) + " pixels");
   }
-  if (frame.width > most_side || frame.height > most_side ||
-      std::int64_t{crop.width} * crop.height > most_pixels) {
-    throw UsageError("found a picture of " + std::to_string(frame.width) + " x " +
-                     std::to_string(frame.height) + " pixels, of which " +
-                     std::to_string(std::int64_t{crop.width} * crop.height) +
-                     " are drawn, expected sides of at most " + std::to_string(most_side) +
-                     " and at most " + std::to_string(most_pixels) + " pixels drawn at a time");
+  if (frame.width > largest_side || frame.height > largest_side ||
+      std::int64_t{crop.width} * crop.height > largest_pixel_count) {
+    throw UsageError(
+        "found a picture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height) +
+        " pixels, of which " + std::to_string(std::int64_t{crop.width} * crop.height) +
+        " are drawn, expected sides of at most " + std::to_string(largest_side) + " and at most " +
+        std::to_string(largest_pixel_count) + " pixels drawn at a time");
   }
   if (const Image* const background = frame.background_image.get();
       background != nullptr &&
@@ -287,7 +284,7 @@ bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const Fram
                            double pixels_of_part, DrawnPicture& picture) {
   // Drawing all of the picture again takes no longer than that: what fails is more crowded than the
   // rest, which counts more where pixels of their own cost little.
-  const double most_pixels = plan.needs_sort() ? 0.7 : 0.5;
+  const double largest_pixel_count = plan.needs_sort() ? 0.7 : 0.5;
   const Image& image = picture.image;
   Certificate& certificate = picture.certificate;
   const std::vector<Rectangle> parts = failing_parts(certificate.blocks, plan.shares.promise,
@@ -295,7 +292,7 @@ bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const Fram
   double pixels = pixels_of_part * static_cast<double>(parts.size());
   for (const Rectangle& part : parts)
     pixels += static_cast<double>(part.width) * part.height;
-  if (parts.empty() || pixels > most_pixels * image.width * image.height) return false;
+  if (parts.empty() || pixels > largest_pixel_count * image.width * image.height) return false;
   FrameCheck check = std::move(stats.check);
   std::vector<ErrorParts> worst = {certificate.worst_kept};
   for (const Rectangle& part : parts) {

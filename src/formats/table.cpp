@@ -161,25 +161,12 @@ void FieldTable::find_fields(SnapshotInfo& info) {
   }
 }
 
-// A vector of three columns has its name already. Where two fields mean the same quantity, the one
-// that the file calls so has its name, else the first; the other keeps that of the file.
+// A vector of three columns has its name already.
 void FieldTable::name_table_fields() {
-  const auto name_of = [](const FieldInfo& info) {
-    return info.name.empty() ? canonical_field_name(info.file_name) : info.name;
-  };
-  std::map<std::string, const FieldInfo*> owners;
-  for (const TableField& field : fields_) {
-    const FieldInfo*& owner = owners[name_of(field.info)];
-    const bool is_better = owner != nullptr && owner->name.empty() && field.info.name.empty() &&
-                           field.info.file_name == name_of(field.info);
-    if (owner == nullptr || is_better) owner = &field.info;
-  }
-  std::vector<std::string> names;
-  for (const TableField& field : fields_) {
-    const std::string name = name_of(field.info);
-    const bool is_owner = !name.empty() && owners.at(name) == &field.info;
-    names.push_back(is_owner ? name : field.info.file_name);
-  }
+  std::vector<FieldInfo> infos;
+  for (const TableField& field : fields_)
+    infos.push_back(field.info);
+  const std::vector<std::string> names = names_of_fields(infos);
   std::vector<TableField> named;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     // Beside x, y and z a column "position" cannot be told from these by a name.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -157,15 +156,6 @@ class Bytes {
   std::uint64_t left_;
 };
 
-// Null where it cannot be opened, such as someone else's.
-std::shared_ptr<const MappedFile> opened(const std::filesystem::path& path) {
-  try {
-    return MappedFile::open(path);
-  } catch (const DataError&) {
-    return nullptr;
-  }
-}
-
 bool ends_with_its_checksum(const MappedFile& file) {
   std::uint64_t checksum = 0;
   if (file.size() < sizeof checksum) return false;
@@ -215,7 +205,7 @@ SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
 
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
   if (!is_there(info)) return std::nullopt;
-  const auto file = opened(path_for(info));
+  const auto file = MappedFile::open_if_possible(path_for(info));
   if (file == nullptr || !ends_with_its_checksum(*file)) return std::nullopt;
   Bytes bytes(*file);
   FileHeader header{};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ranks/agreement.h"
+#include "scene/picture_limits.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/communicator.h"
 #include "splotchcl/error.h"
@@ -324,11 +325,11 @@ int splotchcl_write_image(const char* path, const float* rgba, int width, int he
   return guarded(error, [&] {
     require(path, "the path");
     require(rgba, "the image");
-    constexpr int longest_side = 65536;
-    if (width < 1 || height < 1 || width > longest_side || height > longest_side) {
+    if (width < 1 || height < 1 || width > splotchcl::largest_side ||
+        height > splotchcl::largest_side) {
       throw splotchcl::UsageError("an image of " + std::to_string(width) + "x" +
                                   std::to_string(height) + " pixels, expected sides from 1 to " +
-                                  std::to_string(longest_side));
+                                  std::to_string(splotchcl::largest_side));
     }
     if (!std::isfinite(gamma) || !(gamma > 0)) {
       throw splotchcl::UsageError("a gamma of " + std::to_string(gamma) +

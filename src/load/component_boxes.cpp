@@ -148,8 +148,7 @@ std::string tell_stale_index(const Snapshot& snapshot) {
   if (known_boxes(snapshot).beside || !SnapshotIndex::is_there(snapshot.info())) return {};
   return fmt::format(
       "{} is not used: it is of other files than those beside it, damaged, or someone else's; "
-      "splotchcl "
-      "index makes it anew",
+      "splotchcl index makes it anew",
       SnapshotIndex::path_for(snapshot.info()).string());
 }
 

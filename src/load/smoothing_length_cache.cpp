@@ -4,13 +4,11 @@
 
 #include <array>
 #include <cstring>
-#include <memory>
 
 #include "common/mapped_file.h"
 #include "common/marked_file.h"
 #include "common/unfinished_file.h"
 #include "common/word_hash.h"
-#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -48,12 +46,8 @@ std::optional<Column> SmoothingLengthCache::read() const {
   const bool has_length =
       std::filesystem::file_size(path_, ignored) == header_bytes + count_ * sizeof(float);
   if (!has_length) return std::nullopt;
-  std::shared_ptr<const MappedFile> file;
-  try {
-    file = MappedFile::open(path_);
-  } catch (const DataError&) {  // someone else's: they are computed
-    return std::nullopt;
-  }
+  const auto file = MappedFile::open_if_possible(path_);
+  if (file == nullptr) return std::nullopt;  // they are computed
   std::array<std::uint64_t, 2> header = {};
   std::memcpy(header.data(), file->data() + mark.size(), sizeof header);
   const bool is_the_same = std::memcmp(file->data(), mark.data(), mark.size()) == 0 &&

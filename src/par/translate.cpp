@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/constants.h"
+#include "scene/picture_limits.h"
 
 namespace splotchcl::par {
 namespace {
@@ -118,10 +119,9 @@ void translate_camera(Translation& t) {
 }
 
 void translate_picture(Translation& t) {
-  constexpr int largest = 65536;
-  const int old_name = t.par.integer("resolution", 1, largest).value_or(800);
-  const int width = t.par.integer("xres", 1, largest).value_or(old_name);
-  const int height = t.par.integer("yres", 1, largest).value_or(width);
+  const int old_name = t.par.integer("resolution", 1, largest_side).value_or(800);
+  const int width = t.par.integer("xres", 1, largest_side).value_or(old_name);
+  const int height = t.par.integer("yres", 1, largest_side).value_or(width);
   t.scene.set("image.size", fmt::format("[{}, {}]", width, height));
   t.scene.set_text("image.convention", "original");
 

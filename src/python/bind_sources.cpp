@@ -134,19 +134,6 @@ bool is_unit(const std::string& text, const std::string& like) {
   }
 }
 
-// What numbers in the unit `from` are multiplied by to be in `to`; none where that cannot be said.
-std::optional<double> ratio_of_units(const std::string& from, const std::string& to,
-                                     const Snapshot& snapshot) {
-  if (from == to) return 1;
-  if (from.empty() || to.empty()) return std::nullopt;
-  try {
-    parse_unit(from, {1, 1}, "unit");  // a and h may cancel
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
-  return unit_ratio(from, to, unit_factors(snapshot.info()));
-}
-
 Vec3 vector_of(const std::array<double, 3>& values) {
   return {{values[0], values[1], values[2]}};
 }
@@ -222,12 +209,14 @@ void bind_sources(py::module_& module) {
                });
              });
   module.def("is_unit", &is_unit);
-  module.def(
-      "ratio_of_units", [](const std::string& from, const std::string& to, const Source& source) {
-        return without_python([&] {
-          return source.in_turn([&](const Snapshot& s) { return ratio_of_units(from, to, s); });
-        });
-      });
+  module.def("ratio_of_units",
+             [](const std::string& from, const std::string& to, const Source& source) {
+               return without_python([&] {
+                 return source.in_turn([&](const Snapshot& s) {
+                   return ratio_of_known_units(from, to, unit_factors(s.info()));
+                 });
+               });
+             });
   module.def("canonical_field_name", &canonical_field_name);
   module.def("find_particle_type", &find_particle_type);
   module.def("particle_type_name", &particle_type_name);

@@ -9,15 +9,13 @@
 #include <functional>
 #include <set>
 
+#include "scene/picture_limits.h"
 #include "scene_file/values.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::scene_file {
 namespace {
-
-// Four floats each: 4 GiB.
-constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;
 
 // The key that says the picture's size last: one of its sides may have changed it.
 std::string size_label(const Origins& origins) {

@@ -4,12 +4,11 @@
 #include <array>
 #include <utility>
 
+#include "scene/picture_limits.h"
 #include "scene_file/key_builder.h"
 
 namespace splotchcl::scene_file {
 namespace {
-
-constexpr int largest_side = 65536;
 
 // Wide angles included.
 Range any_field_of_view() {

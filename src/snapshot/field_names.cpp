@@ -77,20 +77,33 @@ std::string canonical_field_name(std::string_view label) {
   return {};
 }
 
-void name_fields(ParticleTypeInfo& type) {
-  std::map<std::string, const FieldInfo*> owners;  // of the canonical names
-  for (const FieldInfo& field : type.fields) {
-    const std::string canonical = canonical_field_name(field.file_name);
-    if (canonical.empty()) continue;
-    const FieldInfo*& owner = owners[canonical];
+std::vector<std::string> names_of_fields(const std::vector<FieldInfo>& fields) {
+  const auto wanted = [](const FieldInfo& field) {
+    return field.name.empty() ? canonical_field_name(field.file_name) : field.name;
+  };
+  std::map<std::string, const FieldInfo*> owners;
+  for (const FieldInfo& field : fields) {
+    const FieldInfo*& owner = owners[wanted(field)];
     // Else the name would mean the one and the other.
-    if (owner == nullptr || field.file_name == canonical) owner = &field;
+    const bool is_better = owner != nullptr && owner->name.empty() && field.name.empty() &&
+                           field.file_name == wanted(field);
+    if (owner == nullptr || is_better) owner = &field;
   }
-  for (FieldInfo& field : type.fields) {
-    const std::string canonical = canonical_field_name(field.file_name);
-    const bool is_owner = !canonical.empty() && owners.at(canonical) == &field;
-    field.name = is_owner ? canonical : field.file_name;
+  std::vector<std::string> names;
+  for (const FieldInfo& field : fields) {
+    const std::string name = wanted(field);
+    const bool is_owner = !name.empty() && owners.at(name) == &field;
+    names.push_back(is_owner ? name : field.file_name);
   }
+  return names;
+}
+
+void name_fields(ParticleTypeInfo& type) {
+  for (FieldInfo& field : type.fields)
+    field.name.clear();
+  const std::vector<std::string> names = names_of_fields(type.fields);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    type.fields[i].name = names[i];
 }
 
 const FieldInfo* find_field(const ParticleTypeInfo& type, std::string_view name) {

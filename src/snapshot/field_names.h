@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "splotchcl/snapshot.h"
 
@@ -11,9 +12,12 @@ namespace splotchcl {
 // allowed), or an empty string when the label is not a known one.
 std::string canonical_field_name(std::string_view label);
 
-// Names the fields of one type: FieldInfo::name becomes the canonical name, or the file's
-// own where there is none or where another field of the type has it: the one that the file calls
-// so, else the first.
+// What fields of one type are to be called: a name that they have already, else the canonical name,
+// or the file's own where there is none or where another field has it: the one that has it already,
+// that the file calls so, else the first.
+std::vector<std::string> names_of_fields(const std::vector<FieldInfo>& fields);
+
+// Names them so, whatever they were called before.
 void name_fields(ParticleTypeInfo& type);
 
 // The field that `name` means: a canonical name, the file's own label or any other label

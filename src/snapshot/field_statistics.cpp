@@ -32,8 +32,7 @@ FieldStatistics find_statistics(const Column& values) {
 
 std::string advice_on_infinite_values() {
   return "numbers beyond single precision, which ends at 3.4e38, are read as infinite: store them "
-         "in "
-         "a larger unit, as masses in Msun in place of g";
+         "in a larger unit, as masses in Msun in place of g";
 }
 
 }  // namespace splotchcl

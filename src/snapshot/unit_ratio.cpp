@@ -61,6 +61,15 @@ std::optional<double> unit_ratio(const std::string& from, const std::string& to,
   return are_close(*found, 1) ? 1 : found;
 }
 
+std::optional<double> ratio_of_known_units(const std::string& from, const std::string& to,
+                                           const UnitFactors& factors) {
+  if (from == to) return 1;
+  const bool are_said = !from.empty() && !to.empty();
+  // Of a unit that is not known nothing says that it is another one by 1.
+  if (!are_said || !known_unit(from, with_unknown(factors, 1))) return std::nullopt;
+  return unit_ratio(from, to, factors);
+}
+
 std::string unit_of_matching_density(const ParticleTypeInfo& type) {
   const std::string mass = unit_of(type, "mass"), length = unit_of(type, "position");
   if (mass.empty() || length.empty()) return {};

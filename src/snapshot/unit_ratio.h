@@ -14,6 +14,10 @@ namespace splotchcl {
 std::optional<double> unit_ratio(const std::string& from, const std::string& to,
                                  const UnitFactors& factors);
 
+// The same, but none as well where a unit is not said or not known, unless both are the same text.
+std::optional<double> ratio_of_known_units(const std::string& from, const std::string& to,
+                                           const UnitFactors& factors);
+
 // The unit of density that goes with those of a type's masses and positions, and the one of
 // volume. Empty where one of them is not said.
 std::string unit_of_matching_density(const ParticleTypeInfo& type);

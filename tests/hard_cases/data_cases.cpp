@@ -1,6 +1,10 @@
 // Numbers of particles that counters and buffers may not hold, and values that are none.
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
@@ -175,16 +179,23 @@ Frame many_components(LightPlan plan) {
   return lit(frame_of(100, 70, components), plan);
 }
 
+// A field of the clouds' particles.
+Column random_field(const DrawnComponent& clouds, std::uint64_t seed,
+                    const std::function<double(Random&)>& value) {
+  Random random(seed);
+  std::vector<float> values;
+  for (std::size_t i = 0; i < clouds.particles.count; ++i)
+    values.push_back(static_cast<float>(value(random)));
+  return Column::owning(std::move(values));
+}
+
 // The palette's range is `range` wide around values of 1e6.
 Frame narrow_color_range(Scaling scaling, double range, LightPlan plan) {
   CloudSetup setup;
   setup.count = 300;
   DrawnComponent clouds = random_clouds(setup);
-  std::vector<float> values;
-  Random random(71);
-  for (std::size_t i = 0; i < clouds.particles.count; ++i)
-    values.push_back(static_cast<float>(random.uniform(1e6, 1e6 + range)));
-  clouds.particles.color = Column::owning(values);
+  clouds.particles.color = random_field(
+      clouds, 71, [range](Random& random) { return random.uniform(1e6, 1e6 + range); });
   clouds.color.scaling = scaling;
   clouds.color.minimum = 1e6 + 0.03 * range;
   clouds.color.maximum = 1e6 + 0.97 * range;
@@ -204,11 +215,8 @@ Frame bright_least_intensities(LightPlan plan) {
   CloudSetup setup;
   setup.count = 300;
   DrawnComponent clouds = random_clouds(setup);
-  std::vector<float> values;
-  Random random(79);
-  for (std::size_t i = 0; i < clouds.particles.count; ++i)
-    values.push_back(static_cast<float>(1e-3 * (1 + random.logarithmic(1e-7, 1e-3))));
-  clouds.particles.intensity = Column::owning(values);
+  clouds.particles.intensity = random_field(
+      clouds, 79, [](Random& random) { return 1e-3 * (1 + random.logarithmic(1e-7, 1e-3)); });
   clouds.intensity = {Scaling::log, -3, 3};
   clouds.brightness = 1e4;
   return lit(frame_of(setup.width, setup.height, {clouds}), plan);
@@ -219,11 +227,8 @@ Frame steep_palette(LightPlan plan) {
   CloudSetup setup;
   setup.count = 300;
   DrawnComponent clouds = random_clouds(setup);
-  std::vector<float> values;
-  Random random(73);
-  for (std::size_t i = 0; i < clouds.particles.count; ++i)
-    values.push_back(static_cast<float>(random.logarithmic(1e-6, 1e6)));
-  clouds.particles.color = Column::owning(values);
+  clouds.particles.color =
+      random_field(clouds, 73, [](Random& random) { return random.logarithmic(1e-6, 1e6); });
   clouds.color = {Scaling::log, -6, 6};
   clouds.palette.emission.clear();
   for (int k = 0; k < 256; ++k) {

@@ -148,7 +148,7 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
     return m.fields.count(type.type) > 0;
   });
   const Hdf5File file(member->path);
-  const BaseUnits units = read_base_units(file);
+  const UnitsOfFile units = read_units(file);
   for (const Hdf5Field& field : member->fields.at(type.type)) {
     if (!is_in_every_member(type.type, field)) {
       info_.notes.push_back(

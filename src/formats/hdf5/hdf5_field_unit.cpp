@@ -56,19 +56,21 @@ std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::s
   return power && are_stored_as_physical(file, dataset) ? 0 : power;
 }
 
+UnitsOfFile read_units(const Hdf5File& file) {
+  return {read_base_units(file), !is_without_cosmology(file)};
+}
+
 std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
-                            const BaseUnits& units) {
+                            const UnitsOfFile& units) {
   const std::string& path = dataset.path;
   // We have no name for currents.
   if (file.number(path, "U_I exponent").value_or(0) != 0) return {};
   const auto eagle = file.number(path, "CGSConversionFactor");
   UnitPowers powers = eagle ? powers_of_eagle(dataset.label()) : stated_powers(file, path);
-  // Without cosmology there is no scale factor that they could be powers of.
-  if (!is_without_cosmology(file))
-    powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
+  if (units.has_scale_factor) powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
       find_power(file, path, {"h_scaling", "h-scale exponent", "h-scale-exponent"}).value_or(0);
-  return unit_name(powers, units, eagle ? *eagle : file.number(path, "to_cgs").value_or(0));
+  return unit_name(powers, units.base, eagle ? *eagle : file.number(path, "to_cgs").value_or(0));
 }
 
 }  // namespace splotchcl

@@ -12,9 +12,17 @@ namespace splotchcl {
 // it.
 std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::string& dataset);
 
-// The unit that the attributes of a dataset of Gadget 4, AREPO, SWIFT or EAGLE state, in which the
-// file's base units are `units`. Empty where they state none.
+// What a file says of all its fields' units.
+struct UnitsOfFile {
+  BaseUnits base;
+  // Without cosmology there is none that a unit could have powers of.
+  bool has_scale_factor = true;
+};
+UnitsOfFile read_units(const Hdf5File& file);
+
+// The unit that the attributes of a dataset of Gadget 4, AREPO, SWIFT or EAGLE state. Empty where
+// they state none.
 std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
-                            const BaseUnits& units);
+                            const UnitsOfFile& units);
 
 }  // namespace splotchcl

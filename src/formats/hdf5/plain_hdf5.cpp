@@ -251,10 +251,8 @@ std::string unit_of_yt(const Hdf5File& file, const std::string& unit) {
 
 std::optional<double> ratio_of_yt(const Hdf5File& file, const std::string& from,
                                   const std::string& to, const UnitFactors& factors) {
-  if (from == to) return 1;
-  // Without a unit nothing says that they are the same.
-  if (from.empty() || to.empty()) return std::nullopt;
-  return unit_ratio(unit_of_yt(file, from), unit_of_yt(file, to), factors);
+  return from == to ? 1
+                    : ratio_of_known_units(unit_of_yt(file, from), unit_of_yt(file, to), factors);
 }
 
 // yt's domain in the positions' unit, where it is a cube.
