@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "device/opencl/stage_timer.h"
+
 namespace splotchcl::bench {
 namespace {
 
@@ -34,6 +36,7 @@ std::vector<KernelWork> add_up(const std::vector<LaunchRecord>& launches, const 
     }
     found->launches += 1;
     found->items += items;
+    found->seconds += seconds_of(launch.event);
     found->least_items = std::min(found->least_items, items);
     found->local_bytes = std::max(found->local_bytes, launch.local_bytes);
   }

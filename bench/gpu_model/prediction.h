@@ -23,9 +23,11 @@ struct KernelWork {
   std::string stage, kernel;
   double launches = 0, items = 0;
   double least_items = 0;  // in flight in the smallest of its launches
+  double seconds = 0;      // that they took on the device at hand
   std::uint64_t local_bytes = 0;
   KernelCost cost;
 };
+// Call when the queue has finished.
 std::vector<KernelWork> add_up(const std::vector<LaunchRecord>& launches, const FrameWork& work);
 
 // What a kernel takes on a device at least: the longer of what its bytes and its operations take at

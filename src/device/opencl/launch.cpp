@@ -12,15 +12,16 @@ std::size_t round_up(std::size_t value, std::size_t step) {
 }  // namespace
 
 void Launch::enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local) {
-  if (device_.launches != nullptr) note(dimensions, global, local);
+  const compute::event event =
+      device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local);
+  if (device_.launches != nullptr) note(dimensions, global, local, event);
   const bool is_one_group = std::equal(global, global + dimensions, local);
-  device_.timer.add(
-      stage_, device_.queue.enqueue_nd_range_kernel(kernel_, dimensions, nullptr, global, local),
-      is_one_group ? StageTimer::Kind::serial : StageTimer::Kind::parallel);
+  device_.timer.add(stage_, event,
+                    is_one_group ? StageTimer::Kind::serial : StageTimer::Kind::parallel);
 }
 
-void Launch::note(std::size_t dimensions, const std::size_t* global,
-                  const std::size_t* local) const {
+void Launch::note(std::size_t dimensions, const std::size_t* global, const std::size_t* local,
+                  const compute::event& event) const {
   LaunchRecord record;
   record.stage = stage_;
   record.kernel = kernel_.name();
@@ -31,6 +32,7 @@ void Launch::note(std::size_t dimensions, const std::size_t* global,
   }
   record.local_bytes =
       kernel_.get_work_group_info<cl_ulong>(device_.device, CL_KERNEL_LOCAL_MEM_SIZE);
+  record.event = event;
   device_.launches->push_back(record);
 }
 

@@ -38,7 +38,8 @@ class Launch {
 
  private:
   void enqueue(std::size_t dimensions, const std::size_t* global, const std::size_t* local);
-  void note(std::size_t dimensions, const std::size_t* global, const std::size_t* local) const;
+  void note(std::size_t dimensions, const std::size_t* global, const std::size_t* local,
+            const compute::event& event) const;
 
   DeviceContext& device_;
   const char* stage_;

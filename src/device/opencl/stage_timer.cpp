@@ -4,15 +4,11 @@
 
 namespace splotchcl {
 
-namespace {
-
 double seconds_of(const compute::event& event) {
   const auto start = event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_START);
   const auto end = event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_END);
   return 1e-9 * static_cast<double>(end - start);
 }
-
-}  // namespace
 
 template <class IsCounted>
 std::vector<StageTime> StageTimer::sum(IsCounted is_counted) const {
