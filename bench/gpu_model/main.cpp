@@ -59,6 +59,17 @@ void write_counters(const std::string& path, const std::vector<KernelWork>& kern
   if (!file.flush()) throw DataError(path + ": cannot write the counters");
 }
 
+// For scripts/check_gpu_registers: the programs of the frame, each in a file.
+void write_texts(const std::string& folder, const ProgramCache& programs) {
+  int number = 0;
+  for (const ProgramText& text : programs.texts()) {
+    const std::string path = folder + "/program_" + std::to_string(++number) + ".cl";
+    std::ofstream file(path);
+    file << text.source;
+    if (!file.flush()) throw DataError(path + ": cannot write the program");
+  }
+}
+
 // Milliseconds of each stage, and of the kernel that takes most of it what it waits for.
 void print_prediction(const std::vector<KernelWork>& kernels) {
   std::vector<std::string> columns = {"stage", "measured here"};
@@ -142,6 +153,7 @@ void predict(const Arguments& arguments) {
   const std::vector<KernelWork> kernels = add_up(counted.launches, counted.work);
   print_work(counted, kernels);
   if (arguments.has("counters")) write_counters(arguments.text("counters", ""), kernels);
+  if (arguments.has("texts")) write_texts(arguments.text("texts", ""), device.programs);
   print_prediction(kernels);
 }
 
@@ -156,6 +168,7 @@ int main(int count, char** words) {
        "scene=FILE: draws this scene, not the made-up universe",
        "snapshot=FILE: absolute path of the scene's snapshot", "sort=N: only sorts so many pairs",
        "counters=FILE: also writes what each kernel does, as CSV",
+       "texts=FOLDER: also writes the programs that drew it there",
        "device=NAME: part of a device's name"},
       splotchcl::bench::predict);
 }

@@ -62,8 +62,8 @@ INLINED float own_part(const Splat splat, const BinParameters p) {
   const float drawn2 = splat.sigma * splat.sigma;
   const uint grid = grid_of(splat);
   if (grid == 0) return splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
-  const float wide2 = drawn2 + blur_of_grid(grid, p.blurs);
-  const float in_picture2 = wide2 * as_float((127 + 2 * level_of_grid(grid, p.blurs)) << 23);
+  const float wide2 = drawn2 + blur_of_grid(grid, &p.blurs);
+  const float in_picture2 = wide2 * as_float((127 + 2 * level_of_grid(grid, &p.blurs)) << 23);
   return drawn2 / wide2 * (in_picture2 / (in_picture2 - p.widening));
 #endif
 }

@@ -43,9 +43,9 @@ static inline Reach reach_of(const Grid grid, int column, int row) {
   return reach;
 }
 
-INLINED uint cell_at(const OctaveCells cells, int x, int y) {
-  return cells.first + (uint)(y >> cells.shift) * (uint)(TILE_WIDTH >> cells.shift) +
-         (uint)(x >> cells.shift);
+INLINED uint cell_at(const OctaveCells* cells, int x, int y) {
+  return cells->first + (uint)(y >> cells->shift) * (uint)(TILE_WIDTH >> cells->shift) +
+         (uint)(x >> cells->shift);
 }
 
 static inline int nearest_pixel(float center, float first, float last) {
@@ -85,9 +85,9 @@ typedef struct GridOfCells {
 
 INLINED GridOfCells grid_of_cells(const CertifyParameters* p, uint g, const Grid grid) {
   GridOfCells of;
-  of.level = level_of_grid(g, p->blurs);
+  of.level = level_of_grid(g, &p->blurs);
   of.mean_sigma = grid.mean_sigma;
-  of.blur = blur_of_grid(g, p->blurs);
+  of.blur = blur_of_grid(g, &p->blurs);
   of.most_peak = g == 0 ? p->bright_peak : INFINITY;
   return of;
 }
@@ -172,9 +172,9 @@ INLINED Contribution contribution_of_listed(__global const TileSplat* splat, con
   const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, part.x0, part.x1);
   const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, part.y0, part.y1);
   Contribution added;
-  added.peak_cell = cell_at(p->peaks[m.octave], x, y);
+  added.peak_cell = cell_at(&p->peaks[m.octave], x, y);
   added.peak = smaller(m.peak, p->bright_peak);
-  added.ending_cell = cell_at(p->endings[m.octave], x, y);
+  added.ending_cell = cell_at(&p->endings[m.octave], x, y);
   added.ending =
       listed_ending(splat, p, p->extent2[octave_in_picture(m.octave, level)], m.peak, m.width2);
   return added;
@@ -183,9 +183,9 @@ INLINED Contribution contribution_of_listed(__global const TileSplat* splat, con
 INLINED Contribution contribution_of_drawn(const Measured m, float most_peak,
                                            const CertifyParameters* p) {
   Contribution added;
-  added.peak_cell = cell_at(p->peaks[m.octave], m.x, m.y);
+  added.peak_cell = cell_at(&p->peaks[m.octave], m.x, m.y);
   added.peak = smaller(m.peak, most_peak);
-  added.ending_cell = cell_at(p->endings[m.octave], m.x, m.y);
+  added.ending_cell = cell_at(&p->endings[m.octave], m.x, m.y);
   added.ending = m.ending;
   return added;
 }
@@ -198,7 +198,7 @@ INLINED Contribution contribution_of_bright(const Measured m, float radius, floa
                                         : exp(p->extent2[octave_in_picture(as_far, level)] -
                                               p->extent2[octave_in_picture(m.octave, level)]);
   Contribution added = contribution_of_drawn(m, most_peak, p);
-  added.ending_cell = cell_at(p->endings[as_far], m.x, m.y);
+  added.ending_cell = cell_at(&p->endings[as_far], m.x, m.y);
   added.ending = m.ending > 0.0f ? p->edge_peak * part : 0.0f;
   return added;
 }

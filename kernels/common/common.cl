@@ -9,6 +9,15 @@
 #define INLINED __attribute__((always_inline)) static inline
 #endif
 
+// What hardly any lane needs: a call on processors, where it would take registers from what all of
+// them need. GPUs' compilers would put the structures that a call is handed in memory of each
+// work-item's own, and keep registers for it.
+#ifdef LANES_8
+#define SELDOM_CALLED __attribute__((noinline)) static
+#else
+#define SELDOM_CALLED INLINED
+#endif
+
 // Of functions that there are for eight numbers and for sixteen.
 #ifdef ROWS_OF_16
 #define OVERLOADED __attribute__((overloadable))
@@ -40,10 +49,12 @@ static inline void store_first(float8 values, int count, __global float* pixels)
     vstore8(values, 0, pixels);
     return;
   }
+  // As in resolve.cl.
   float lanes[8];
   vstore8(values, 0, lanes);
-  for (int k = 0; k < count; ++k)
-    pixels[k] = lanes[k];
+  for (int k = 0; k < 7; ++k) {
+    if (k < count) pixels[k] = lanes[k];
+  }
 }
 
 // The grid that a tile belongs to. Grids are few, coarse ones small.
@@ -61,11 +72,11 @@ INLINED uint grid_of(const Splat splat) {
   return (splat.component_and_grid >> 16) & 0xffu;
 }
 // Its pixels are 2^level of the picture's wide.
-INLINED int level_of_grid(uint grid, const GridBlurs blurs) {
-  return grid == 0 ? 0 : (int)((grid - 1u) >> blurs.shift) + blurs.first_level;
+INLINED int level_of_grid(uint grid, const GridBlurs* blurs) {
+  return grid == 0 ? 0 : (int)((grid - 1u) >> blurs->shift) + blurs->first_level;
 }
-INLINED float blur_of_grid(uint grid, const GridBlurs blurs) {
-  return grid == 0 ? 0.0f : blurs.sigma2[(grid - 1u) & (MOST_BLURS - 1u)];
+INLINED float blur_of_grid(uint grid, const GridBlurs* blurs) {
+  return grid == 0 ? 0.0f : blurs->sigma2[(grid - 1u) & (MOST_BLURS - 1u)];
 }
 // The splat's units are 2^-place_bits pixels.
 INLINED int place_bits_of(const Splat splat, const Grid grid) {

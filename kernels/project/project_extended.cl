@@ -328,8 +328,9 @@ static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
   const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));
   splat.x = pair_of(extended_sum(extended_pair(splat.x), moved));
   if ((copy & 1) != 0) {
-    splat.y =
-        pair_of(extended_difference(extended_pair(e.twice_pole[pole]), extended_pair(splat.y)));
+    const Extended mirrored =
+        extended_difference(extended_pair(OF_POLE(e.twice_pole, pole)), extended_pair(splat.y));
+    splat.y = pair_of(mirrored);
   }
   return splat;
 }

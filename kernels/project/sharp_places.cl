@@ -29,10 +29,9 @@ typedef struct PlaceArrays {
 } PlaceArrays;
 
 // A call: hardly any splats are.
-__attribute__((noinline)) static void find_sharp_places(uint i, uint end, const Columns columns,
-                                                        const ProjectParameters p,
-                                                        const ExtendedParameters e,
-                                                        PlaceArrays* places) {
+SELDOM_CALLED void find_sharp_places(uint i, uint end, const Columns columns,
+                                     const ProjectParameters p, const ExtendedParameters e,
+                                     PlaceArrays* places) {
   for (uint k = 0; k < LANES && i + k < end; ++k) {
     if (!places->asked[k]) continue;
     const ExtendedPlace place = extended_place(columns.positions + (size_t)(i + k) * 3, p, e);

@@ -61,7 +61,7 @@ static inline void put_copy(Splat* splat, int copy, float y, const ProjectParame
   const uint coarser = splat->component_and_grid >> 24;
   splat->x += (int)((copy * in_long(p.period_units)) >> (coarser + 1));
   if ((copy & 1) == 0) return;
-  splat->y = (int)(in_long(p.twice_pole_units[pole_of(y, p)]) >> coarser) - splat->y;
+  splat->y = (int)(in_long(OF_POLE(p.twice_pole_units, pole_of(y, p))) >> coarser) - splat->y;
 #ifdef FINE_PLACES
   const int fraction_y = -((int)splat->place_fractions >> 16);
   splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);

@@ -94,6 +94,8 @@ static inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, 
 static inline int pole_of(float y, const ProjectParameters p) {
   return y >= p.center_y;
 }
+// A value of one of both poles. With an index all parameters would be copied to memory.
+#define OF_POLE(values, pole) ((pole) != 0 ? (values)[1] : (values)[0])
 
 // Copies of a splat that reach what is drawn, half a period apart. Odd ones are mirrored over the
 // nearer pole. The sixth is beyond what any cloud has light for.
@@ -108,7 +110,7 @@ static inline Copies copies_in_picture(float x, float y, float radius_x, float r
   copies.first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -5.0f, 6.0f);
   copies.last = (int)clamp(floor((p.right_end + radius_x - x) / half_period), -6.0f, 5.0f);
   copies.step = 1;
-  const float mirrored = p.twice_pole[pole_of(y, p)] - y;
+  const float mirrored = OF_POLE(p.twice_pole, pole_of(y, p)) - y;
   if (mirrored + radius + 1.0f < p.top || mirrored - radius - 1.0f > p.bottom) {
     copies.step = 2;
     copies.first += copies.first & 1;

@@ -58,9 +58,11 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
     transmitted += transmittance;
   }
   vstore8(1.0f - transmitted / 3.0f, 0, light[3]);
-  const int count = min(8, p.width - x);
+  const int count = p.width - x;
   __global float* out = image + ((size_t)y * p.width + x) * 4;
-  for (int i = 0; i < count; ++i) {
+  // As many steps every time: lanes are registers then, not memory.
+  for (int i = 0; i < 8; ++i) {
+    if (i >= count) continue;
 #ifdef PROJECTION_FISHEYE
     // Half pixels from the middle: outside the circle there is no direction to show.
     const long across = 2 * (x + i) + 1 + p.circle_x, along = 2 * y + 1 + p.circle_y;

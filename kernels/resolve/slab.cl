@@ -41,8 +41,8 @@ static inline float largest_of_first(float8 values, int count) {
   float lanes[8];
   vstore8(values, 0, lanes);
   float largest = 0.0f;
-  for (int k = 0; k < min(count, 8); ++k)
-    largest = max(largest, lanes[k]);
+  for (int k = 0; k < 8; ++k)
+    largest = k < count ? max(largest, lanes[k]) : largest;
   return largest;
 }
 
@@ -83,8 +83,9 @@ __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __g
         between(column_of(columns, p.part, fine, coarse, c, x, first), stride, p.weights);
     const Pair light =
         between(column_of(columns, p.part, fine, coarse, c + 3, x, first), stride, p.weights);
-    for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
-      const int r = y - first;
+    for (int r = 0; r < 2; ++r) {
+      const int y = first + r;
+      if (y < p.part.top || y >= p.part.bottom) continue;
       const size_t source = pixel_at(fine, c, x, y), opacity = pixel_at(fine, c + 3, x, y);
       const size_t grid = first_float(fine);
       const float8 changed = lay_channel(
@@ -94,8 +95,10 @@ __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __g
     }
   }
   const size_t strips = (size_t)(p.part.right_end - p.part.left + 7) / 8;
-  for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+  for (int r = 0; r < 2; ++r) {
+    const int y = first + r;
+    if (y < p.part.top || y >= p.part.bottom) continue;
     const size_t strip = (size_t)(y - p.part.top) * strips + get_global_id(0);
-    errors[strip] += largest_of_first(largest[y - first], count);
+    errors[strip] += largest_of_first(largest[r], count);
   }
 }

@@ -101,6 +101,13 @@ void ProgramCache::compile_all() {
   build_together(missing);
 }
 
+std::vector<ProgramText> ProgramCache::texts() const {
+  std::vector<ProgramText> texts;
+  for (const auto& [key, entry] : programs_)
+    texts.push_back(entry.fallback.value_or(entry.text));
+  return texts;
+}
+
 bool ProgramCache::find_binary(Entry& entry) {
   if (!entry.binary) entry.binary = binaries_.find(entry.key);
   return entry.binary.has_value();

@@ -56,6 +56,9 @@ class ProgramCache {
   void compile_all();
   void use_compilers(StartCompiler start_compiler) { start_compiler_ = std::move(start_compiler); }
 
+  // All that have been asked for, as compilers get them that declare the language's functions.
+  std::vector<ProgramText> texts() const;
+
   double build_seconds() const { return build_seconds_; }
   // Why compiled programs are not kept from run to run; empty: they are, or need not be.
   const std::string& note() const { return binaries_.note(); }
