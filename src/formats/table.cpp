@@ -54,7 +54,7 @@ class FieldTable {
                                         SnapshotInfo& info) const;
   std::vector<double> factors_of_axes(const TableField& field, SnapshotInfo& info) const;
   void find_fields(SnapshotInfo& info);
-  void name_table_fields();
+  void name_table_fields(SnapshotInfo& info);
 
   std::unique_ptr<const Table> table_;
   std::vector<NameAndUnit> names_;
@@ -66,7 +66,7 @@ FieldTable::FieldTable(std::unique_ptr<const Table> table, SnapshotInfo& info)
   for (const TableColumn& column : table_->columns())
     names_.push_back(split_unit(column.name));
   find_fields(info);
-  name_table_fields();
+  name_table_fields(info);
 }
 
 std::optional<std::size_t> FieldTable::find_column(const std::string& name) const {
@@ -162,7 +162,7 @@ void FieldTable::find_fields(SnapshotInfo& info) {
 }
 
 // A vector of three columns has its name already.
-void FieldTable::name_table_fields() {
+void FieldTable::name_table_fields(SnapshotInfo& info) {
   std::vector<FieldInfo> infos;
   for (const TableField& field : fields_)
     infos.push_back(field.info);
@@ -170,9 +170,14 @@ void FieldTable::name_table_fields() {
   std::vector<TableField> named;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     // Beside x, y and z a column "position" cannot be told from these by a name.
-    const bool is_told = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
-                                   names[i]) == names.begin() + static_cast<std::ptrdiff_t>(i);
-    if (!is_told) continue;
+    const auto own = names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (const auto first = std::find(names.begin(), own, names[i]); first != own) {
+      const auto taken = static_cast<std::size_t>(first - names.begin());
+      info.notes.push_back(
+          fmt::format("column {} left out, as the field {} is {}; give it another name",
+                      fields_[i].info.file_name, names[i], infos[taken].file_name));
+      continue;
+    }
     named.push_back(std::move(fields_[i]));
     named.back().info.name = names[i];
   }

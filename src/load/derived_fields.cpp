@@ -1,42 +1,18 @@
 #include "load/derived_fields.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "common/physical_constants.h"
-#include "common/words.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
+#include "snapshot/unit.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
 constexpr double boltzmann_erg_per_kelvin = 1.380649e-16;
 constexpr double adiabatic_index = 5.0 / 3;
-
-// "(km/s)^2" or "(2.998e+10 cm/s)^2", as unit_name() writes squares of velocities.
-std::optional<double> squared_velocity(const std::string& text) {
-  if (text == "(km/s)^2") return 1e10;
-  if (text == "(cm/s)^2") return 1.0;
-  const std::string end = " cm/s)^2";
-  if (text.size() <= end.size() || text.front() != '(' ||
-      text.compare(text.size() - end.size(), end.size(), end) != 0) {
-    return std::nullopt;
-  }
-  const auto velocity = parse_number(text.substr(1, text.size() - end.size() - 1));
-  if (!velocity) return std::nullopt;
-  return *velocity * *velocity;
-}
-
-// "a^-2" for the symbol "a": a^-2. Nothing for other words, or where `value` is 0: not known.
-std::optional<double> power_of(const std::string& word, const std::string& symbol, double value) {
-  if (word.compare(0, symbol.size(), symbol) != 0 || !(value > 0)) return std::nullopt;
-  if (word.size() == symbol.size()) return value;
-  if (word[symbol.size()] != '^') return std::nullopt;
-  const auto power = parse_number(word.substr(symbol.size() + 1));
-  if (!power) return std::nullopt;
-  return std::pow(value, *power);
-}
 
 // One value of each vector.
 template <class Value>
@@ -87,17 +63,13 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
                               begins_with(info.format, "GIZMO");
     return is_of_gadget ? std::optional(1e10) : std::nullopt;
   }
-  const std::size_t end = field.unit.find(")^2");
-  if (end == std::string::npos) return std::nullopt;
-  std::optional<double> unit = squared_velocity(field.unit.substr(0, end + 3));
-  std::istringstream rest(field.unit.substr(end + 3));
-  const double scale_factor = info.cosmology ? info.cosmology->scale_factor : 0;
-  for (std::string word; unit && rest >> word;) {
-    auto factor = power_of(word, "h", info.hubble_parameter.value_or(0));
-    if (!factor) factor = power_of(word, "a", scale_factor);
-    unit = factor ? std::optional(*unit * *factor) : std::nullopt;
+  const Unit energy_per_mass = {1, {2, 0, -2, 0}};
+  try {
+    const Unit unit = parse_unit(field.unit, unit_factors(info), "the unit of " + field.name);
+    return same_dimension(unit, energy_per_mass) ? std::optional(unit.in_cgs) : std::nullopt;
+  } catch (const UsageError&) {
+    return std::nullopt;
   }
-  return unit;
 }
 
 Column volumes_of(const Column& mass, const Column& density, double density_unit, std::size_t count,

@@ -164,7 +164,8 @@ Column TypeFields::derived_temperatures(const std::string& key) const {
   if (!unit) {
     throw UsageError(fmt::format(
         "{}: {} is \"temperature\", which needs the unit of internal_energy, but {} has {}, "
-        "expected the square of a velocity; use internal_energy itself",
+        "expected that of an energy per mass, such as (km/s)^2 or erg/g; use internal_energy "
+        "itself",
         label_, key, file(), energy.unit.empty() ? "none" : "\"" + energy.unit + "\""));
   }
   const FieldInfo* const electrons = find_field(*type_, "electron_abundance");

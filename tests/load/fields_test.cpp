@@ -83,6 +83,9 @@ TEST(Temperature, TakesTheUnitThatTheFileSays) {
   EXPECT_NEAR(kelvin("(3e+06 cm/s)^2"), 900, 1e-3);
   EXPECT_NEAR(kelvin("(km/s)^2 a^-2"), 16, 1e-5);
   EXPECT_NEAR(kelvin("(km/s)^2 h a"), 0.125, 1e-6);
+  EXPECT_NEAR(kelvin("km^2/s^2"), 1, 1e-6);
+  EXPECT_NEAR(kelvin("erg/g"), 1e-10, 1e-16);
+  EXPECT_NEAR(kelvin("J kg^-1"), 1e-6, 1e-12);
 }
 
 TEST(Temperature, OfGadgetsDescendantsIsInTheSameUnitWhereTheFileSaysNone) {

@@ -341,6 +341,21 @@ def test_a_number_for_all_masses_keeps_its_unit(arrays):
     assert particles.units == {"mass": "g"}
 
 
+def test_a_number_for_all_masses_with_a_unit_becomes_masses_of_that_unit(arrays):
+    at_once = Particles().gas(mass=in_unit(np.array(2.0), "kg"), position=arrays["position"])
+    later = Particles().gas(mass=in_unit(np.array(2.0), "kg")).gas(position=arrays["position"])
+    for particles in (at_once, later):
+        assert particles["gas"].fields["mass"] == "kg"
+        assert np.all(particles["gas"]["mass"] == 2)
+
+
+def test_an_array_of_masses_takes_the_place_of_an_earlier_number(arrays):
+    particles = Particles().gas(mass=in_unit(np.array(2.0), "kg"))
+    particles.gas(position=arrays["position"], mass=in_unit(arrays["mass"], "g"))
+    assert particles["gas"].fields["mass"] == "g"
+    assert np.array_equal(particles["gas"]["mass"], arrays["mass"])
+
+
 def test_a_number_for_all_masses_takes_the_place_of_an_array(arrays):
     particles = Particles().gas(position=arrays["position"], mass=in_unit(arrays["mass"], "g"))
     particles.gas(mass=in_unit(np.array(2.0), "kg"))

@@ -247,6 +247,8 @@ class Particles(Source):
         # By type and field.
         self._units: dict[tuple[int, str], CarriedUnit] = {}
         self._notes: dict[tuple[int, str], str] = {}
+        # Numbers for all masses of a type that are to be arrays, until its particles are known.
+        self._masses_to_spread: dict[int, tuple[float, CarriedUnit | None]] = {}
         self._box_unit = unit_of(box_size)
         self._given_box = 0.0 if box_size is None else as_number("box_size", box_size)
         if box_size is not None:
@@ -324,14 +326,18 @@ class Particles(Source):
         self._check_units(units)
         for field, values in fields.items():
             self._set(number, field, values, units[number, field])
+        self._spread_mass(number)
         return self
 
     def _set(self, number: int, field: str, values: Any, unit: CarriedUnit | None) -> None:
         key = number, field
+        if _shared_kind(field) == "mass":
+            self._masses_to_spread.pop(number, None)
         if field == "mass" and is_number(values):
             mass = as_number("field mass", values)
             self._arrays.set_mass(number, mass)
-            self._replace_masses(number, mass, unit)
+            if unit is not None or self._has_array_of_masses(number):
+                self._masses_to_spread[number] = mass, unit
         else:
             array, note = as_values(field, values)
             self._arrays.set_field(number, field, array, "" if unit is None else unit.name)
@@ -344,13 +350,23 @@ class Particles(Source):
             if _shared_kind(field) == "length" and self._box_unit is not None:
                 self._arrays.set_box_size(self._box_in(unit))
 
-    # An array of masses counts before the number for all, which is to take its place.
-    def _replace_masses(self, number: int, mass: float, unit: CarriedUnit | None) -> None:
-        for kind in self.types.values():
-            if kind._number == number and "mass" in kind.fields:
-                array = np.full(len(kind), mass, np.float32)
-                self._arrays.set_field(number, "mass", array, "" if unit is None else unit.name)
-                self._notes.pop((number, "mass"), None)
+    # An array has a unit, which that of densities is compared with, and a number for all has none;
+    # an array of masses counts before the number, which is to take its place.
+    def _spread_mass(self, number: int) -> None:
+        kind = self._kind(number)
+        if number not in self._masses_to_spread or kind is None or len(kind) == 0:
+            return
+        mass, unit = self._masses_to_spread.pop(number)
+        array = np.full(len(kind), mass, np.float32)
+        self._arrays.set_field(number, "mass", array, "" if unit is None else unit.name)
+        self._notes.pop((number, "mass"), None)
+
+    def _has_array_of_masses(self, number: int) -> bool:
+        kind = self._kind(number)
+        return kind is not None and "mass" in kind.fields
+
+    def _kind(self, number: int) -> ParticleType | None:
+        return next((kind for kind in self.types.values() if kind._number == number), None)
 
     def gas(self, **fields: Any) -> Particles:
         """`add` for gas."""
@@ -370,6 +386,7 @@ class Particles(Source):
         self._arrays.clear(number)
         self._notes = {key: note for key, note in self._notes.items() if key[0] != number}
         self._units = {key: unit for key, unit in self._units.items() if key[0] != number}
+        self._masses_to_spread.pop(number, None)
 
     def _number(self, type: str | int) -> int:
         if not isinstance(type, str):

@@ -117,6 +117,15 @@ TEST_F(TextTable, AColumnOfRowNumbersWithoutANameIsLeftOutWithANote) {
   }
 }
 
+TEST_F(TextTable, AColumnWithTheNameOfAVectorOfColumnsIsLeftOutWithANote) {
+  const auto snapshot = open("x,y,z,position,mass\n1,2,3,9,4\n5,6,7,9,8\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8));
+  EXPECT_THAT(snapshot->info().notes,
+              Contains("column position left out, as the field position is x, y, z; give it "
+                       "another name"));
+}
+
 TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
   for (const char* header : {"x [kpc] y [kpc] z [kpc] rho [Msun / kpc^3]\n",
                              "# x (kpc) y (kpc) z (kpc) rho (Msun / kpc^3)\n",
