@@ -16,4 +16,8 @@ std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last) {
   return chosen;
 }
 
+int rounds(int all) {
+  return long_tests() ? all : (all + 4) / 5;
+}
+
 }  // namespace splotchcl::test

@@ -24,7 +24,7 @@ namespace {
   std::string table = address.path;
   do {
     const std::size_t dot = table.rfind('.');
-    table = dot == std::string::npos ? "" : table.substr(0, dot);
+    table.resize(dot == std::string::npos ? 0 : dot);
   } while (!is_table(table));
   const std::size_t rest = address.path.size() - table.size();
   KeyAddress parent = address;

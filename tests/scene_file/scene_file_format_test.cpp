@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "long_tests.h"
 #include "scene_file/scene_file_equality.h"
 #include "scene_file/scene_file_random.h"
 #include "splotchcl/error.h"
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 
 TEST(FormattedScene, ReadsBackAsTheSameScene) {
   test::RandomScenes scenes(2008);
-  for (int i = 0; i < 2000 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(2000) && !::testing::Test::HasFailure(); ++i) {
     const Scene scene = scenes.next();
     const std::string text = format_scene(scene);
     SCOPED_TRACE(text);

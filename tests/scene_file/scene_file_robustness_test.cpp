@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "long_tests.h"
 #include "scene_file/scene_file_random.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
@@ -100,7 +101,7 @@ TEST(LongScenes, HaveLimitsOnTextsAndComponents) {
 
 TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenTruncated) {
   test::RandomScenes scenes(3);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < test::rounds(20); ++i) {
     const std::string text = format_scene(scenes.next());
     for (std::size_t size = 0; size < text.size(); size += 7) {
       expect_scene_or_message(text.substr(0, size));
@@ -110,7 +111,7 @@ TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenTruncated) {
 
 TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenLettersChange) {
   test::RandomScenes scenes(4);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::rounds(2000); ++i) {
     std::string text = format_scene(scenes.next());
     const std::size_t changes = 1 + below(4);
     for (std::size_t change = 0; change < changes; ++change)
@@ -121,7 +122,7 @@ TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenLettersChange) {
 
 TEST_F(DamagedSceneFiles, AreReadOrRefusedWhenPartsMove) {
   test::RandomScenes scenes(5);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::rounds(1000); ++i) {
     std::string text = format_scene(scenes.next());
     const std::string part = text.substr(below(text.size()), below(60));
     text.insert(below(text.size()), part);
