@@ -122,7 +122,7 @@ TEST_F(TextTable, AColumnWithTheNameOfAVectorOfColumnsIsLeftOutWithANote) {
   EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(4, 8));
   EXPECT_THAT(snapshot->info().notes,
-              Contains("column position left out, as the field position is x, y, z; give it "
+              Contains("column position left out, as the field position is x,y,z; give it "
                        "another name"));
 }
 
