@@ -10,7 +10,6 @@
 #include "gpu_model/count_work.h"
 #include "gpu_model/prediction.h"
 #include "gpu_model/scene_frame.h"
-#include "machine.h"
 #include "splotchcl/error.h"
 #include "synthetic.h"
 #include "table.h"
@@ -146,9 +145,8 @@ CountedWork count(DeviceContext& device, const Arguments& arguments) {
 }
 
 void predict(const Arguments& arguments) {
-  std::cout << "Device at hand: " << describe_machine(arguments.text("device", "")).device.name
-            << "\n\n";
   DeviceContext device(choose_device(arguments.text("device", "")));
+  std::cout << "Device at hand: " << device.device.name() << "\n\n";
   const CountedWork counted = count(device, arguments);
   const std::vector<KernelWork> kernels = add_up(counted.launches, counted.work);
   print_work(counted, kernels);

@@ -188,7 +188,7 @@ INLINED INTEGER is_within_limits(const Depth depth, VALUE h, const DepthKeyParam
          TO_INTEGER(depth.key <= (UNSIGNED_WIDE)((ulong)wide_integer(p.far_key)));
 }
 
-// Of particles from i on, those of which this is asked. A call: hardly any are.
+// Of particles from i on, those of which this is asked: hardly any.
 SELDOM_CALLED INTEGER are_within_limits(uint i, uint end, INTEGER asked, const Columns columns,
                                         const ProjectParameters p) {
   const VALUE h = load_values(columns.smoothing_lengths, i, end, p.smoothing_length_stride);

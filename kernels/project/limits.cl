@@ -16,7 +16,7 @@ INLINED VALUE log_from_least(VALUE value, const FieldScaling map) {
 }
 
 // asinh(v) - asinh(m) = asinh(v sqrt(1 + m^2) - m sqrt(1 + v^2)), of two numbers with the same sign
-// by the difference of their squares. A call: hardly any fields are taken so.
+// by the difference of their squares. Hardly any fields are taken so.
 SELDOM_CALLED VALUE asinh_from_least(VALUE value, float m, float m_low, float factor) {
   const VALUE v = min(max(value, (VALUE)(-1e18f)), (VALUE)(1e18f));
   const VALUE difference = (v - m) - m_low;

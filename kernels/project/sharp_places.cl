@@ -28,7 +28,7 @@ typedef struct PlaceArrays {
 #endif
 } PlaceArrays;
 
-// A call: hardly any splats are.
+// Hardly any splats are.
 SELDOM_CALLED void find_sharp_places(uint i, uint end, const Columns columns,
                                      const ProjectParameters p, const ExtendedParameters e,
                                      PlaceArrays* places) {

@@ -5,8 +5,7 @@
 #include "common/physical_constants.h"
 #include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
-#include "snapshot/unit.h"
-#include "splotchcl/error.h"
+#include "snapshot/unit_ratio.h"
 
 namespace splotchcl {
 namespace {
@@ -63,13 +62,7 @@ std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldIn
                               begins_with(info.format, "GIZMO");
     return is_of_gadget ? std::optional(1e10) : std::nullopt;
   }
-  const Unit energy_per_mass = {1, {2, 0, -2, 0}};
-  try {
-    const Unit unit = parse_unit(field.unit, unit_factors(info), "the unit of " + field.name);
-    return same_dimension(unit, energy_per_mass) ? std::optional(unit.in_cgs) : std::nullopt;
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
+  return unit_ratio(field.unit, "(cm/s)^2", unit_factors(info));
 }
 
 Column volumes_of(const Column& mass, const Column& density, double density_unit, std::size_t count,
