@@ -1,13 +1,7 @@
 // Memory that will be needed soon, asked for early, is there when it is. OpenCL's own prefetch()
 // does nothing on PoCL, and cannot ask for memory that is written to.
-#ifndef HAS_PREFETCH  // scripts/test_icd says that a simulator has none
-#ifdef __clang__
-#define HAS_PREFETCH 1
-#else
-#define HAS_PREFETCH 0
-#endif
-#endif
-#if HAS_PREFETCH
+// HAS_PREFETCH: a processor's compiler that has clang's builtin (program_text.cpp).
+#ifdef HAS_PREFETCH
 #define ask_for(place) __builtin_prefetch((const void*)(size_t)(place))
 #define ask_to_write(place) __builtin_prefetch((const void*)(size_t)(place), 1)
 #else

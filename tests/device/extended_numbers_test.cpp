@@ -181,12 +181,15 @@ TEST_P(ExtendedNumbers, PreciseExpAndPhi) {
   EXPECT_LE(largest_error("precise_exp_negative(x[i], 0.0f)", evenly_spread(0, 80, 5001), exp,
                           1e-300, precise_kernel),
             1.3e-7);
+  // A division may err by 2.5 units of the last place (OpenCL 7.4); processors round it to half of
+  // one.
+  const double bound = 1.3e-7 + (device().traits.is_gpu ? 2 * 0x1p-23 : 0);
   EXPECT_LE(largest_error("precise_phi(x[i])", logarithmically(1e-30, 1e30, 5000), phi, 1e-300,
                           precise_kernel),
-            1.3e-7);
+            bound);
   EXPECT_LE(
       largest_error("precise_phi(x[i])", evenly_spread(0, 5, 5001), phi, 1e-300, precise_kernel),
-      1.3e-7);
+      bound);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ExtendedNumbers, testing::Bool(),

@@ -55,6 +55,12 @@ std::set<std::string> written_macros() {
   return names_in(text_of(specialization), R"re(define(?:_if)?\([^"]*"([A-Z0-9_]+))re");
 }
 
+// What compilers have beyond the language.
+std::set<std::string> macros_of_options() {
+  return names_in(text_of(source_folder() / "src/device/opencl/program_text.cpp"),
+                  R"re("-D(HAS_\w+)")re");
+}
+
 TEST(Defines, AreWrittenByTheSpecializationAlone) {
   for (const fs::path& file : files_below(source_folder() / "src")) {
     if (file == specialization) continue;
@@ -66,9 +72,13 @@ TEST(Defines, ThatKernelsAskForAreWrittenOrTheirOwn) {
   const std::string kernels = kernel_texts();
   const std::set<std::string> written = written_macros();
   const std::set<std::string> own = names_in(kernels, R"(#define (\w+))");
+  const std::set<std::string> of_options = macros_of_options();
+  EXPECT_GE(of_options.size(), 2u);
   for (const std::string& asked : names_in(kernels, R"((?:#ifdef |#ifndef |defined\()(\w+))")) {
     const bool of_the_language = asked.rfind("__", 0) == 0 || asked.rfind("cl_khr_", 0) == 0;
-    EXPECT_TRUE(of_the_language || written.count(asked) || own.count(asked)) << asked;
+    EXPECT_TRUE(of_the_language || written.count(asked) || own.count(asked) ||
+                of_options.count(asked))
+        << asked;
   }
 }
 

@@ -71,7 +71,7 @@ compute::kernel Program::create_kernel(const std::string& name) const {
 Program ProgramCache::get(const ProgramSource& source) {
   const compute::device device = context_.get_device();
   const bool is_short = is_pocl(device);
-  ProgramText text = is_short ? short_text_of(source) : text_of(source);
+  ProgramText text = is_short ? short_text_of(source, device) : text_of(source, device);
   std::string key = key_of(device, text);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return Program(*this, found->second);
@@ -79,7 +79,7 @@ Program ProgramCache::get(const ProgramSource& source) {
   entry.key = key;
   entry.names = names_of(source);
   entry.text = std::move(text);
-  if (is_short) entry.fallback = text_of(source);
+  if (is_short) entry.fallback = text_of(source, device);
   return Program(*this, programs_.emplace(std::move(key), std::move(entry)).first->second);
 }
 

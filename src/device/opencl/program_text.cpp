@@ -17,24 +17,42 @@ std::string kernel_text(const std::string& name) {
 constexpr char zero_denormals[] = "-cl-denorms-are-zero";
 // As if opencl-c.h, of clang's headers, had been read.
 constexpr char without_declarations[] = "-D_OPENCL_H_";
+// What compilers have beyond the language (prefetch.cl, flags.cl). NVIDIA's is clang, too, and
+// refuses its builtin for prefetching; a GPU has other work while it waits.
+constexpr char with_prefetch[] = "-DHAS_PREFETCH";
+constexpr char with_ballot[] = "-DHAS_BALLOT";
+
+std::string extras_of(const compute::device& device) {
+  const bool is_processor = (device.type() & CL_DEVICE_TYPE_CPU) != 0;
+  if (is_processor && is_pocl(device)) return with_prefetch;
+  return is_nvidia(device) ? with_ballot : "";
+}
+
+std::string joined(const std::string& a, const std::string& b) {
+  return a + (a.empty() || b.empty() ? "" : " ") + b;
+}
 
 }  // namespace
 
-ProgramText text_of(const ProgramSource& source) {
+ProgramText text_of(const ProgramSource& source, const compute::device& device) {
   std::string text = source.defines;
   for (const std::string& file : source.files)
     text += kernel_text(file);
-  return {source.denormals_are_zero ? zero_denormals : "", text + source.more};
+  return {joined(source.denormals_are_zero ? zero_denormals : "", extras_of(device)),
+          text + source.more};
 }
 
-ProgramText short_text_of(const ProgramSource& source) {
-  const ProgramText text = text_of(source);
-  const std::string others = text.options.empty() ? "" : " " + text.options;
-  return {without_declarations + others, kernel_text("builtins.h") + text.source};
+ProgramText short_text_of(const ProgramSource& source, const compute::device& device) {
+  const ProgramText text = text_of(source, device);
+  return {joined(without_declarations, text.options), kernel_text("builtins.h") + text.source};
 }
 
 bool is_pocl(const compute::device& device) {
   return device.platform().name() == "Portable Computing Language";
+}
+
+bool is_nvidia(const compute::device& device) {
+  return device.platform().name() == "NVIDIA CUDA";
 }
 
 std::string names_of(const ProgramSource& source) {
