@@ -63,6 +63,7 @@ struct Options {
   int runs = 5;
   int part_side = 64;
   bool with_error = true, with_floors = true;
+  bool columns_stay = false;
   std::vector<std::string> settings;
 };
 
@@ -82,6 +83,7 @@ Options read_options(const Arguments& arguments) {
   options.part_side = arguments.number("part", 64);
   options.with_error = !arguments.has("no-error");
   options.with_floors = !arguments.has("no-floors");
+  options.columns_stay = arguments.has("columns-stay");
   if (arguments.has("tolerance")) {
     options.settings.push_back("tolerance=" + arguments.text("tolerance", ""));
   }
@@ -353,7 +355,10 @@ void run(const Arguments& arguments) {
   // What they are made of is measured on the processor.
   options.with_floors = options.with_floors && !machine.device.is_gpu;
   std::printf("%s\n\n", describe(machine).c_str());
-  Renderer renderer(RendererOptions{options.device, CompositeShape::automatic});
+  RendererOptions of_renderer;
+  of_renderer.device = options.device;
+  of_renderer.columns_stay = options.columns_stay;
+  Renderer renderer(of_renderer);
   Report report;
   for (const std::string& name : scene_names) {
     if (snapshot_for(name, options).empty()) continue;
@@ -380,6 +385,7 @@ int main(int count, char** words) {
        "part=PIXELS: side of the squares on which the error is measured (64)",
        "no-error: leaves the reference out",
        "no-floors: leaves out what stages could take at least, as it is for a GPU",
+       "columns-stay: frames as of a film, whose particles stay on a GPU",
        "device=NAME: part of a device's name", "csv=FOLDER: where the tables go"},
       splotchcl::bench::run);
 }

@@ -98,6 +98,11 @@ KernelCost bin_find_tiles(const Launches& l) {
           l.items * 150, FEW_TILES, 0};
 }
 
+KernelCost bin_add_counts(const Launches& l) {
+  return {l.items * COPIES_OF_COUNTS * word, l.items * word, l.items * 2 * COPIES_OF_COUNTS,
+          COPIES_OF_COUNTS, 0};
+}
+
 KernelCost bin_count_entries(const Launches& l) {
   return {l.items * sizeof(shared::SplatTiles), l.items * word, l.items * 30, 1, 0};
 }
@@ -225,6 +230,7 @@ const std::map<std::string, Cost>& costs() {
                                                   {"sort_take_ends", sort_take_ends},
                                                   {"sort_take_pairs", sort_take_pairs},
                                                   {"bin_find_tiles", bin_find_tiles},
+                                                  {"bin_add_counts", bin_add_counts},
                                                   {"bin_count_entries", bin_count_entries},
                                                   {"bin_emit", bin_emit},
                                                   {"bin_make_entries", bin_make_entries},

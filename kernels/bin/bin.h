@@ -60,6 +60,9 @@ struct SplatTiles {
 };
 // Splats of at most so many tiles are counted tile by tile.
 #define FEW_TILES 4
+// Each work-group counts in one of so many copies: of a crowd's splats, which lie in a few tiles,
+// as many would else wait for each other.
+#define COPIES_OF_COUNTS 16
 
 // Of a band of tiles in this shape.
 struct GroupBinParameters {

@@ -50,7 +50,7 @@ INLINED void count_in_groups(const SplatTiles tiles, const Grid grid, __global u
   if (!ends_right && !ends_below) atomic_inc(below + columns);
 }
 
-// `counts` has room for all tiles twice, and is 0 at first.
+// `counts` has room for all tiles twice, in each of its copies, and is 0 at first.
 __kernel OF_GROUPS void bin_find_tiles(const GroupBinParameters p, __global const Grid* grids,
                                        __global const Splat* splats, __global const uint* order,
                                        __global const BlockCounts* blocks,
@@ -61,7 +61,19 @@ __kernel OF_GROUPS void bin_find_tiles(const GroupBinParameters p, __global cons
   const Grid grid = grids[grid_of(splat)];
   const SplatTiles found = tiles_of_splat(splat, grid);
   tiles[slot] = found;
-  count_in_groups(found, grid, counts, counts + p.bin.tile_count);
+  __global uint* own =
+      counts + (size_t)(get_group_id(0) % COPIES_OF_COUNTS) * (2u * p.bin.tile_count);
+  count_in_groups(found, grid, own, own + p.bin.tile_count);
+}
+
+// Adds all copies of a count to the first.
+__kernel OF_GROUPS void bin_add_counts(const GroupBinParameters p, __global uint* counts) {
+  const uint i = get_global_id(0), all = 2u * p.bin.tile_count;
+  if (i >= all) return;
+  uint sum = 0;
+  for (uint copy = 0; copy < COPIES_OF_COUNTS; ++copy)
+    sum += counts[(size_t)copy * all + i];
+  counts[i] = sum;
 }
 
 // Of the splat's tiles, row by row, those before this one.

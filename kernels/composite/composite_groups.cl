@@ -4,9 +4,7 @@
 // composite_rows.cl, on single floats.
 #define GROUP (TILE_WIDTH * TILE_HEIGHT)
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
-// A bit each in a word, that of the first splat the highest.
-#define BATCH 32
-#define BIT_OF(k) (0x80000000u >> (k))
+#define BATCH FLAGS
 // Parts of a tile: the pixels of 32 work-items, which many GPUs run as one.
 #define PART_WIDTH 8
 #define PART_HEIGHT 4
@@ -19,22 +17,35 @@
 #define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
 
 // What all pixels need of a splat's light, in words of four floats: absorption with the optical
-// depth in any pixel at most, half the absorption, emission; in sums what they add up, by threes.
+// depth in any pixel at most, emission; in sums what they add up, by threes.
 #ifdef LIGHT_ORDERED
-#define AMPLITUDES 3
+#define AMPLITUDES 2
 #else
 #define AMPLITUDES (SUMMED / 3)
 #endif
 
-typedef struct Batch {
-  float4 amplitudes[BATCH * AMPLITUDES];
+// Which pixels a cut leaves out follows from two numbers, of the column and of the row.
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE) && !defined(ELLIPSES)
+#define CUT_BY_AXES
+typedef float2 Axis;  // the shape, and cut_of_axis()
+#else
+typedef float Axis;
+#endif
+
+// The splats of a batch as they are listed. Two in turn: the next are fetched while slower items
+// still draw.
+typedef struct Listed {
   TileSplat splats[BATCH];
   float factors[2 * BATCH];  // of each splat's columns, then of each splat's rows (axis_factor)
-  float axes[BATCH * AXES];  // of each splat, columns, then rows
-  uint touching;             // splats that reach the center of a pixel of the tile
-  uint drawn[PARTS];         // those of a part
-  uint thick;                // whose layers two terms do not serve for
-  uint shows;                // whether anything behind shows in any pixel
+} Listed;
+
+// What all pixels need of them.
+typedef struct Batch {
+  float4 amplitudes[BATCH * AMPLITUDES];
+  Axis axes[BATCH * AXES];  // of each splat, columns, then rows
+  Flags touching;           // splats that reach the center of a pixel of the tile
+  Flags drawn[PARTS];       // those of a part
+  Flags thick;              // whose layers two terms do not serve for
 } Batch;
 
 // What axis_shape() needs of a width: divided once for all pixels.
@@ -78,9 +89,9 @@ static inline float weight_of_stencil(__global const Stencil* stencil, float sig
 
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
 // `center` is that of the item's column or row, whose number is `pixel`.
-static inline float axis_of_splat(const __local Batch* batch, uint k, int is_column, int pixel,
+static inline float axis_of_splat(const __local Listed* listed, uint k, int is_column, int pixel,
                                   float center, float mean_sigma TILE_STENCIL_PARAMETER) {
-  const __local TileSplat* splat = batch->splats + k;
+  const __local TileSplat* splat = listed->splats + k;
 #ifdef STENCILS
   if (stencil && splat->sigma < 0.0f) {
     const StencilPlaces place =
@@ -95,7 +106,7 @@ static inline float axis_of_splat(const __local Batch* batch, uint k, int is_col
 #else
   if (fabs(d) > radius) return 0.0f;
   return max(axis_shape(d, is_column ? SIGMA_X(*splat) : splat->sigma,
-                        batch->factors[is_column ? k : BATCH + k], mean_sigma),
+                        listed->factors[is_column ? k : BATCH + k], mean_sigma),
              0.0f);
 #endif
 }
@@ -147,19 +158,17 @@ static inline float deepest_of(const __local TileSplat* splat, float mean_sigma)
 #endif
 }
 
-INLINED void fetch(__local Batch* batch, __global const TileSplat* entries, uint first, uint count,
-                   float mean_sigma) {
-  const uint item = get_local_id(0);
+INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, uint first,
+                   uint count, float mean_sigma) {
+  const uint item = get_local_id(0), k = item % BATCH;
   __global const uint* from = (__global const uint*)(entries + first);
-  __local uint* to = (__local uint*)batch->splats;
+  __local uint* to = (__local uint*)listed->splats;
   for (uint w = item; w < count * ENTRY_WORDS; w += GROUP)
     to[w] = from[w];
-  if (item < count) {
-    batch->factors[item] = axis_factor(SIGMA_X(entries[first + item]), mean_sigma);
-    batch->factors[BATCH + item] = axis_factor(entries[first + item].sigma, mean_sigma);
+  if (item < 2 * BATCH && k < count) {
+    const float sigma = item < BATCH ? SIGMA_X(entries[first + k]) : entries[first + k].sigma;
+    listed->factors[item] = axis_factor(sigma, mean_sigma);
   }
-  if (item == 0) batch->touching = batch->thick = batch->shows = 0;
-  if (item < PARTS) batch->drawn[item] = 0;
 }
 
 #ifdef CLOUDS_IN_LISTS
@@ -167,15 +176,13 @@ INLINED void fetch(__local Batch* batch, __global const TileSplat* entries, uint
 #define TILE_CLOUDS_ARGUMENT , &of_tile
 #define TILE_CLOUDS_PASSED , clouds
 
-INLINED void prepare_cloud(__local Batch* batch, uint k, __global const CloudEntry* cloud) {
-  __local float4* amplitudes = batch->amplitudes + k * AMPLITUDES;
+// Columns of clouds are worked out where layers may be thick.
+INLINED int prepare_cloud(__local float4* amplitudes, __global const CloudEntry* cloud) {
   const float4 absorption =
       (float4)(cloud->absorption[0], cloud->absorption[1], cloud->absorption[2], cloud->deepest);
-  // Columns of clouds are worked out where layers may be thick.
-  atomic_or(&batch->thick, BIT_OF(k));
   amplitudes[0] = absorption;
-  amplitudes[1] = 0.5f * absorption;
-  amplitudes[2] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
+  amplitudes[1] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
+  return 1;
 }
 #else
 #define TILE_CLOUDS_PARAMETER
@@ -183,72 +190,101 @@ INLINED void prepare_cloud(__local Batch* batch, uint k, __global const CloudEnt
 #define TILE_CLOUDS_PASSED
 #endif
 
-INLINED void prepare_amplitudes(__local Batch* batch, uint k, float mean_sigma,
-                                const CompositeParameters p TILE_CLOUDS_PARAMETER) {
-  const __local TileSplat* splat = batch->splats + k;
+// Returns whether two terms do not serve for the layer.
+INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSplat* splat,
+                               float mean_sigma,
+                               const CompositeParameters p TILE_CLOUDS_PARAMETER) {
 #ifdef CLOUDS_IN_LISTS
-  if (is_cloud(splat->sigma)) {
-    prepare_cloud(batch, k, cloud_of(splat->sigma, clouds));
-    return;
-  }
+  if (is_cloud(splat->sigma)) return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
 #endif
-  __local float4* amplitudes = batch->amplitudes + k * AMPLITUDES;
 #ifdef LIGHT_ORDERED
   const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
                                      splat->absorption[2], deepest_of(splat, mean_sigma));
-  if (absorption.w > p.phi_short) atomic_or(&batch->thick, BIT_OF(k));
   amplitudes[0] = absorption;
-  amplitudes[1] = 0.5f * absorption;
-  amplitudes[2] = (float4)(splat->emission[0], splat->emission[1], splat->emission[2], 0.0f);
+  amplitudes[1] = (float4)(splat->emission[0], splat->emission[1], splat->emission[2], 0.0f);
+  return absorption.w > p.phi_short;
 #else
   for (int i = 0; i < AMPLITUDES; ++i) {
     const __local float* summed = splat->summed + 3 * i;
     amplitudes[i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
   }
+  return 0;
 #endif
 }
 
 // Whether an entry touches the tile, or the part of it around (x, y).
-INLINED int touches(const __local Batch* batch, uint k TILE_CLOUDS_PARAMETER) {
-  const __local TileSplat* splat = batch->splats + k;
+INLINED int touches(const __local TileSplat* splat TILE_CLOUDS_PARAMETER) {
 #ifdef CLOUDS_IN_LISTS
   if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
 #endif
   return reaches_tile(splat);
 }
 
-INLINED int touches_part(const __local Batch* batch, uint k, float x, float y,
+INLINED int touches_part(const __local TileSplat* splat, float x, float y,
                          float mean_sigma TILE_CLOUDS_PARAMETER) {
-  const __local TileSplat* splat = batch->splats + k;
 #ifdef CLOUDS_IN_LISTS
   if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
 #endif
   return reaches_part(splat, x, y, mean_sigma);
 }
 
+#ifdef CUT_BY_AXES
+// The square of a column's distance from a splat, and what a row's leaves of the square of the
+// cut's radius: a pixel is inside where the former is no larger. Of means the pixel that holds the
+// center is inside, too: it is the one with distances above -1/2 and up to 1/2.
+static inline float cut_of_axis(const __local TileSplat* splat, int is_column, float center) {
+  const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
+  const float cut = cut_radius(splat->radius);
+  const float left = cut * cut - d * d;
+#ifdef SAMPLING_MEAN
+  const float above_a_quarter = 0.25000003f;
+  if (is_column) return d == -0.5f ? above_a_quarter : d * d;
+  return d > -0.5f && d <= 0.5f ? max(left, 0.25f) : left;
+#else
+  return is_column ? d * d : left;
+#endif
+}
+#endif
+
 // What all pixels of the tile need of the batch. An item has one column or row of all splats that
 // it takes, and one part: there are as many parts of all splats as items.
-INLINED void prepare(__local Batch* batch, uint count, float mean_sigma,
+INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint count,
+                     float mean_sigma,
                      const CompositeParameters p TILE_CLOUDS_PARAMETER TILE_STENCIL_PARAMETER) {
   const uint item = get_local_id(0), axis = item % AXES;
   const int is_column = axis < TILE_WIDTH;
   const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
   const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
-  for (uint k = item / AXES; k < count; k += GROUP / AXES)
+  for (uint k = item / AXES; k < count; k += GROUP / AXES) {
+    const float shape =
+        axis_of_splat(listed, k, is_column, pixel, center, mean_sigma TILE_STENCIL_ARGUMENT);
+#ifdef CUT_BY_AXES
     batch->axes[k * AXES + axis] =
-        axis_of_splat(batch, k, is_column, pixel, center, mean_sigma TILE_STENCIL_ARGUMENT);
-  if (item < count) {
-    prepare_amplitudes(batch, item, mean_sigma, p TILE_CLOUDS_PASSED);
-    if (touches(batch, item TILE_CLOUDS_PASSED)) atomic_or(&batch->touching, BIT_OF(item));
+        (Axis)(shape, cut_of_axis(listed->splats + k, is_column, center));
+#else
+    batch->axes[k * AXES + axis] = shape;
+#endif
   }
   const uint k = item % BATCH, part = item / BATCH;
+  const __local TileSplat* splat = listed->splats + k;
+  // Items of the first parts have fetched factors.
+  if (part == PARTS - 1) {
+    int is_thick = 0, is_touching = 0;
+    if (k < count) {
+      is_thick = prepare_amplitudes(batch->amplitudes + k * AMPLITUDES, splat, mean_sigma,
+                                    p TILE_CLOUDS_PASSED);
+      is_touching = touches(splat TILE_CLOUDS_PASSED);
+    }
+    store_flag(&batch->thick, k, is_thick);
+    store_flag(&batch->touching, k, is_touching);
+  }
   const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
   const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-  if (k < count && touches_part(batch, k, x, y, mean_sigma TILE_CLOUDS_PASSED))
-    atomic_or(&batch->drawn[part], BIT_OF(k));
+  store_flag(batch->drawn + part, k,
+             k < count && touches_part(splat, x, y, mean_sigma TILE_CLOUDS_PASSED));
 }
 
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE) && !defined(CUT_BY_AXES)
 static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
   const float dx = (float)x + FIRST_X - splat->x - LOW_X(*splat);
   const float dy = (float)y + FIRST_Y - splat->y - LOW_Y(*splat);
@@ -269,9 +305,9 @@ static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) 
 #ifdef LIGHT_ORDERED
 // As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl.
 static inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
-                                    float half_of_it, float shape) {
+                                    float shape, float half_square) {
   const float opacity = pixel[c + 3];
-  const float covered = shape - (shape * shape) * half_of_it;
+  const float covered = shape - half_square * absorption;
   const float u = covered - opacity * covered;
   pixel[c] += u * emission;
   pixel[c + 3] = opacity + u * absorption;
@@ -289,10 +325,11 @@ static inline void add_channel(float* pixel, int c, float emission, float absorp
 }
 
 INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, float shape) {
-  const float4 absorption = amplitudes[0], half_of_it = amplitudes[1], emission = amplitudes[2];
-  add_thin_channel(pixel, 0, emission.x, absorption.x, half_of_it.x, shape);
-  add_thin_channel(pixel, 1, emission.y, absorption.y, half_of_it.y, shape);
-  add_thin_channel(pixel, 2, emission.z, absorption.z, half_of_it.z, shape);
+  const float4 absorption = amplitudes[0], emission = amplitudes[1];
+  const float half_square = 0.5f * (shape * shape);
+  add_thin_channel(pixel, 0, emission.x, absorption.x, shape, half_square);
+  add_thin_channel(pixel, 1, emission.y, absorption.y, shape, half_square);
+  add_thin_channel(pixel, 2, emission.z, absorption.z, shape, half_square);
 }
 
 INLINED void add_splat(float* pixel, const __local float4* amplitudes, float shape,
@@ -303,7 +340,7 @@ INLINED void add_splat(float* pixel, const __local float4* amplitudes, float sha
     return;
   }
 #endif
-  const float4 absorption = amplitudes[0], emission = amplitudes[2];
+  const float4 absorption = amplitudes[0], emission = amplitudes[1];
   const int by_series = absorption.w <= p.phi_series;
   add_channel(pixel, 0, emission.x, absorption.x, shape, by_series);
   add_channel(pixel, 1, emission.y, absorption.y, shape, by_series);
@@ -320,54 +357,56 @@ INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, floa
 }
 #endif
 
-// Of the batch's splats of these bits the first, whose bit is taken away.
-INLINED uint take_first(uint* bits) {
-  const uint k = clz(*bits);
-  *bits ^= BIT_OF(k);
-  return k;
-}
-
 #ifdef FACE_OF_CUBE
-INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y TILE_PARAMETER) {
+INLINED float shape_at(const __local Batch* batch, const __local Listed* listed, uint k, uint x,
+                       uint y TILE_PARAMETER) {
   const float dx = batch->axes[k * AXES + x], dy = batch->axes[k * AXES + TILE_WIDTH + y];
   if (dx == NOT_DRAWN || dy == NOT_DRAWN) return 0.0f;
-  return face_shape(batch->splats[k].tilt, dx, dy, (on_face->x + (float)x) * on_face->per_focal,
+  return face_shape(listed->splats[k].tilt, dx, dy, (on_face->x + (float)x) * on_face->per_focal,
                     (on_face->y + (float)y) * on_face->per_focal, on_face->cut2);
 }
 #else
-INLINED float shape_at(const __local Batch* batch, uint k, uint x, uint y) {
+INLINED float shape_at(const __local Batch* batch, const __local Listed* listed, uint k, uint x,
+                       uint y) {
+  const Axis column = batch->axes[k * AXES + x], row = batch->axes[k * AXES + TILE_WIDTH + y];
+#ifdef CUT_BY_AXES
+  return column.y <= row.y ? column.x * row.x : 0.0f;
+#else
 #ifdef KERNEL_CUT
-  if (!is_inside_cut(batch->splats + k, x, y)) return 0.0f;
+  if (!is_inside_cut(listed->splats + k, x, y)) return 0.0f;
 #endif
-  return batch->axes[k * AXES + x] * batch->axes[k * AXES + TILE_WIDTH + y];
+  return column * row;
+#endif
 }
 #endif
 
 // The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
-INLINED void draw(float* pixel, const __local Batch* batch, uint bits, uint x, uint y,
+INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed* listed, uint bits,
+                  uint x, uint y,
                   const CompositeParameters p TILE_PARAMETER TILE_CLOUDS_PARAMETER) {
 #ifdef LIGHT_ORDERED
 #ifdef KEEP_TRANSMITTANCE
   const int all_thin = 0;
 #else
-  const int all_thin = (bits & batch->thick) == 0;
+  const int all_thin = (bits & bits_of_flags(&batch->thick)) == 0;
 #endif
   while (!all_thin && bits != 0) {
     const uint k = take_first(&bits);
 #ifdef CLOUDS_IN_LISTS
-    const float sigma = batch->splats[k].sigma;
+    const float sigma = listed->splats[k].sigma;
     const float shape = is_cloud(sigma)
                             ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
-                            : shape_at(batch, k, x, y TILE_PASSED);
+                            : shape_at(batch, listed, k, x, y TILE_PASSED);
 #else
-    const float shape = shape_at(batch, k, x, y TILE_PASSED);
+    const float shape = shape_at(batch, listed, k, x, y TILE_PASSED);
 #endif
     if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
   }
 #endif
   while (bits != 0) {
     const uint k = take_first(&bits);
-    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape_at(batch, k, x, y TILE_PASSED));
+    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES,
+                   shape_at(batch, listed, k, x, y TILE_PASSED));
   }
 }
 
@@ -400,19 +439,13 @@ static inline int shows_behind(const float* front, float stop) {
 #endif
 }
 
-// The bits behind the first n set ones of `counted`, which has as many at least: from the next set
-// one on.
-static inline uint bits_behind(uint counted, uint n) {
-  for (uint k = 0; k < n; ++k)
-    take_first(&counted);
-  return counted != 0 ? 0xffffffffu >> clz(counted) : 0u;
-}
-
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes,
     __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
+  __local Listed listed[2];
   __local Batch batch;
+  __local uint shows;  // whether anything behind shows in any pixel
   const uint item = get_local_id(0), part = item / PART_ITEMS;
   // The launch has as many groups as there are segments.
   const Segment segment = segments[p.first_segment + get_group_id(0)];
@@ -439,35 +472,38 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     front[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
     pixel[c] = 0.0f;
   }
-  if (item == 0) batch.shows = 0;
+  if (item == 0) shows = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (shows_behind(front, p.stop)) atomic_or(&batch.shows, 1u);
+  if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
   barrier(CLK_LOCAL_MEM_FENCE);
   // Blocks are of splats that touch the tile: a crop's lists have others than those of the picture,
   // too. What decides over steps and barriers is the same for all items.
-  uint in_block = 0, end = batch.shows ? segment.end : segment.begin;
-  barrier(CLK_LOCAL_MEM_FENCE);
+  uint in_block = 0, turn = 0, end = shows ? segment.end : segment.begin;
   for (uint first = segment.begin; first < end; first += BATCH) {
     const uint count = min((uint)BATCH, segment.end - first);
-    fetch(&batch, entries, first, count, grid.mean_sigma);
+    __local Listed* own_listed = listed + turn;
+    turn ^= 1u;
+    fetch(own_listed, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, count, grid.mean_sigma, p TILE_CLOUDS_ARGUMENT TILE_STENCIL_ARGUMENT);
+    prepare(&batch, own_listed, count, grid.mean_sigma,
+            p TILE_CLOUDS_ARGUMENT TILE_STENCIL_ARGUMENT);
+    if (item == 0) shows = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    const uint touching = batch.touching, drawn = batch.drawn[part];
+    const uint touching = bits_of_flags(&batch.touching);
+    const uint drawn = bits_of_flags(batch.drawn + part);
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
     // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
     const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    draw(pixel, &batch, drawn & ~of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
+    draw(pixel, &batch, own_listed, drawn & ~of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
     in_block += popcount(touching);
     if (ends_block) {
       add_block(pixel, front);
-      if (shows_behind(front, p.stop)) atomic_or(&batch.shows, 1u);
-      draw(pixel, &batch, drawn & of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
+      if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
+      draw(pixel, &batch, own_listed, drawn & of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
       in_block -= SPLATS_OF_BLOCK;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (!shows) end = first;
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (ends_block && !batch.shows) end = first;
-    barrier(CLK_LOCAL_MEM_FENCE);
   }
   add_block(pixel, front);
   for (int c = 0; c < PLANES; ++c) {

@@ -2,19 +2,62 @@
 // per segment, of which the first of a tile joins them all, a work-item per pixel.
 #define GROUP (TILE_WIDTH * TILE_HEIGHT)
 
+// The segment behind the tile's last one. All items look for it together: to read one segment after
+// the other would take longer than to join them.
+INLINED uint end_of_tile(__local uint* end, __global const Segment* segments, uint first,
+                         uint end_segment) {
+  const uint tile = segments[first].tile;
+  uint searched = first + 1, found = end_segment;
+  if (get_local_id(0) == 0) *end = end_segment;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  while (searched < found) {
+    const uint s = searched + get_local_id(0);
+    if (s < end_segment && segments[s].tile != tile) atomic_min(end, s);
+    searched += GROUP;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    found = *end;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  return found;
+}
+
+// A pixel of a layer behind what is in front of it.
+static inline void join_pixel(float* front, __global const float* layer) {
+#ifdef LIGHT_ORDERED
+  for (int c = 0; c < 3; ++c) {
+    const float transmittance = transmittance_of(front[c + 3]);
+    front[c] += transmittance * layer[c * GROUP];
+    front[c + 3] = carry_behind(front[c + 3], transmittance, layer[(c + 3) * GROUP]);
+  }
+#else
+  for (int c = 0; c < PLANES; ++c)
+    front[c] += layer[c * GROUP];
+#endif
+}
+
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global float* planes, __global const float* partials) {
+  __local uint end;
   const uint id = p.first_segment + get_group_id(0), pixel = get_local_id(0);
   const Segment first = segments[id];
-  if (first.partial == NO_PARTIAL || (id > 0 && segments[id - 1].tile == first.tile)) return;
+  const int joins = first.partial != NO_PARTIAL && (id == 0 || segments[id - 1].tile != first.tile);
+  const uint count =
+      end_of_tile(&end, segments, id, joins ? p.end_segment : min(id + 1, p.end_segment)) - id;
+  if (!joins) return;
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, first.tile)];
   const uint in_grid = first.tile - grid.first_tile;
   const uint row = in_grid / (uint)grid.tiles_x * TILE_HEIGHT + pixel / TILE_WIDTH;
   const uint column = in_grid % (uint)grid.tiles_x * TILE_WIDTH + pixel % TILE_WIDTH;
   __global float* own = planes + first_float(grid) + (size_t)row * grid.stride + column;
-  for (uint s = id; s < p.end_segment && segments[s].tile == first.tile; ++s) {
-    join_pixels(own, grid.plane_size, partials + (size_t)segments[s].partial * PLANES * GROUP,
-                pixel);
-  }
+  // Kept where no store can change it, so that layers are read before they are wanted.
+  float front[PLANES];
+  for (int c = 0; c < PLANES; ++c)
+    front[c] = own[(size_t)c * grid.plane_size];
+  __global const float* layer = partials + (size_t)first.partial * PLANES * GROUP + pixel;
+#pragma unroll 4
+  for (uint k = 0; k < count; ++k)
+    join_pixel(front, layer + (size_t)k * PLANES * GROUP);
+  for (int c = 0; c < PLANES; ++c)
+    own[(size_t)c * grid.plane_size] = front[c];
 }

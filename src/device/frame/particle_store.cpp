@@ -59,8 +59,7 @@ const compute::buffer* ParticleStore::find(const Key& key) {
   // Who draws arrays of its own may have changed them since the last frame.
   const bool is_copy = entry.kind == Kind::given && entry.bytes > 0;
   if (is_copy && !columns_stay_ && entry.frame != frame_) {
-    device_.queue.enqueue_write_buffer(entry.buffer, 0, static_cast<std::size_t>(entry.bytes),
-                                       std::get<0>(key));
+    device_.copies.write(entry.buffer, std::get<0>(key), static_cast<std::size_t>(entry.bytes));
   }
   entry.frame = frame_;
   entry.use = ++uses_;
@@ -75,15 +74,15 @@ compute::buffer ParticleStore::keep(const Key& key, std::shared_ptr<const void> 
   entry.owner = std::move(owner);
   entry.frame = frame_;
   entry.use = ++uses_;
-  // OpenCL's interface takes host memory as non-const; a read-only buffer is not written.
-  void* const at = const_cast<void*>(memory);
   if (device_.traits.shares_host_memory) {
+    // OpenCL's interface takes host memory as non-const; a read-only buffer is not written.
+    void* const at = const_cast<void*>(memory);
     entry.buffer =
         compute::buffer(device_.context, bytes, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, at);
   } else {
     make_room(bytes);
-    entry.buffer =
-        compute::buffer(device_.context, bytes, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, at);
+    entry.buffer = compute::buffer(device_.context, bytes, CL_MEM_READ_ONLY);
+    device_.copies.write(entry.buffer, memory, bytes);
     entry.bytes = bytes;
     device_bytes_ += bytes;
   }

@@ -300,14 +300,20 @@ std::vector<std::string> Specialization::composite_files() const {
     }
     files.insert(files.end(), {"stencil_rows.cl", "pieces.cl", "composite_rows.cl"});
   } else {
-    files.push_back("composite_groups.cl");
+    files.insert(files.end(), {"flags.cl", "composite_groups.cl"});
   }
   return files;
 }
 
 std::vector<std::string> Specialization::join_files() const {
-  return {"splat.h",  "bin.h",      "composite.h",    "common.cl",
-          "lanes.cl", "opacity.cl", "join_pixels.cl", rows_ ? "join.cl" : "join_groups.cl"};
+  std::vector<std::string> files = {"splat.h",   "bin.h",    "composite.h",
+                                    "common.cl", "lanes.cl", "opacity.cl"};
+  if (rows_) {
+    files.insert(files.end(), {"join_pixels.cl", "join.cl"});
+  } else {
+    files.push_back("join_groups.cl");
+  }
+  return files;
 }
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than

@@ -9,13 +9,19 @@ namespace splotchcl {
 namespace {
 
 constexpr std::uint64_t padding = 64;
-// One part of so many may lie idle beside what has been in use: otherwise a little more that is
-// wanted would cost large buffers that are needed again.
-constexpr std::uint64_t idle_part = 32;
 
 // A buffer serves for less, unless it is more than twice as large: that much would lie idle.
 bool serves(const compute::buffer& memory, std::uint64_t wanted) {
   return memory.size() >= wanted && memory.size() <= 2 * wanted + 4096;
+}
+
+// To one of eight sizes between two powers of two, so that buffers of almost the same size, as the
+// lists of one chunk and of the next, serve for each other.
+std::uint64_t rounded_up(std::uint64_t bytes) {
+  std::uint64_t step = 64;
+  while (bytes > 16 * step)
+    step *= 2;
+  return (bytes + step - 1) / step * step;
 }
 
 bool is_out_of_memory(const compute::opencl_error& error) {
@@ -35,11 +41,13 @@ PooledMemory::~PooledMemory() {
 }
 
 compute::buffer BufferPool::take(std::uint64_t bytes, const char* what, Filling filling) {
-  const std::uint64_t wanted = std::max<std::uint64_t>(bytes, 1) + padding;
+  const std::uint64_t needed = std::max<std::uint64_t>(bytes, 1) + padding;
   const std::uint64_t largest = context_.get_device().max_memory_alloc_size();
-  if (wanted > largest) {
+  const std::uint64_t wanted =
+      shares_host_memory_ ? needed : std::max(needed, std::min(rounded_up(needed), largest));
+  if (needed > largest) {
     throw DeviceError("device " + context_.get_device().name() + ": the " + what +
-                      " buffer needs " + std::to_string(wanted >> 20) + " MiB, expected at most " +
+                      " buffer needs " + std::to_string(needed >> 20) + " MiB, expected at most " +
                       std::to_string(largest >> 20) +
                       " MiB: draw fewer pixels (--crop) or fewer particles");
   }
@@ -111,9 +119,15 @@ void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::u
   return values;
 }
 
+// What may lie idle beside what has been in use: without any, a little more that is wanted would
+// cost large buffers that are needed again.
+std::uint64_t BufferPool::most_idle(std::uint64_t in_use) const {
+  return std::max(in_use / 32, std::min(in_use, gpu_memory_ / 8));
+}
+
 void BufferPool::release_until_it_fits(std::uint64_t wanted) {
   const std::uint64_t in_use = std::max(most_used_bytes_, used_bytes_ + wanted);
-  const std::uint64_t most = in_use + in_use / idle_part;
+  const std::uint64_t most = in_use + most_idle(in_use);
   if (total_bytes_ + wanted <= most || free_.empty()) return;
   // Memory goes when the commands that use it have ended.
   queue_.finish();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -63,27 +64,43 @@ class Buffer {
 };
 
 // A buffer's values for as long as the host has them: on a device in the host's own memory without
-// a copy. Commands see what was written once this has gone.
+// a copy, else in the host's. Commands see what was written once this has gone.
 template <class T>
 class MappedValues {
  public:
+  using Value = std::remove_const_t<T>;
+  // Those that are mapped.
   MappedValues(compute::command_queue queue, compute::buffer memory, void* values,
                std::size_t count)
-      : queue_(std::move(queue)), memory_(std::move(memory)), values_(values), size_(count) {}
+      : queue_(std::move(queue)), memory_(std::move(memory)), mapped_(values), size_(count) {}
+  // Copies.
+  MappedValues(compute::command_queue queue, compute::buffer memory, std::vector<Value> copies)
+      : queue_(std::move(queue)),
+        memory_(std::move(memory)),
+        copies_(std::move(copies)),
+        size_(copies_.size()) {}
   MappedValues(const MappedValues&) = delete;
   MappedValues& operator=(const MappedValues&) = delete;
   ~MappedValues() {
-    // Commands that follow fail where this does.
-    clEnqueueUnmapMemObject(queue_.get(), memory_.get(), values_, 0, nullptr, nullptr);
+    // Commands that follow fail where these do.
+    if (mapped_ != nullptr) {
+      clEnqueueUnmapMemObject(queue_.get(), memory_.get(), mapped_, 0, nullptr, nullptr);
+    } else if (!std::is_const_v<T> && size_ > 0) {
+      clEnqueueWriteBuffer(queue_.get(), memory_.get(), CL_TRUE, 0, size_ * sizeof(T),
+                           copies_.data(), 0, nullptr, nullptr);
+    }
   }
 
-  T* data() const { return static_cast<T*>(values_); }
+  T* data() const {
+    return mapped_ != nullptr ? static_cast<T*>(mapped_) : const_cast<T*>(copies_.data());
+  }
   std::size_t size() const { return size_; }
 
  private:
   compute::command_queue queue_;
   compute::buffer memory_;
-  void* values_;
+  void* mapped_ = nullptr;
+  std::vector<Value> copies_;
   std::size_t size_;
 };
 
@@ -91,14 +108,20 @@ class MappedValues {
 // processor, as long as it lies on small pages.
 enum class Filling { whole, in_parts };
 
-// The device's working memory. Buffers that came back are handed out again, and what is held
-// in all never exceeds what has been in use at one time by more than a thirty-second part.
+// The device's working memory. Buffers that came back are handed out again, and what is held in all
+// never exceeds what has been in use at one time by more than a thirty-second part; on GPUs by more
+// than as much again, or an eighth of their memory: to make a buffer there and to give it back
+// takes as long as many kernels.
 class BufferPool {
  public:
   // `timer` is told of what is copied.
   BufferPool(const compute::context& context, const compute::command_queue& queue,
              StageTimer& timer, const DeviceTraits& traits)
-      : context_(context), queue_(queue), timer_(timer) {
+      : context_(context),
+        queue_(queue),
+        timer_(timer),
+        shares_host_memory_(traits.shares_host_memory),
+        gpu_memory_(traits.gpu_memory) {
     if (traits.large_pages) large_pages_.emplace();
   }
   BufferPool(const BufferPool&) = delete;
@@ -138,17 +161,19 @@ class BufferPool {
   }
 
   // All values of a buffer that has some, to be read or to be written anew; both wait for the
-  // commands before.
+  // commands before. A GPU's driver would make memory that it can copy to each time.
   template <class T>
   MappedValues<const T> map_to_read(const Buffer<T>& buffer) {
-    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, buffer.size() * sizeof(T)),
-            static_cast<std::size_t>(buffer.size())};
+    const auto count = static_cast<std::size_t>(buffer.size());
+    if (!shares_host_memory_) return {queue_, buffer.memory(), download(buffer, count)};
+    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, count * sizeof(T)), count};
   }
   template <class T>
   MappedValues<T> map_to_write(const Buffer<T>& buffer) {
+    const auto count = static_cast<std::size_t>(buffer.size());
+    if (!shares_host_memory_) return {queue_, buffer.memory(), std::vector<T>(count)};
     return {queue_, buffer.memory(),
-            map(buffer.memory(), CL_MAP_WRITE_INVALIDATE_REGION, buffer.size() * sizeof(T)),
-            static_cast<std::size_t>(buffer.size())};
+            map(buffer.memory(), CL_MAP_WRITE_INVALIDATE_REGION, count * sizeof(T)), count};
   }
 
   // Values from number `first` on, of memory that is there; both wait for it.
@@ -177,11 +202,14 @@ class BufferPool {
   std::array<PooledMemory, 2> take_two(std::uint64_t bytes, const char* what);
   void give_back(compute::buffer memory);
   void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
+  std::uint64_t most_idle(std::uint64_t in_use) const;
   void release_until_it_fits(std::uint64_t wanted);
 
   compute::context context_;
   compute::command_queue queue_;
   StageTimer& timer_;
+  bool shares_host_memory_;
+  std::uint64_t gpu_memory_;
   std::optional<LargePages> large_pages_;
   std::vector<compute::buffer> free_;
   std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free

@@ -18,6 +18,7 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       traits(traits_of(chosen)),
       memory(memory_of(chosen, traits)),
       programs(context),
-      pool(context, queue, timer, traits) {}
+      pool(context, queue, timer, traits),
+      copies(context, queue, traits) {}
 
 }  // namespace splotchcl

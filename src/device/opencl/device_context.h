@@ -9,6 +9,7 @@
 #include "device/opencl/opencl.h"
 #include "device/opencl/program_cache.h"
 #include "device/opencl/stage_timer.h"
+#include "device/opencl/staged_copies.h"
 
 namespace splotchcl {
 
@@ -40,6 +41,7 @@ struct DeviceContext {
   ProgramCache programs;
   StageTimer timer;
   BufferPool pool;
+  StagedCopies copies;
   std::vector<LaunchRecord>* launches = nullptr;  // takes all launches, where there is one
 };
 

@@ -1,5 +1,8 @@
 #include "device/opencl/device_traits.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "device/opencl/program_text.h"
 #include "kernels/common/group.h"
 
@@ -25,16 +28,32 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.list_capacity = 3u << 20;
 }
 
+// How much a GPU works through at a time. Each chunk launches some twenty kernels, which end when
+// the last of its groups does: the fewer chunks, the less of a GPU waits. The lists of a chunk take
+// some 60 bytes an entry.
+struct GroupChunks {
+  std::uint64_t least_memory;  // bytes of the GPU
+  std::uint32_t particles, splats;
+  std::uint64_t entries;
+};
+constexpr std::uint64_t gigabyte = 1000000000;
+constexpr GroupChunks group_chunks[] = {{30 * gigabyte, 1u << 24, 1u << 24, 64u << 20},
+                                        {7 * gigabyte, 1u << 22, 1u << 22, 16u << 20},
+                                        {0, 1u << 20, 1u << 21, 8u << 20}};
+
 void take_sizes_of_groups(DeviceTraits& traits) {
+  constexpr std::uint32_t particles_of_leaf = 1u << 23;
+  const GroupChunks& chunks = *std::find_if(
+      std::begin(group_chunks), std::end(group_chunks),
+      [&](const GroupChunks& size) { return traits.gpu_memory >= size.least_memory; });
   traits.project_block = GROUP_ITEMS;
-  traits.chunk_blocks = 4096;
-  traits.leaf_chunks = 8;
-  // Every chunk launches some twenty kernels.
-  traits.sorted_chunk = 1u << 21;
+  traits.chunk_blocks = chunks.particles / GROUP_ITEMS;
+  traits.leaf_chunks = std::max(1u, particles_of_leaf / chunks.particles);
+  traits.sorted_chunk = chunks.splats;
   traits.bin_blocks = 64;
   traits.sort_blocks = 4096;
-  traits.segment_length = 4096;
-  traits.list_capacity = 8u << 20;
+  traits.segment_length = 2048;
+  traits.list_capacity = chunks.entries;
 }
 
 }  // namespace
@@ -47,6 +66,7 @@ DeviceTraits traits_of(const compute::device& device) {
   traits.large_pages = (device.type() & CL_DEVICE_TYPE_CPU) != 0 && is_pocl(device);
   traits.double_numbers = device.supports_extension("cl_khr_fp64");
   traits.largest_buffer = device.max_memory_alloc_size();
+  if (traits.is_gpu) traits.gpu_memory = device.global_memory_size();
   traits.threads = device.compute_units();
   traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;
   choose_shape(traits, !traits.is_gpu);

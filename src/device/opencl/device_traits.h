@@ -6,8 +6,8 @@
 
 namespace splotchcl {
 
-// What differs between devices, decided by their type and by the shape of the kernels alone, so
-// that the same device always does the same sums in the same order.
+// What differs between devices, decided by their type and by the shape of the kernels, for GPUs
+// also by their memory, so that the same device always does the same sums in the same order.
 struct DeviceTraits {
   bool is_gpu = false;
   bool shares_host_memory = false;   // buffers may lie in the caller's own memory
@@ -16,6 +16,7 @@ struct DeviceTraits {
   bool rows_of_16 = false;           // registers hold sixteen floats
   bool double_numbers = false;       // extended numbers are double precision, not pairs
   std::uint64_t largest_buffer = 0;  // bytes
+  std::uint64_t gpu_memory = 0;      // bytes, free or not; 0: no GPU
   std::uint32_t threads = 1;         // only memory follows from them
   std::uint32_t project_block = 0;   // particles per work-item of a projection, or per group
   std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum

@@ -66,9 +66,10 @@ void GroupBinner::count(CountedSplats& counted) const {
   const shared::GroupBinParameters parameters = {counted.parameters, 0};
   const std::uint32_t slots = slots_of(counted.parameters);
   const std::uint64_t counters = 2 * std::uint64_t{counted.parameters.tile_count};
+  const std::uint64_t in_copies = COPIES_OF_COUNTS * counters;
   counted.tiles_of_slots = device.pool.get<shared::SplatTiles>(slots, "tiles of splats");
-  counted.tile_counts = device.pool.get<std::uint32_t>(counters, "tile counts");
-  clear_memory(device, "bin", counted.tile_counts.memory(), 0, counters * sizeof(std::uint32_t));
+  counted.tile_counts = device.pool.get<std::uint32_t>(in_copies, "tile counts");
+  clear_memory(device, "bin", counted.tile_counts.memory(), 0, in_copies * sizeof(std::uint32_t));
   Launch(device, "bin", program_.create_kernel("bin_find_tiles"))
       .value(parameters)
       .arg(context_.grids)
@@ -78,6 +79,10 @@ void GroupBinner::count(CountedSplats& counted) const {
       .arg(counted.tiles_of_slots)
       .arg(counted.tile_counts)
       .run_groups(ceil_divide(slots, GROUP_ITEMS), GROUP_ITEMS);
+  Launch(device, "bin", program_.create_kernel("bin_add_counts"))
+      .value(parameters)
+      .arg(counted.tile_counts)
+      .run_groups(ceil_divide(counters, std::uint64_t{GROUP_ITEMS}), GROUP_ITEMS);
   counted.lengths =
       lengths_of_lists(device.pool.download(counted.tile_counts, counters), context_.layout);
 }

@@ -358,8 +358,8 @@ Image Resolver::resolve(Planes light) const {
   } else {
     const auto pixels = context_.device.pool.get<float>(image.pixels.size(), "image");
     write_pixels(planes, pixels.memory());
-    context_.device.timer.add_copy(context_.device.queue.enqueue_read_buffer(
-        pixels.memory(), 0, image.pixels.size() * sizeof(float), image.pixels.data()));
+    context_.device.copies.read(pixels.memory(), image.pixels.data(),
+                                image.pixels.size() * sizeof(float));
   }
   return image;
 }
