@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -13,9 +14,18 @@ namespace {
 
 constexpr std::uint64_t megabyte = 1 << 20;
 
+// What a device has of memory of its own, 0 where it uses the host's.
+DeviceTraits traits_with(DeviceTraits traits, std::uint64_t gpu_memory) {
+  traits.gpu_memory = gpu_memory;
+  traits.shares_host_memory = gpu_memory == 0;
+  return traits;
+}
+
 class Pool : public StageTest {
  protected:
-  Pool() : own_(device().context, device().queue, device().timer, device().traits) {}
+  explicit Pool(std::uint64_t gpu_memory = 0)
+      : own_(device().context, device().queue, device().timer,
+             traits_with(device().traits, gpu_memory)) {}
 
   std::optional<Buffer<std::byte>> get(std::uint64_t bytes) {
     return own_.get<std::byte>(bytes, "test");
@@ -26,6 +36,11 @@ class Pool : public StageTest {
   }
 
   BufferPool own_;
+};
+
+class PoolOfAGpu : public Pool {
+ protected:
+  PoolOfAGpu() : Pool(800 * megabyte) {}
 };
 
 TEST_F(Pool, HandsOutMemoryThatCameBack) {
@@ -77,6 +92,41 @@ TEST_F(Pool, KeepsMemoryOfTwoBuffersAsLongAsOneIsInUse) {
   two[0] = Buffer<std::byte>();
   const auto other = get(20 * megabyte);
   EXPECT_GE(own_.peak_bytes(), total + 20 * megabyte);
+}
+
+TEST_F(PoolOfAGpu, KeepsAsMuchAsWasInUse) {
+  auto large = get(40 * megabyte);
+  const cl_mem memory = memory_of(large);
+  large.reset();
+  const auto other = get(10 * megabyte);
+  large = get(40 * megabyte);
+  EXPECT_EQ(memory_of(large), memory);
+}
+
+TEST_F(PoolOfAGpu, KeepsNoMoreThanAnEighthOfItsMemory) {
+  auto large = get(400 * megabyte);
+  large.reset();
+  const auto other = get(150 * megabyte);
+  EXPECT_LE(own_.peak_bytes(), 500 * megabyte);
+}
+
+TEST_F(PoolOfAGpu, HandsOutMemoryForAlmostTheSameSize) {
+  auto buffer = get(40 * megabyte);
+  const cl_mem memory = memory_of(buffer);
+  buffer.reset();
+  buffer = get(41 * megabyte);
+  EXPECT_EQ(memory_of(buffer), memory);
+}
+
+TEST_F(PoolOfAGpu, WritesAndReadsCopiesOfMappedValues) {
+  const auto buffer = own_.get<std::uint32_t>(1000, "test");
+  {
+    const MappedValues<std::uint32_t> written = own_.map_to_write(buffer);
+    std::fill_n(written.data(), written.size(), 7u);
+  }
+  const MappedValues<const std::uint32_t> read = own_.map_to_read(buffer);
+  ASSERT_EQ(read.size(), 1000u);
+  EXPECT_EQ(std::count(read.data(), read.data() + read.size(), 7u), 1000);
 }
 
 }  // namespace

@@ -24,8 +24,25 @@ struct CellsOfTiles {
   }
   // Whether nothing was collected of the octave in any tile of the grid.
   bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // Adds the cells of the octave in all tiles of the grid to those of grids of its level.
-  void gather(const shared::OctaveCells& octave, const shared::Grid& grid, CellSums& sums) const;
+  // Room for those of the octave in all tiles of the grid.
+  CellSums sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const;
+  // Adds those in a row of the grid's tiles to those of other grids of its level.
+  void add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
+               CellSums& sums) const;
+};
+
+// An octave of splats on the grids of a level: those that have some, and what is gathered of them.
+struct OctaveOfLevel {
+  std::size_t first_grid, end_grid;
+  int octave;
+  std::vector<std::size_t> grids;
+  PeakCells cells;
+};
+
+// A row of its tiles.
+struct TileRow {
+  std::size_t octave;
+  int row;
 };
 
 bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
@@ -40,22 +57,40 @@ bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Gri
   return true;
 }
 
-void CellsOfTiles::gather(const shared::OctaveCells& octave, const shared::Grid& grid,
-                          CellSums& sums) const {
-  const int across = tile_width >> octave.shift, along = tile_height >> octave.shift;
+CellSums CellsOfTiles::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+  CellSums sums;
   sums.side = 1 << octave.shift;
-  sums.columns = grid.tiles_x * across;
-  sums.rows = grid.tiles_y * along;
+  sums.columns = grid.tiles_x * (tile_width >> octave.shift);
+  sums.rows = grid.tiles_y * (tile_height >> octave.shift);
   sums.values.resize(static_cast<std::size_t>(sums.columns) * static_cast<std::size_t>(sums.rows));
-  float* to = sums.values.data();
-  for (int row = 0; row < sums.rows; ++row) {
+  return sums;
+}
+
+void CellsOfTiles::add_row(const shared::OctaveCells& octave, const shared::Grid& grid,
+                           int tile_row, CellSums& sums) const {
+  const int across = tile_width >> octave.shift, along = tile_height >> octave.shift;
+  float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
+  for (int row = 0; row < along; ++row) {
     for (int column = 0; column < grid.tiles_x; ++column, to += across) {
-      const auto tile = static_cast<std::size_t>(row / along * grid.tiles_x + column);
-      const float* const from = values + first_of(grid.first_tile + tile, octave) +
-                                static_cast<std::size_t>(row % along * across);
+      const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
+      const float* const from =
+          values + first_of(grid.first_tile + tile, octave) + std::ptrdiff_t{row} * across;
       std::transform(from, from + across, to, to, std::plus<>());
     }
   }
+}
+
+// The picture's own grid is a level of its own, apart from others that are as fine.
+std::vector<OctaveOfLevel> octaves_of_levels(const GridPyramid& pyramid) {
+  const std::size_t levels = (pyramid.grids.size() - 1) / pyramid.grids_of_level();
+  std::vector<OctaveOfLevel> octaves;
+  for (std::size_t level = 0; level <= levels; ++level) {
+    const std::size_t first = level == 0 ? 0 : 1 + (level - 1) * pyramid.grids_of_level();
+    const std::size_t end = level == 0 ? 1 : first + pyramid.grids_of_level();
+    for (int octave = 0; octave < WIDTH_OCTAVES; ++octave)
+      octaves.push_back({first, end, octave, {}, {}});
+  }
+  return octaves;
 }
 
 }  // namespace
@@ -146,48 +181,58 @@ CollectedSplats Certifier::collected() const {
   const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
   for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
     found.longest_list = std::max(found.longest_list, static_cast<double>(values.data()[i]));
-  const GridPyramid& pyramid = context_.plan.pyramid;
-  const std::size_t levels = (pyramid.grids.size() - 1) / pyramid.grids_of_level();
-  std::vector<std::optional<PeakCells>> octaves((1 + levels) * WIDTH_OCTAVES);
-  for_blocks(octaves.size(), 1, [&](std::size_t first, std::size_t) {
-    const auto octave = static_cast<int>(first % WIDTH_OCTAVES);
-    const std::size_t level = first / WIDTH_OCTAVES;
-    octaves[first] = level == 0 ? octave_of(values.data(), {0, 1}, octave)
-                                : octave_of(values.data(),
-                                            {1 + (level - 1) * pyramid.grids_of_level(),
-                                             1 + level * pyramid.grids_of_level()},
-                                            octave);
-  });
-  for (std::optional<PeakCells>& cells : octaves) {
-    if (cells) found.cells.push_back(std::move(*cells));
-  }
+  found.cells = gathered_cells(values.data());
   return found;
 }
 
-// What was collected of an octave of splats on these grids of a level, if there are any.
-std::optional<PeakCells> Certifier::octave_of(const float* values, const GridsOfLevel& grids,
-                                              int octave) const {
+// Of all octaves and levels that have some. All cores read what lies far apart: octaves first, to
+// see which there are, then rows of tiles of these.
+std::vector<PeakCells> Certifier::gathered_cells(const float* values) const {
   const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
                               static_cast<int>(context_.specialization.tile_width()),
                               static_cast<int>(context_.specialization.tile_height())};
-  const int level = context_.plan.pyramid.grids[grids.first].level;
-  const shared::OctaveCells& peaks = parameters_.peaks[octave];
-  const shared::OctaveCells& endings = parameters_.endings[octave];
-  PeakCells cells;
-  cells.level = level;
-  cells.is_beside_picture = level == 0 && grids.first > 0;
-  cells.octave = octave + level;
-  for (std::size_t g = grids.first; g < grids.end; ++g) {
-    const shared::Grid& grid = context_.layout.grids[g];
-    // Bright splats end where those of wider octaves do.
-    if (tiles.is_empty(peaks, grid) && tiles.is_empty(endings, grid)) continue;
-    cells.left = grid.first_x - grid.guard;
-    cells.top = grid.first_y - grid.guard;
-    tiles.gather(peaks, grid, cells.peaks);
-    tiles.gather(endings, grid, cells.endings);
+  const std::vector<shared::Grid>& grids = context_.layout.grids;
+  std::vector<OctaveOfLevel> octaves = octaves_of_levels(context_.plan.pyramid);
+  for_blocks(octaves.size(), 1, [&](std::size_t number, std::size_t) {
+    OctaveOfLevel& own = octaves[number];
+    const shared::OctaveCells& peaks = parameters_.peaks[own.octave];
+    const shared::OctaveCells& endings = parameters_.endings[own.octave];
+    for (std::size_t g = own.first_grid; g < own.end_grid; ++g) {
+      // Bright splats end where those of wider octaves do.
+      if (!tiles.is_empty(peaks, grids[g]) || !tiles.is_empty(endings, grids[g]))
+        own.grids.push_back(g);
+    }
+  });
+  std::vector<TileRow> rows;
+  for (std::size_t number = 0; number < octaves.size(); ++number) {
+    OctaveOfLevel& own = octaves[number];
+    if (own.grids.empty()) continue;
+    const shared::Grid& grid = grids[own.grids.back()];
+    own.cells.level = context_.plan.pyramid.grids[own.first_grid].level;
+    own.cells.is_beside_picture = own.cells.level == 0 && own.first_grid > 0;
+    own.cells.octave = own.octave + own.cells.level;
+    own.cells.left = grid.first_x - grid.guard;
+    own.cells.top = grid.first_y - grid.guard;
+    own.cells.peaks = tiles.sums_of(parameters_.peaks[own.octave], grid);
+    own.cells.endings = tiles.sums_of(parameters_.endings[own.octave], grid);
+    for (int row = 0; row < grid.tiles_y; ++row)
+      rows.push_back({number, row});
   }
-  if (cells.peaks.values.empty()) return std::nullopt;
-  return cells;
+  constexpr std::size_t rows_at_a_time = 8;
+  for_blocks(rows.size(), rows_at_a_time, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      OctaveOfLevel& own = octaves[rows[i].octave];
+      for (const std::size_t g : own.grids) {
+        tiles.add_row(parameters_.peaks[own.octave], grids[g], rows[i].row, own.cells.peaks);
+        tiles.add_row(parameters_.endings[own.octave], grids[g], rows[i].row, own.cells.endings);
+      }
+    }
+  });
+  std::vector<PeakCells> gathered;
+  for (OctaveOfLevel& own : octaves) {
+    if (!own.grids.empty()) gathered.push_back(std::move(own.cells));
+  }
+  return gathered;
 }
 
 }  // namespace splotchcl

@@ -32,12 +32,7 @@ class Certifier {
 
  private:
   void start();
-  // Numbers of grids: the picture's own, or all others of a level.
-  struct GridsOfLevel {
-    std::size_t first, end;
-  };
-  std::optional<PeakCells> octave_of(const float* values, const GridsOfLevel& grids,
-                                     int octave) const;
+  std::vector<PeakCells> gathered_cells(const float* values) const;
   void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
 
   const StageContext& context_;

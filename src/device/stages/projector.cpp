@@ -11,6 +11,7 @@
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
 #include "device/stages/projector_targets.h"
+#include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -100,10 +101,14 @@ std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParam
   const auto first = static_cast<std::size_t>((particles.first + parameters.first_particle) /
                                               parameters.block_particles);
   std::vector<std::uint32_t> blocks(block_count(parameters));
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const shared::BlockBox& box = particles.boxes->at(first + b);
-    if (bounds.leave_out(box)) blocks[b] = box.bad + 1;
-  }
+  // Of a GPU's small blocks there are very many.
+  constexpr std::size_t blocks_of_thread = 4096;
+  for_blocks(blocks.size(), blocks_of_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const shared::BlockBox& box = particles.boxes->at(first + b);
+      if (bounds.leave_out(box)) blocks[b] = box.bad + 1;
+    }
+  });
   return count_left_out(blocks) > 0 ? blocks : std::vector<std::uint32_t>();
 }
 

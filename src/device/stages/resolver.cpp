@@ -352,15 +352,19 @@ Image Resolver::resolve(Planes light) const {
   constexpr std::uint32_t picture = 1;
   if ((light.used_grids & ~picture) != 0) collect(light, 0, room_for_collecting());
   const Planes planes = std::move(light);
-  Image image = image_on_large_pages(parameters_.width, parameters_.height);
   if (context_.device.traits.shares_host_memory) {
+    Image image = image_on_large_pages(parameters_.width, parameters_.height);
     resolve_in_place(planes, image);
-  } else {
-    const auto pixels = context_.device.pool.get<float>(image.pixels.size(), "image");
-    write_pixels(planes, pixels.memory());
-    context_.device.copies.read(pixels.memory(), image.pixels.data(),
-                                image.pixels.size() * sizeof(float));
+    return image;
   }
+  const std::size_t values = 4 * static_cast<std::size_t>(parameters_.width) *
+                             static_cast<std::size_t>(parameters_.height);
+  const auto pixels = context_.device.pool.get<float>(values, "image");
+  write_pixels(planes, pixels.memory());
+  context_.device.queue.flush();
+  // While the device draws: the system takes milliseconds to clear the memory of a large picture.
+  Image image = image_on_large_pages(parameters_.width, parameters_.height);
+  context_.device.copies.read(pixels.memory(), image.pixels.data(), values * sizeof(float));
   return image;
 }
 
