@@ -12,7 +12,7 @@
 namespace splotchcl::bench {
 namespace {
 
-// Parts of a tile (kernels/composite/composite_groups.cl).
+// Parts of a tile (kernels/composite/tile_batch.cl).
 constexpr int tile_side = 16, part_width = 8, part_height = 4;
 
 // As reaches_part() there, but that splats that are cut count as if they were not.
@@ -144,7 +144,7 @@ class Counter {
     return g;
   }
 
-  // As composite_groups.cl decides.
+  // As tile_batch.cl decides.
   void count_entry(const float* entry, std::size_t floats, std::size_t grid) {
     const float mean_sigma = pipeline_.context().layout.grids[grid].mean_sigma;
     const float sigma = entry[2];

@@ -15,7 +15,7 @@ constexpr double group = GROUP_ITEMS;
 // What one gather of a splat brings along.
 constexpr double sector = 32;
 constexpr double scan_steps = 8, scan_barriers = 18;  // in a group of 256 items
-// Of a batch of 32 splats (composite_groups.cl).
+// Of a batch of 32 splats (tile_batch.cl).
 constexpr double batch = 32, axes = 32, parts = 8;
 
 // All launches of one kernel.

@@ -300,7 +300,7 @@ std::vector<std::string> Specialization::composite_files() const {
     }
     files.insert(files.end(), {"stencil_rows.cl", "pieces.cl", "composite_rows.cl"});
   } else {
-    files.insert(files.end(), {"flags.cl", "composite_groups.cl"});
+    files.insert(files.end(), {"flags.cl", "tile_batch.cl", "composite_groups.cl"});
   }
   return files;
 }

@@ -1,0 +1,274 @@
+// Compositing for GPUs: a batch of splats of a tile's list, fetched into local memory by a
+// work-group. Both axes of each splat are worked out once for all pixels, and which splats each
+// part of the tile needs to draw.
+#define GROUP (TILE_WIDTH * TILE_HEIGHT)
+#define AXES (TILE_WIDTH + TILE_HEIGHT)
+#define BATCH FLAGS
+// Parts of a tile: the pixels of 32 work-items, which many GPUs run as one.
+#define PART_WIDTH 8
+#define PART_HEIGHT 4
+#define PART_ITEMS (PART_WIDTH * PART_HEIGHT)
+#define PARTS_ACROSS (TILE_WIDTH / PART_WIDTH)
+#define PARTS (GROUP / PART_ITEMS)
+// The first pixel's center, from the tile's middle.
+#define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
+#define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
+#define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
+
+// What all pixels need of a splat's light, in words of four floats: absorption with the optical
+// depth in any pixel at most, emission; in sums what they add up, by threes.
+#ifdef LIGHT_ORDERED
+#define AMPLITUDES 2
+#else
+#define AMPLITUDES (SUMMED / 3)
+#endif
+
+// Which pixels a cut leaves out follows from two numbers, of the column and of the row.
+#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE) && !defined(ELLIPSES)
+#define CUT_BY_AXES
+typedef float2 Axis;  // the shape, and cut_of_axis()
+#else
+typedef float Axis;
+#endif
+
+// The splats of a batch as they are listed. Two in turn: the next are fetched while slower items
+// still draw.
+typedef struct Listed {
+  TileSplat splats[BATCH];
+  float factors[2 * BATCH];  // of each splat's columns, then of each splat's rows (axis_factor)
+} Listed;
+
+// What all pixels need of them.
+typedef struct Batch {
+  float4 amplitudes[BATCH * AMPLITUDES];
+  Axis axes[BATCH * AXES];  // of each splat, columns, then rows
+  Flags touching;           // splats that reach the center of a pixel of the tile
+  Flags drawn[PARTS];       // those of a part
+  Flags thick;              // whose layers two terms do not serve for
+} Batch;
+
+// What axis_shape() needs of a width: divided once for all pixels.
+static inline float axis_factor(float sigma, float mean_sigma) {
+  return sigma >= mean_sigma ? 1.44269504f / (sigma * sigma) : 1.0f / sigma;
+}
+
+// One axis of the separable shape at distance d of a pixel's centre.
+static inline float axis_shape(float d, float sigma, float factor, float mean_sigma) {
+  if (sigma < 0.0f) return bright_mean(d, -sigma);
+  if (sigma >= mean_sigma) return gaussian(d, factor);
+  return PIXEL_MEAN_SCALE * sigma *
+         (error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor));
+}
+
+// On a face of a cube distances take the place of shapes, and this that of those that are beyond a
+// splat's radius.
+#define NOT_DRAWN 1e30f
+
+#ifdef STENCILS
+#define TILE_STENCIL_PARAMETER , __global const Stencil* stencil
+#define TILE_STENCIL_ARGUMENT , stencil
+
+// stencil_weights() of stencil_rows.cl, of one pixel.
+static inline float weight_of_stencil(__global const Stencil* stencil, float sigma,
+                                      const StencilPlaces place, int pixel) {
+  const int half_of_it = STENCIL_PIXELS / 2, number = pixel - place.first;
+  if (number < 0 || number >= STENCIL_PIXELS) return 0.0f;
+  const int is_last = number >= half_of_it;
+  const int pair = is_last ? STENCIL_PIXELS - 1 - number : number;
+  const float square = place.distance * place.distance, width = stencil_widths(sigma, stencil);
+  const float even = stencil_polynomials(stencil_of_width(stencil, width, pair), square);
+  const float odd =
+      stencil_polynomials(stencil_of_width(stencil, width, half_of_it + pair), square);
+  return is_last ? even - place.distance * odd : even + place.distance * odd;
+}
+#else
+#define TILE_STENCIL_PARAMETER
+#define TILE_STENCIL_ARGUMENT
+#endif
+
+// Zero outside what the rows would draw, and where a difference of error functions errs below it.
+// `center` is that of the item's column or row, whose number is `pixel`.
+static inline float axis_of_splat(const __local Listed* listed, uint k, int is_column, int pixel,
+                                  float center, float mean_sigma TILE_STENCIL_PARAMETER) {
+  const __local TileSplat* splat = listed->splats + k;
+#ifdef STENCILS
+  if (stencil && splat->sigma < 0.0f) {
+    const StencilPlaces place =
+        is_column ? stencil_places(splat->x, FIRST_X) : stencil_places(splat->y, FIRST_Y);
+    return weight_of_stencil(stencil, splat->sigma, place, pixel);
+  }
+#endif
+  const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
+  const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
+#ifdef FACE_OF_CUBE
+  return fabs(d) > radius ? NOT_DRAWN : d;
+#else
+  if (fabs(d) > radius) return 0.0f;
+  return max(axis_shape(d, is_column ? SIGMA_X(*splat) : splat->sigma,
+                        listed->factors[is_column ? k : BATCH + k], mean_sigma),
+             0.0f);
+#endif
+}
+
+// Whether a splat reaches the center of a pixel of the tile.
+static inline int reaches_tile(const __local TileSplat* splat) {
+  return fabs(splat->x) <= 0.5f * (TILE_WIDTH - 1) + RADIUS_X(*splat) &&
+         fabs(splat->y) <= 0.5f * (TILE_HEIGHT - 1) + splat->radius;
+}
+
+// ... of the part around (x, y). A splat ends at its radius all around, but for those that are
+// taken as means over pixels, which have corners, or are cut, which draw the pixel that holds their
+// center.
+static inline int reaches_part(const __local TileSplat* splat, float x, float y, float mean_sigma) {
+  const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
+  const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
+  if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
+#if defined(KERNEL_CUT) || defined(FACE_OF_CUBE)
+  return 1;
+#else
+  if (splat->sigma < mean_sigma || SIGMA_X(*splat) < mean_sigma) return 1;
+  const float dx = max(across, 0.0f), dy = max(along, 0.0f);
+#ifdef ELLIPSES
+  const float round_dx = dx * (splat->radius / splat->along_x.radius);
+#else
+  const float round_dx = dx;
+#endif
+  return round_dx * round_dx + dy * dy <= splat->radius * splat->radius;
+#endif
+}
+
+static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
+#ifdef LIGHT_ORDERED
+  const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
+  return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+         (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
+#else
+  return 0.0f;
+#endif
+}
+
+INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, uint first,
+                   uint count, float mean_sigma) {
+  const uint item = get_local_id(0), k = item % BATCH;
+  __global const uint* from = (__global const uint*)(entries + first);
+  __local uint* to = (__local uint*)listed->splats;
+  for (uint w = item; w < count * ENTRY_WORDS; w += GROUP)
+    to[w] = from[w];
+  if (item < 2 * BATCH && k < count) {
+    const float sigma = item < BATCH ? SIGMA_X(entries[first + k]) : entries[first + k].sigma;
+    listed->factors[item] = axis_factor(sigma, mean_sigma);
+  }
+}
+
+#ifdef CLOUDS_IN_LISTS
+#define TILE_CLOUDS_PARAMETER , const TileClouds* clouds
+#define TILE_CLOUDS_ARGUMENT , &of_tile
+#define TILE_CLOUDS_PASSED , clouds
+
+// Columns of clouds are worked out where layers may be thick.
+INLINED int prepare_cloud(__local float4* amplitudes, __global const CloudEntry* cloud) {
+  const float4 absorption =
+      (float4)(cloud->absorption[0], cloud->absorption[1], cloud->absorption[2], cloud->deepest);
+  amplitudes[0] = absorption;
+  amplitudes[1] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
+  return 1;
+}
+#else
+#define TILE_CLOUDS_PARAMETER
+#define TILE_CLOUDS_ARGUMENT
+#define TILE_CLOUDS_PASSED
+#endif
+
+// Returns whether two terms do not serve for the layer.
+INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSplat* splat,
+                               float mean_sigma,
+                               const CompositeParameters p TILE_CLOUDS_PARAMETER) {
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
+#endif
+#ifdef LIGHT_ORDERED
+  const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
+                                     splat->absorption[2], deepest_of(splat, mean_sigma));
+  amplitudes[0] = absorption;
+  amplitudes[1] = (float4)(splat->emission[0], splat->emission[1], splat->emission[2], 0.0f);
+  return absorption.w > p.phi_short;
+#else
+  for (int i = 0; i < AMPLITUDES; ++i) {
+    const __local float* summed = splat->summed + 3 * i;
+    amplitudes[i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
+  }
+  return 0;
+#endif
+}
+
+// Whether an entry touches the tile, or the part of it around (x, y).
+INLINED int touches(const __local TileSplat* splat TILE_CLOUDS_PARAMETER) {
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
+#endif
+  return reaches_tile(splat);
+}
+
+INLINED int touches_part(const __local TileSplat* splat, float x, float y,
+                         float mean_sigma TILE_CLOUDS_PARAMETER) {
+#ifdef CLOUDS_IN_LISTS
+  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
+#endif
+  return reaches_part(splat, x, y, mean_sigma);
+}
+
+#ifdef CUT_BY_AXES
+// The square of a column's distance from a splat, and what a row's leaves of the square of the
+// cut's radius: a pixel is inside where the former is no larger. Of means the pixel that holds the
+// center is inside, too: it is the one with distances above -1/2 and up to 1/2.
+static inline float cut_of_axis(const __local TileSplat* splat, int is_column, float center) {
+  const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
+  const float cut = cut_radius(splat->radius);
+  const float left = cut * cut - d * d;
+#ifdef SAMPLING_MEAN
+  const float above_a_quarter = 0.25000003f;
+  if (is_column) return d == -0.5f ? above_a_quarter : d * d;
+  return d > -0.5f && d <= 0.5f ? max(left, 0.25f) : left;
+#else
+  return is_column ? d * d : left;
+#endif
+}
+#endif
+
+// What all pixels of the tile need of the batch. An item has one column or row of all splats that
+// it takes, and one part: there are as many parts of all splats as items.
+INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint count,
+                     float mean_sigma,
+                     const CompositeParameters p TILE_CLOUDS_PARAMETER TILE_STENCIL_PARAMETER) {
+  const uint item = get_local_id(0), axis = item % AXES;
+  const int is_column = axis < TILE_WIDTH;
+  const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
+  const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
+  for (uint k = item / AXES; k < count; k += GROUP / AXES) {
+    const float shape =
+        axis_of_splat(listed, k, is_column, pixel, center, mean_sigma TILE_STENCIL_ARGUMENT);
+#ifdef CUT_BY_AXES
+    batch->axes[k * AXES + axis] =
+        (Axis)(shape, cut_of_axis(listed->splats + k, is_column, center));
+#else
+    batch->axes[k * AXES + axis] = shape;
+#endif
+  }
+  const uint k = item % BATCH, part = item / BATCH;
+  const __local TileSplat* splat = listed->splats + k;
+  // Items of the first parts have fetched factors.
+  if (part == PARTS - 1) {
+    int is_thick = 0, is_touching = 0;
+    if (k < count) {
+      is_thick = prepare_amplitudes(batch->amplitudes + k * AMPLITUDES, splat, mean_sigma,
+                                    p TILE_CLOUDS_PASSED);
+      is_touching = touches(splat TILE_CLOUDS_PASSED);
+    }
+    store_flag(&batch->thick, k, is_thick);
+    store_flag(&batch->touching, k, is_touching);
+  }
+  const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
+  const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
+  store_flag(batch->drawn + part, k,
+             k < count && touches_part(splat, x, y, mean_sigma TILE_CLOUDS_PASSED));
+}
