@@ -31,23 +31,40 @@ class StagedCopies::TakenSlot {
 };
 
 StagedCopies::~StagedCopies() {
-  for (const Slot& slot : slots_)
-    clEnqueueUnmapMemObject(queue_.get(), slot.memory.get(), slot.mapped, 0, nullptr, nullptr);
-  if (!slots_.empty()) clFinish(queue_.get());
+  give_up_slots();
 }
 
-bool StagedCopies::is_large(std::size_t bytes) const {
-  return is_used_ && bytes >= least_bytes;
+bool StagedCopies::stages(std::size_t bytes) {
+  if (!is_used_ || bytes < least_bytes) return false;
+  if (slots_.empty()) make_slots();
+  return is_used_;
 }
 
+// A system may let a program pin no memory: the driver copies then.
 void StagedCopies::make_slots() {
-  if (!slots_.empty()) return;
   slots_.resize(slot_count);
-  for (Slot& slot : slots_) {
-    slot.memory = compute::buffer(context_, slot_bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR);
-    slot.mapped = queue_.enqueue_map_buffer(slot.memory, CL_MAP_READ | CL_MAP_WRITE, 0, slot_bytes);
-    free_.push_back(&slot);
+  try {
+    for (Slot& slot : slots_) {
+      slot.memory =
+          compute::buffer(context_, slot_bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR);
+      slot.mapped =
+          queue_.enqueue_map_buffer(slot.memory, CL_MAP_READ | CL_MAP_WRITE, 0, slot_bytes);
+      free_.push_back(&slot);
+    }
+  } catch (const compute::opencl_error&) {
+    give_up_slots();
+    is_used_ = false;
   }
+}
+
+void StagedCopies::give_up_slots() {
+  for (const Slot& slot : slots_) {
+    if (slot.mapped != nullptr)
+      clEnqueueUnmapMemObject(queue_.get(), slot.memory.get(), slot.mapped, 0, nullptr, nullptr);
+  }
+  if (!slots_.empty()) clFinish(queue_.get());
+  free_.clear();
+  slots_.clear();
 }
 
 StagedCopies::Slot& StagedCopies::take_slot() {
@@ -55,8 +72,6 @@ StagedCopies::Slot& StagedCopies::take_slot() {
   has_free_.wait(lock, [&] { return !free_.empty(); });
   Slot& slot = *free_.front();
   free_.erase(free_.begin());
-  lock.unlock();
-  if (slot.in_use.get() != nullptr) slot.in_use.wait();
   return slot;
 }
 
@@ -69,14 +84,14 @@ void StagedCopies::give_back(Slot& slot) {
 }
 
 void StagedCopies::write(const compute::buffer& buffer, const void* from, std::size_t bytes) {
-  if (!is_large(bytes)) {
+  if (!stages(bytes)) {
     queue_.enqueue_write_buffer(buffer, 0, bytes, from);
     return;
   }
-  make_slots();
   for_blocks(bytes, slot_bytes, [&](std::size_t first, std::size_t end) {
     const TakenSlot taken(*this);
     Slot& slot = taken.slot();
+    if (slot.in_use.get() != nullptr) slot.in_use.wait();
     std::memcpy(slot.mapped, static_cast<const char*>(from) + first, end - first);
     slot.in_use = queue_.enqueue_write_buffer_async(buffer, first, end - first, slot.mapped);
     queue_.flush();
@@ -84,11 +99,10 @@ void StagedCopies::write(const compute::buffer& buffer, const void* from, std::s
 }
 
 void StagedCopies::read(const compute::buffer& buffer, void* to, std::size_t bytes) {
-  if (!is_large(bytes)) {
+  if (!stages(bytes)) {
     queue_.enqueue_read_buffer(buffer, 0, bytes, to);
     return;
   }
-  make_slots();
   for_blocks(bytes, slot_bytes, [&](std::size_t first, std::size_t end) {
     const TakenSlot taken(*this);
     Slot& slot = taken.slot();

@@ -28,7 +28,7 @@ class StagedCopies {
   void read(const compute::buffer& buffer, void* to, std::size_t bytes);
 
  private:
-  // Memory that the GPU reaches, and the command that still uses it.
+  // Memory that the GPU reaches, and the command that may still read it.
   struct Slot {
     compute::buffer memory;
     void* mapped = nullptr;
@@ -37,8 +37,10 @@ class StagedCopies {
 
   class TakenSlot;
 
-  bool is_large(std::size_t bytes) const;
+  // Whether so many are copied by way of slots, which there are then.
+  bool stages(std::size_t bytes);
   void make_slots();
+  void give_up_slots();
   Slot& take_slot();
   void give_back(Slot& slot);
 
