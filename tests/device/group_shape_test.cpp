@@ -76,6 +76,21 @@ TEST_F(GroupShape, DrawsTheSamePictureInBandsOfTilesBitForBit) {
   }
 }
 
+// Particles of a chunk where the GPU has so many bytes.
+std::uint32_t chunk_length_of_gpu(std::uint64_t memory) {
+  DeviceTraits traits;
+  traits.gpu_memory = memory;
+  choose_shape(traits, false);
+  return traits.chunk_length();
+}
+
+TEST(ChunksOfGpus, FollowFromTheirMemoryAlone) {
+  EXPECT_EQ(chunk_length_of_gpu(0), 1u << 20) << "of a processor";
+  EXPECT_EQ(chunk_length_of_gpu(4000000000), 1u << 20);
+  EXPECT_EQ(chunk_length_of_gpu(8000000000), 1u << 22);
+  EXPECT_EQ(chunk_length_of_gpu(80000000000), 1u << 24);
+}
+
 // Boxes are made around blocks, and left out by the number of a group.
 TEST_F(GroupShape, RefusesBlocksOfOtherSizesThanItsGroups) {
   choose_shape(device().traits, false);
