@@ -103,7 +103,7 @@ TEST_F(PoolOfAGpu, KeepsAsMuchAsWasInUse) {
   EXPECT_EQ(memory_of(large), memory);
 }
 
-TEST_F(PoolOfAGpu, KeepsNoMoreThanAnEighthOfItsMemory) {
+TEST_F(PoolOfAGpu, KeepsNoMoreThanASixteenthOfItsMemory) {
   auto large = get(400 * megabyte);
   large.reset();
   const auto other = get(150 * megabyte);

@@ -109,9 +109,9 @@ class MappedValues {
 enum class Filling { whole, in_parts };
 
 // The device's working memory. Buffers that came back are handed out again, and what is held in all
-// never exceeds what has been in use at one time by more than a thirty-second part; on GPUs by more
-// than as much again, or an eighth of their memory: to make a buffer there and to give it back
-// takes as long as many kernels.
+// never exceeds what has been in use at one time by more than a thirty-second part; on GPUs by no
+// more than as much again and a sixteenth of their memory: to make a buffer there and to give it
+// back takes as long as many kernels.
 class BufferPool {
  public:
   // `timer` is told of what is copied.
