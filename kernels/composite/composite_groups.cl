@@ -11,16 +11,13 @@
 #define TILE_PASSED
 #endif
 
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE) && !defined(CUT_BY_AXES)
+// Of an ellipse: a disc's pixels follow from two numbers (cut_of_axis()).
+#if defined(KERNEL_CUT) && defined(ELLIPSES) && !defined(FACE_OF_CUBE)
 static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
   const float dx = (float)x + FIRST_X - splat->x - LOW_X(*splat);
   const float dy = (float)y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float cut = cut_radius(splat->radius);
-#ifdef ELLIPSES
   const float round_dx = dx * (cut / cut_radius(splat->along_x.radius));
-#else
-  const float round_dx = dx;
-#endif
   int inside = round_dx * round_dx + dy * dy <= cut * cut;
 #ifdef SAMPLING_MEAN
   inside |= dx > -0.5f && dx <= 0.5f && dy > -0.5f && dy <= 0.5f;
@@ -139,16 +136,7 @@ INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed
 
 // A block of splats behind what is in front of it (composite_rows.cl, SPLATS_OF_BLOCK).
 static inline void add_block(float* block, float* front) {
-#ifdef LIGHT_ORDERED
-  for (int c = 0; c < 3; ++c) {
-    const float t = transmittance_of(front[c + 3]);
-    front[c] += t * block[c];
-    front[c + 3] = carry_behind(front[c + 3], t, block[c + 3]);
-  }
-#else
-  for (int c = 0; c < PLANES; ++c)
-    front[c] += block[c];
-#endif
+  add_layer(front, block);
   for (int c = 0; c < PLANES; ++c)
     block[c] = 0.0f;
 }

@@ -21,20 +21,6 @@ INLINED uint end_of_tile(__local uint* end, __global const Segment* segments, ui
   return found;
 }
 
-// A pixel of a layer behind what is in front of it.
-static inline void join_pixel(float* front, __global const float* layer) {
-#ifdef LIGHT_ORDERED
-  for (int c = 0; c < 3; ++c) {
-    const float transmittance = transmittance_of(front[c + 3]);
-    front[c] += transmittance * layer[c * GROUP];
-    front[c + 3] = carry_behind(front[c + 3], transmittance, layer[(c + 3) * GROUP]);
-  }
-#else
-  for (int c = 0; c < PLANES; ++c)
-    front[c] += layer[c * GROUP];
-#endif
-}
-
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global float* planes, __global const float* partials) {
@@ -56,8 +42,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
     front[c] = own[(size_t)c * grid.plane_size];
   __global const float* layer = partials + (size_t)first.partial * PLANES * GROUP + pixel;
 #pragma unroll 4
-  for (uint k = 0; k < count; ++k)
-    join_pixel(front, layer + (size_t)k * PLANES * GROUP);
+  for (uint k = 0; k < count; ++k) {
+    float behind[PLANES];
+    for (int c = 0; c < PLANES; ++c)
+      behind[c] = layer[((size_t)k * PLANES + c) * GROUP];
+    add_layer(front, behind);
+  }
   for (int c = 0; c < PLANES; ++c)
     own[(size_t)c * grid.plane_size] = front[c];
 }

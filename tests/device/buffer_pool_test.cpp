@@ -34,6 +34,15 @@ class Pool : public StageTest {
   static cl_mem memory_of(const std::optional<Buffer<std::byte>>& buffer) {
     return buffer->memory().get();
   }
+  // 40 megabytes that came back are the same afterwards, though so many bytes were wanted.
+  void expect_kept_beside(std::uint64_t bytes) {
+    auto large = get(40 * megabyte);
+    const cl_mem memory = memory_of(large);
+    large.reset();
+    const auto other = get(bytes);
+    large = get(40 * megabyte);
+    EXPECT_EQ(memory_of(large), memory);
+  }
 
   BufferPool own_;
 };
@@ -52,12 +61,7 @@ TEST_F(Pool, HandsOutMemoryThatCameBack) {
 }
 
 TEST_F(Pool, KeepsALargeBufferWhenALittleMoreIsWanted) {
-  auto large = get(40 * megabyte);
-  const cl_mem memory = memory_of(large);
-  large.reset();
-  const auto little = get(megabyte);
-  large = get(40 * megabyte);
-  EXPECT_EQ(memory_of(large), memory);
+  expect_kept_beside(megabyte);
 }
 
 TEST_F(Pool, GivesFreeMemoryBackRatherThanHoldMuchMoreThanWasInUse) {
@@ -95,12 +99,7 @@ TEST_F(Pool, KeepsMemoryOfTwoBuffersAsLongAsOneIsInUse) {
 }
 
 TEST_F(PoolOfAGpu, KeepsAsMuchAsWasInUse) {
-  auto large = get(40 * megabyte);
-  const cl_mem memory = memory_of(large);
-  large.reset();
-  const auto other = get(10 * megabyte);
-  large = get(40 * megabyte);
-  EXPECT_EQ(memory_of(large), memory);
+  expect_kept_beside(10 * megabyte);
 }
 
 TEST_F(PoolOfAGpu, KeepsNoMoreThanASixteenthOfItsMemory) {

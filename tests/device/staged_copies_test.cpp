@@ -29,7 +29,7 @@ class StagedCopiesTest : public StageTest {
 
   // What comes back of what was written.
   static std::vector<std::uint32_t> there_and_back(std::vector<std::uint32_t> values) {
-    StagedCopies copies(device().context, device().queue, traits_of_gpu());
+    StagedCopies copies(device().context, device().queue, device().timer, traits_of_gpu());
     const std::size_t bytes = values.size() * sizeof(std::uint32_t);
     const compute::buffer buffer(device().context, bytes);
     copies.write(buffer, values.data(), bytes);
@@ -46,7 +46,7 @@ TEST_F(StagedCopiesTest, BringBackWhatWasWritten) {
 }
 
 TEST_F(StagedCopiesTest, ServeOneAfterTheOther) {
-  StagedCopies copies(device().context, device().queue, traits_of_gpu());
+  StagedCopies copies(device().context, device().queue, device().timer, traits_of_gpu());
   const std::vector<std::uint32_t> first = numbers(5000000), second(5000000, 3u);
   const std::size_t bytes = first.size() * sizeof(std::uint32_t);
   const compute::buffer a(device().context, bytes), b(device().context, bytes);

@@ -300,7 +300,8 @@ std::vector<std::string> Specialization::composite_files() const {
     }
     files.insert(files.end(), {"stencil_rows.cl", "pieces.cl", "composite_rows.cl"});
   } else {
-    files.insert(files.end(), {"flags.cl", "tile_batch.cl", "composite_groups.cl"});
+    files.insert(files.end(),
+                 {"flags.cl", "tile_batch.cl", "layer_behind.cl", "composite_groups.cl"});
   }
   return files;
 }
@@ -311,7 +312,7 @@ std::vector<std::string> Specialization::join_files() const {
   if (rows_) {
     files.insert(files.end(), {"join_pixels.cl", "join.cl"});
   } else {
-    files.push_back("join_groups.cl");
+    files.insert(files.end(), {"layer_behind.cl", "join_groups.cl"});
   }
   return files;
 }

@@ -43,14 +43,13 @@ PooledMemory::~PooledMemory() {
 compute::buffer BufferPool::take(std::uint64_t bytes, const char* what, Filling filling) {
   const std::uint64_t needed = std::max<std::uint64_t>(bytes, 1) + padding;
   const std::uint64_t largest = context_.get_device().max_memory_alloc_size();
-  const std::uint64_t wanted =
-      shares_host_memory_ ? needed : std::max(needed, std::min(rounded_up(needed), largest));
   if (needed > largest) {
     throw DeviceError("device " + context_.get_device().name() + ": the " + what +
                       " buffer needs " + std::to_string(needed >> 20) + " MiB, expected at most " +
                       std::to_string(largest >> 20) +
                       " MiB: draw fewer pixels (--crop) or fewer particles");
   }
+  const std::uint64_t wanted = shares_host_memory_ ? needed : std::min(rounded_up(needed), largest);
   auto best = free_.end();
   for (auto free = free_.begin(); free != free_.end(); ++free) {
     if (serves(*free, wanted) && (best == free_.end() || is_smaller(*free, *best))) best = free;

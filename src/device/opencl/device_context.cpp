@@ -19,6 +19,6 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       memory(memory_of(chosen, traits)),
       programs(context),
       pool(context, queue, timer, traits),
-      copies(context, queue, traits) {}
+      copies(context, queue, timer, traits) {}
 
 }  // namespace splotchcl

@@ -134,9 +134,8 @@ void ProgramCache::build(Entry& entry) {
 // A compiler takes half a second to start, as long as three programs or four.
 std::size_t ProgramCache::compilers_for(std::size_t programs) const {
   const compute::device device = context_.get_device();
-  const bool is_processor = (device.type() & CL_DEVICE_TYPE_CPU) != 0;
   if (!start_compiler_ || !binaries_.is_used() || has_built_) return 0;
-  if (!is_processor || !is_pocl(device)) return 0;
+  if (!is_pocl_processor(device)) return 0;
   const std::size_t cores = std::min(std::size_t{device.compute_units()},
                                      std::size_t{std::thread::hardware_concurrency()});
   if (programs < 3 || cores < 2) return 0;

@@ -23,8 +23,7 @@ constexpr char with_prefetch[] = "-DHAS_PREFETCH";
 constexpr char with_ballot[] = "-DHAS_BALLOT";
 
 std::string extras_of(const compute::device& device) {
-  const bool is_processor = (device.type() & CL_DEVICE_TYPE_CPU) != 0;
-  if (is_processor && is_pocl(device)) return with_prefetch;
+  if (is_pocl_processor(device)) return with_prefetch;
   return is_nvidia(device) ? with_ballot : "";
 }
 
@@ -49,6 +48,10 @@ ProgramText short_text_of(const ProgramSource& source, const compute::device& de
 
 bool is_pocl(const compute::device& device) {
   return device.platform().name() == "Portable Computing Language";
+}
+
+bool is_pocl_processor(const compute::device& device) {
+  return (device.type() & CL_DEVICE_TYPE_CPU) != 0 && is_pocl(device);
 }
 
 bool is_nvidia(const compute::device& device) {

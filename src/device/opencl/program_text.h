@@ -33,6 +33,7 @@ ProgramText text_of(const ProgramSource& source, const compute::device& device);
 ProgramText short_text_of(const ProgramSource& source, const compute::device& device);
 
 bool is_pocl(const compute::device& device);
+bool is_pocl_processor(const compute::device& device);
 bool is_nvidia(const compute::device& device);  // its own driver
 
 // Its files, for messages.

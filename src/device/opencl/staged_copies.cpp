@@ -83,33 +83,38 @@ void StagedCopies::give_back(Slot& slot) {
   has_free_.notify_one();
 }
 
+void StagedCopies::by_slots(
+    std::size_t bytes,
+    const std::function<void(Slot& slot, std::size_t first, std::size_t count)>& copy) {
+  for_blocks(bytes, slot_bytes, [&](std::size_t first, std::size_t end) {
+    const TakenSlot taken(*this);
+    copy(taken.slot(), first, end - first);
+  });
+}
+
 void StagedCopies::write(const compute::buffer& buffer, const void* from, std::size_t bytes) {
   if (!stages(bytes)) {
     queue_.enqueue_write_buffer(buffer, 0, bytes, from);
     return;
   }
-  for_blocks(bytes, slot_bytes, [&](std::size_t first, std::size_t end) {
-    const TakenSlot taken(*this);
-    Slot& slot = taken.slot();
+  by_slots(bytes, [&](Slot& slot, std::size_t first, std::size_t count) {
     if (slot.in_use.get() != nullptr) slot.in_use.wait();
-    std::memcpy(slot.mapped, static_cast<const char*>(from) + first, end - first);
-    slot.in_use = queue_.enqueue_write_buffer_async(buffer, first, end - first, slot.mapped);
+    std::memcpy(slot.mapped, static_cast<const char*>(from) + first, count);
+    slot.in_use = queue_.enqueue_write_buffer_async(buffer, first, count, slot.mapped);
     queue_.flush();
   });
 }
 
 void StagedCopies::read(const compute::buffer& buffer, void* to, std::size_t bytes) {
   if (!stages(bytes)) {
-    queue_.enqueue_read_buffer(buffer, 0, bytes, to);
+    timer_.add_copy(queue_.enqueue_read_buffer(buffer, 0, bytes, to));
     return;
   }
-  for_blocks(bytes, slot_bytes, [&](std::size_t first, std::size_t end) {
-    const TakenSlot taken(*this);
-    Slot& slot = taken.slot();
-    slot.in_use = queue_.enqueue_read_buffer_async(buffer, first, end - first, slot.mapped);
+  by_slots(bytes, [&](Slot& slot, std::size_t first, std::size_t count) {
+    slot.in_use = queue_.enqueue_read_buffer_async(buffer, first, count, slot.mapped);
     queue_.flush();
     slot.in_use.wait();
-    std::memcpy(static_cast<char*>(to) + first, slot.mapped, end - first);
+    std::memcpy(static_cast<char*>(to) + first, slot.mapped, count);
   });
 }
 

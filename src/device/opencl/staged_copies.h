@@ -2,11 +2,13 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <vector>
 
 #include "device/opencl/device_traits.h"
 #include "device/opencl/opencl.h"
+#include "device/opencl/stage_timer.h"
 
 namespace splotchcl {
 
@@ -15,9 +17,13 @@ namespace splotchcl {
 // copies, and those of devices in the host's memory, are left to the driver.
 class StagedCopies {
  public:
+  // `timer` is told of what the driver's one thread reads.
   StagedCopies(const compute::context& context, const compute::command_queue& queue,
-               const DeviceTraits& traits)
-      : context_(context), queue_(queue), is_used_(traits.is_gpu && !traits.shares_host_memory) {}
+               StageTimer& timer, const DeviceTraits& traits)
+      : context_(context),
+        queue_(queue),
+        timer_(timer),
+        is_used_(traits.is_gpu && !traits.shares_host_memory) {}
   StagedCopies(const StagedCopies&) = delete;
   StagedCopies& operator=(const StagedCopies&) = delete;
   ~StagedCopies();
@@ -41,11 +47,15 @@ class StagedCopies {
   bool stages(std::size_t bytes);
   void make_slots();
   void give_up_slots();
+  // All parts of so many bytes, each with a slot of its own, on all cores.
+  void by_slots(std::size_t bytes,
+                const std::function<void(Slot& slot, std::size_t first, std::size_t count)>& copy);
   Slot& take_slot();
   void give_back(Slot& slot);
 
   compute::context context_;
   compute::command_queue queue_;
+  StageTimer& timer_;
   bool is_used_;
   std::vector<Slot> slots_;
   std::vector<Slot*> free_;
