@@ -160,7 +160,7 @@ struct Renderer::State {
       choose_shape(device.traits, options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
-    if (options.memory_bytes > 0) device.memory.total = options.memory_bytes;
+    if (options.memory_bytes > 0) device.limit_memory(options.memory_bytes);
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
     progress = options.progress;
@@ -202,7 +202,7 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
   if (!options.ranks || options.ranks->size() < 2) return;
   ranks = options.ranks;
   if (options.memory_bytes == 0 && device.traits.shares_host_memory)
-    device.memory.total /= static_cast<std::uint64_t>(ranks->size_on_host());
+    device.limit_memory(device.memory.total / static_cast<std::uint64_t>(ranks->size_on_host()));
   const DeviceTraits& traits = device.traits;
   require_same(*ranks, "device",
                device.device.name() + ", driver " + device.device.driver_version() +

@@ -65,6 +65,24 @@ TEST_F(Pool, KeepsALargeBufferWhenALittleMoreIsWanted) {
 }
 
 TEST_F(Pool, GivesFreeMemoryBackRatherThanHoldMuchMoreThanWasInUse) {
+  auto large = get(400 * megabyte);
+  large.reset();
+  own_.reset_peak();
+  const auto other = get(100 * megabyte);
+  EXPECT_LE(own_.peak_bytes(), 432 * megabyte);
+}
+
+TEST_F(Pool, KeepsTheBuffersOfASmallFrameForTheNext) {
+  auto large = get(30 * megabyte);
+  const cl_mem memory = memory_of(large);
+  large.reset();
+  { const auto other = get(12 * megabyte); }
+  large = get(30 * megabyte);
+  EXPECT_EQ(memory_of(large), memory);
+}
+
+TEST_F(Pool, GivesFreeMemoryBackWhereItsLimitIsSmall) {
+  own_.expect_at_most(64 * megabyte);
   auto large = get(40 * megabyte);
   large.reset();
   own_.reset_peak();

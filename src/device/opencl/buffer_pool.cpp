@@ -121,7 +121,7 @@ void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::u
 // What may lie idle beside what has been in use: without any, a little more that is wanted would
 // cost large buffers that are needed again. Of a GPU memory_of() gives seven eighths away.
 std::uint64_t BufferPool::most_idle(std::uint64_t in_use) const {
-  return std::max(in_use / 32, std::min(in_use, gpu_memory_ / 16));
+  return std::max(in_use / 32, shares_host_memory_ ? idle_bytes_ : std::min(in_use, idle_bytes_));
 }
 
 void BufferPool::release_until_it_fits(std::uint64_t wanted) {

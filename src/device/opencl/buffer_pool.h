@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -109,9 +110,11 @@ class MappedValues {
 enum class Filling { whole, in_parts };
 
 // The device's working memory. Buffers that came back are handed out again, and what is held in all
-// never exceeds what has been in use at one time by more than a thirty-second part; on GPUs by no
-// more than as much again and a sixteenth of their memory: to make a buffer there and to give it
-// back takes as long as many kernels.
+// never exceeds what has been in use at one time by more than a thirty-second part, or 32 MiB: a
+// small frame has buffers of many sizes, and where the next one had to make them anew it would wait
+// for the system to clear them. On GPUs it exceeds that by no more than as much again and a
+// sixteenth of their memory: to make a buffer there and to give it back takes as long as many
+// kernels.
 class BufferPool {
  public:
   // `timer` is told of what is copied.
@@ -121,11 +124,14 @@ class BufferPool {
         queue_(queue),
         timer_(timer),
         shares_host_memory_(traits.shares_host_memory),
-        gpu_memory_(traits.gpu_memory) {
+        idle_bytes_(traits.shares_host_memory ? std::uint64_t{32} << 20 : traits.gpu_memory / 16) {
     if (traits.large_pages) large_pages_.emplace();
   }
   BufferPool(const BufferPool&) = delete;
   BufferPool& operator=(const BufferPool&) = delete;
+
+  // No more than a thirty-second part of it lies idle, where the whole may be in use at one time.
+  void expect_at_most(std::uint64_t bytes) { idle_bytes_ = std::min(idle_bytes_, bytes / 32); }
 
   // Room for `count` values, and 64 bytes more, so that rows of eight may be read across the
   // end. Throws DeviceError, which calls the buffer `what`, where the device has not as much.
@@ -160,13 +166,17 @@ class BufferPool {
     return values;
   }
 
-  // All values of a buffer that has some, to be read or to be written anew; both wait for the
-  // commands before. A GPU's driver would make memory that it can copy to each time.
+  // The first `count` values, to be read, or all values of a buffer, to be written anew; both wait
+  // for the commands before. A GPU's driver would make memory that it can copy to each time.
+  template <class T>
+  MappedValues<const T> map_to_read(const Buffer<T>& buffer, std::uint64_t count) {
+    const auto size = static_cast<std::size_t>(count);
+    if (!shares_host_memory_ || size == 0) return {queue_, buffer.memory(), download(buffer, size)};
+    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, size * sizeof(T)), size};
+  }
   template <class T>
   MappedValues<const T> map_to_read(const Buffer<T>& buffer) {
-    const auto count = static_cast<std::size_t>(buffer.size());
-    if (!shares_host_memory_) return {queue_, buffer.memory(), download(buffer, count)};
-    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, count * sizeof(T)), count};
+    return map_to_read(buffer, buffer.size());
   }
   template <class T>
   MappedValues<T> map_to_write(const Buffer<T>& buffer) {
@@ -209,7 +219,7 @@ class BufferPool {
   compute::command_queue queue_;
   StageTimer& timer_;
   bool shares_host_memory_;
-  std::uint64_t gpu_memory_;
+  std::uint64_t idle_bytes_;  // that may lie idle however little has been in use
   std::optional<LargePages> large_pages_;
   std::vector<compute::buffer> free_;
   std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free

@@ -21,4 +21,9 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       pool(context, queue, timer, traits),
       copies(context, queue, timer, traits) {}
 
+void DeviceContext::limit_memory(std::uint64_t bytes) {
+  memory.total = bytes;
+  pool.expect_at_most(bytes);
+}
+
 }  // namespace splotchcl

@@ -33,6 +33,9 @@ DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits
 struct DeviceContext {
   explicit DeviceContext(const compute::device& chosen);
 
+  // So much working memory is to be in use at one time, whatever the device has.
+  void limit_memory(std::uint64_t bytes);
+
   compute::device device;
   compute::context context;
   compute::command_queue queue;  // in order
