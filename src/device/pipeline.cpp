@@ -258,8 +258,8 @@ Planes Pipeline::end_order(std::uint64_t splats, Planes planes) {
 
 void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
   in_lists_.append_before(end_key, keyed);
-  if (around_.has_open_before(end_key))
-    around_.place_among(sort_keys_of(context_, keyed), first, end_key);
+  if (const std::optional<std::uint64_t> last = around_.last_open_before(end_key))
+    around_.place_among(sort_keys_up_to(context_, keyed, *last), first, end_key);
 }
 
 void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {

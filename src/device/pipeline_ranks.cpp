@@ -96,7 +96,8 @@ void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, const Cloud
   if (in_lists_.count() > 0) in_lists_.append(clouds.first, clouds.end, keyed);
   if (around_.clouds().empty()) return;
   std::vector<std::uint64_t> keys;
-  if (clouds.first < clouds.end) keys = sort_keys_of(context_, keyed);
+  if (clouds.first < clouds.end)
+    keys = sort_keys_up_to(context_, keyed, around_.clouds()[clouds.end - 1].key);
   around_.append_places(
       gather_lists(ranks_->all, around_.places_among(keys, first, clouds.first, clouds.end)));
   around_.skip_before(first);

@@ -13,7 +13,8 @@ namespace splotchcl {
 void carry_splats(const StageContext& context, const SortedSplats& sorted, std::uint32_t first,
                   const KeyedSplats& keyed);
 
-// All 48 bits of the splats' keys.
-std::vector<std::uint64_t> sort_keys_of(const StageContext& context, const KeyedSplats& keyed);
+// All 48 bits of those of the splats' keys that are not above `last`.
+std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const KeyedSplats& keyed,
+                                           std::uint64_t last);
 
 }  // namespace splotchcl

@@ -4,19 +4,22 @@
 
 namespace splotchcl {
 
-bool CloudLayers::has_open_before(std::uint64_t end) const {
-  const std::size_t placed = splats_before_.size();
-  return placed < clouds_.size() && clouds_[placed].key < end;
+std::size_t CloudLayers::end_of_open(std::uint64_t end) const {
+  const auto open_end = std::lower_bound(
+      clouds_.begin() + static_cast<std::ptrdiff_t>(splats_before_.size()), clouds_.end(), end,
+      [](const CloudAround& cloud, std::uint64_t key) { return cloud.key < key; });
+  return static_cast<std::size_t>(open_end - clouds_.begin());
+}
+
+std::optional<std::uint64_t> CloudLayers::last_open_before(std::uint64_t end) const {
+  const std::size_t open_end = end_of_open(end);
+  if (open_end == splats_before_.size()) return std::nullopt;
+  return clouds_[open_end - 1].key;
 }
 
 void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first,
                               std::uint64_t end) {
-  const std::size_t placed = splats_before_.size();
-  const auto open_end =
-      std::lower_bound(clouds_.begin() + static_cast<std::ptrdiff_t>(placed), clouds_.end(), end,
-                       [](const CloudAround& cloud, std::uint64_t key) { return cloud.key < key; });
-  append_places(
-      places_among(keys, first, placed, static_cast<std::size_t>(open_end - clouds_.begin())));
+  append_places(places_among(keys, first, splats_before_.size(), end_of_open(end)));
 }
 
 std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint64_t>& keys,
@@ -25,14 +28,9 @@ std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint
   std::vector<std::uint64_t> cloud_keys;
   for (std::size_t k = begin_cloud; k < end_cloud; ++k)
     cloud_keys.push_back(clouds_[k].key);
-  // Of each of these clouds the splats between it and the one before.
+  // Of each of these clouds the splats between it and the one before, and those behind all.
   std::vector<std::uint64_t> between(cloud_keys.size() + 1);
   for (const std::uint64_t key : keys) {
-    // Clouds around the camera are nearer than nearly all splats.
-    if (cloud_keys.empty() || cloud_keys.back() < key) {
-      ++between.back();
-      continue;
-    }
     const auto behind = std::lower_bound(cloud_keys.begin(), cloud_keys.end(), key);
     ++between[static_cast<std::size_t>(behind - cloud_keys.begin())];
   }
