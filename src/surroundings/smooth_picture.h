@@ -23,8 +23,9 @@ struct SmoothPictureSettings {
   std::function<double(const double* exact, const double* foretold)> error_of;
 };
 
-// Works out a pixel's channels. Also of pixels beside the picture; called from several threads.
-using PixelFunction = std::function<void(int x, int y, double* channels)>;
+// Works out the channels of one of many pixels that lie `spacing` pixels apart. Also of pixels
+// beside the picture; called from several threads.
+using PixelFunction = std::function<void(int x, int y, int spacing, double* channels)>;
 
 // Nodes from which a crop's pixels are interpolated, row by row.
 class SmoothPicture {
@@ -34,8 +35,18 @@ class SmoothPicture {
   SmoothPicture& operator=(SmoothPicture&&) noexcept;
   ~SmoothPicture();
 
-  // Row y of the crop: for each channel its `crop.width` pixels. Several threads may ask.
-  void row(int y, std::vector<double>& channels) const;
+  // What rows of float round off at most, in parts of the largest value: of each weight and value
+  // one rounding, of their products another, and seven of the sum. Weights come to 1.5, signs
+  // aside.
+  static constexpr double single_rounding = 1.5 * 10 * 0x1p-24;
+
+  // The largest value of any channel at a node or along a row of them.
+  double largest() const;
+
+  // Row y of the crop: for each channel its `crop.width` pixels, of float or double. Several
+  // threads may ask.
+  template <class Number>
+  void row(int y, std::vector<Number>& channels) const;
 
  private:
   class Nodes;

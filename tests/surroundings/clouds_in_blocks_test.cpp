@@ -41,16 +41,24 @@ TEST(CloudsInBlocks, AreAllThatShowInAPixel) {
         double of_all = 0, of_listed = 0;
         for (std::size_t k = 0; k < clouds.size(); ++k)
           of_all += column(k);
-        for (const std::uint32_t k : in_blocks.at(x, y))
+        for (const std::uint32_t k : in_blocks.at(x, y, 1))
           of_listed += column(k);
         ASSERT_NEAR(of_listed, of_all, static_cast<double>(clouds.size()) * std::exp(-farthest2))
             << "seed " << seed << ", pixel " << x << ", " << y;
-        listed += in_blocks.at(x, y).size();
+        listed += in_blocks.at(x, y, 1).size();
         all += clouds.size();
       }
     }
   }
   EXPECT_LT(3 * listed, 2 * all) << "most clouds should be in some blocks only";
+}
+
+TEST(CloudsInBlocks, AreAllOfThemWherePixelsLieFarApart) {
+  const Frame frame = AroundSceneMaker(7, 200).make();
+  const std::vector<CloudAround> clouds = clouds_of(frame, 20);
+  const CloudsInBlocks in_blocks(clouds, 3, clouds.size(), frame);
+  EXPECT_EQ(in_blocks.at(0, 0, 64).size(), clouds.size() - 3);
+  EXPECT_EQ(in_blocks.at(0, 0, 64).front(), 3u);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ double largest_error(SmoothPictureSettings settings, double sigma, Place place) 
   settings.narrowest = sigma;
   const std::vector<double> pixels = pixels_of(
       settings,
-      [sigma, place](int x, int y, double* value) { *value = gaussian(x, y, sigma, place); });
+      [sigma, place](int x, int y, int, double* value) { *value = gaussian(x, y, sigma, place); });
   double largest = 0;
   std::size_t i = 0;
   for (int y = settings.crop.y; y < settings.crop.y + settings.crop.height; ++y) {
@@ -73,7 +73,7 @@ TEST(SmoothPicture, WorksOutFewPixelsOfWhatIsSmooth) {
   std::atomic<int> count = 0;
   SmoothPictureSettings settings = settings_of(512, 512, 1e-5);
   settings.narrowest = 200;
-  pixels_of(settings, [&count](int x, int y, double* value) {
+  pixels_of(settings, [&count](int x, int y, int, double* value) {
     ++count;
     *value = gaussian(x, y, 200);
   });
@@ -83,7 +83,7 @@ TEST(SmoothPicture, WorksOutFewPixelsOfWhatIsSmooth) {
 TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
   SmoothPictureSettings settings = settings_of(200, 120, 1e-6);
   settings.narrowest = 30;
-  const PixelFunction pixel = [](int x, int y, double* value) { *value = gaussian(x, y, 30); };
+  const PixelFunction pixel = [](int x, int y, int, double* value) { *value = gaussian(x, y, 30); };
   const std::vector<double> whole = pixels_of(settings, pixel);
   settings.crop = {37, 11, 90, 70};
   const std::vector<double> crop = pixels_of(settings, pixel);
@@ -91,6 +91,25 @@ TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
     for (std::size_t x = 0; x < 90; ++x)
       ASSERT_EQ(crop[y * 90 + x], whole[(y + 11) * 200 + x + 37]);
   }
+}
+
+TEST(SmoothPicture, InSinglePrecisionRoundsOffNoMoreThanItSays) {
+  SmoothPictureSettings settings = settings_of(200, 120, 1e-3);
+  settings.narrowest = 40;
+  const SmoothPicture picture(
+      settings, [](int x, int y, int, double* value) { *value = 1000 * gaussian(x, y, 40) + 1; });
+  std::vector<double> exact;
+  std::vector<float> rounded;
+  double largest_error = 0;
+  for (int y = 0; y < 120; ++y) {
+    picture.row(y, exact);
+    picture.row(y, rounded);
+    for (std::size_t x = 0; x < 200; ++x)
+      largest_error = std::max(largest_error, std::abs(static_cast<double>(rounded[x]) - exact[x]));
+  }
+  EXPECT_GE(picture.largest(), 1000);
+  EXPECT_LE(largest_error, SmoothPicture::single_rounding * picture.largest());
+  EXPECT_GT(largest_error, 0);
 }
 
 }  // namespace

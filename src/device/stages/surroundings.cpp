@@ -33,6 +33,9 @@ constexpr double negligible = 1e-14;
 // Of what clouds around the camera may err by, what all of them together lose by ending.
 constexpr double share_of_ends = 1e-3;
 
+// Of the picture, that a thread works out.
+constexpr std::size_t rows_at_once = 8;
+
 [[noreturn]] void refuse(const DeviceContext& device, std::uint64_t counted, std::uint64_t listed) {
   throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
                     " clouds around the camera and listed " + std::to_string(listed) +
@@ -80,20 +83,29 @@ float carried(double depth, bool keeps_transmittance) {
   return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
 }
 
+// A row of light. Interpolation may leave less than nothing, by as little as it errs.
+template <class Number>
+void put_light(const Number* light, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i)
+    to[i] = static_cast<float>(std::max(light[i], Number(0)));
+}
+
 // A row of optical depths as planes carry them. Most layers are thin, and take no function then: by
 // five terms of the series, whose error is depth^5 / 720 of it, less than single precision rounds
-// off. Interpolation may leave less than nothing, by as little as it errs.
-void carry_row(const double* depths, std::size_t count, bool keeps_transmittance, float* to) {
+// off.
+template <class Number>
+void put_depths(const Number* depths, std::size_t count, bool keeps_transmittance, float* to) {
   constexpr double thin = 0.03;
-  const bool are_thin = *std::max_element(depths, depths + count) < thin;
+  const bool are_thin = static_cast<double>(*std::max_element(depths, depths + count)) < thin;
   for (std::size_t i = 0; i < count; ++i) {
-    const double d = std::max(depths[i], 0.0);
+    const Number d = std::max(depths[i], Number(0));
     if (!are_thin) {
-      to[i] = carried(d, keeps_transmittance);
+      to[i] = carried(static_cast<double>(d), keeps_transmittance);
       continue;
     }
-    const double series = 1 - d * (1. / 2 - d * (1. / 6 - d * (1. / 24 - d * (1. / 120))));
-    to[i] = static_cast<float>(d * series);
+    constexpr auto half = static_cast<Number>(1. / 2), sixth = static_cast<Number>(1. / 6),
+                   fourth = static_cast<Number>(1. / 24), fifth = static_cast<Number>(1. / 120);
+    to[i] = static_cast<float>(d * (1 - d * (half - d * (sixth - d * (fourth - d * fifth)))));
   }
 }
 
@@ -242,10 +254,14 @@ std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds)
   return clouds;
 }
 
-// The layer's light and depth in each pixel of the crop: in ordered scenes S, then tau, else the
-// sum.
+// Of what is worked out for a pixel: in ordered scenes S, then tau, else the sum.
+std::size_t Surroundings::channels() const {
+  return context_.plan.light == LightPlan::ordered ? 6 : 3;
+}
+
+// The layer's light and depth in each pixel of the crop.
 SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
-                                       const CloudLayer& layer, std::size_t parts) const {
+                                       const CloudLayer& layer, double allowed) const {
   const Frame& frame = context_.frame;
   const FramePlan& plan = context_.plan;
   const LightPlan light = plan.light;
@@ -254,10 +270,10 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   const double wide_sigma =
       sigma_of_means_by_values(plan.is_extended() ? exact : part_of_promise * plan.shares.promise);
   const CloudsInBlocks in_blocks(clouds, layer.first, layer.end, frame);
-  const auto add_all = [&](int x, int y, double* channels) {
+  const auto add_all = [&](int x, int y, int spacing, double* channels) {
     std::fill_n(channels, is_ordered ? 6 : 3, 0.0);
     const Vec3 direction = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
-    for (const std::uint32_t k : in_blocks.at(x, y)) {
+    for (const std::uint32_t k : in_blocks.at(x, y, spacing)) {
       const CloudAround& cloud = clouds[k];
       const double column = column_around(cloud, x, y, direction, frame.kernel, wide_sigma);
       if (column == 0) continue;
@@ -277,9 +293,9 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   settings.width = frame.width;
   settings.height = frame.height;
   settings.crop = frame.crop;
-  settings.channels = is_ordered ? 6 : 3;
+  settings.channels = static_cast<int>(channels());
   settings.narrowest = narrowest_detail(clouds, layer.first, layer.end, frame);
-  settings.allowed = 0.25 * share_of_promise * plan.shares.promise / static_cast<double>(parts);
+  settings.allowed = allowed;
   settings.error_of = [light, brightest = brightest()](const double* exact,
                                                        const double* foretold) {
     double largest = 0;
@@ -290,52 +306,74 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   return SmoothPicture(settings, add_all);
 }
 
-// As the planes of the picture's grid have them, without padding.
-Buffer<float> Surroundings::planes_of(const SmoothPicture& layer) const {
+// The same in single precision only.
+template <class Number>
+void Surroundings::put_rows(const SmoothPicture& layer, float* planes) const {
   const auto width = static_cast<std::size_t>(context_.frame.crop.width);
   const auto height = static_cast<std::size_t>(context_.frame.crop.height);
-  const std::size_t pixels = width * height;
-  const bool is_extended = context_.plan.is_extended();
   const bool keeps_transmittance = context_.plan.layers.keeps_transmittance;
-  const std::size_t channels = context_.plan.light == LightPlan::ordered ? 6 : 3;
-  const std::size_t parts = is_extended ? 2 : 1;
-  BufferPool& pool = context_.device.pool;
-  Buffer<float> planes = pool.get<float>(parts * channels * pixels, "clouds around");
-  const MappedValues<float> mapped = pool.map_to_write(planes);
-  for_blocks(height, 8, [&](std::size_t first, std::size_t end) {
-    std::vector<double> row;
+  for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
+    std::vector<Number> row;
     for (std::size_t y = first; y < end; ++y) {
       layer.row(static_cast<int>(y), row);
-      for (std::size_t c = 0; c < channels; ++c) {
-        const double* const values = row.data() + c * width;
-        float* const to = mapped.data() + parts * c * pixels + y * width;
-        if (is_extended) {
-          split(values, width, to, to + pixels);
-          continue;
-        }
-        if (c >= 3) {
-          carry_row(values, width, keeps_transmittance, to);
-          continue;
-        }
-        for (std::size_t x = 0; x < width; ++x)
-          to[x] = static_cast<float>(std::max(values[x], 0.0));
+      for (std::size_t c = 0; c < channels(); ++c) {
+        const Number* const values = row.data() + c * width;
+        float* const to = planes + (c * height + y) * width;
+        if (c >= 3)
+          put_depths(values, width, keeps_transmittance, to);
+        else
+          put_light(values, width, to);
       }
     }
   });
+}
+
+void Surroundings::put_rows_of_pairs(const SmoothPicture& layer, float* planes) const {
+  const auto width = static_cast<std::size_t>(context_.frame.crop.width);
+  const auto height = static_cast<std::size_t>(context_.frame.crop.height);
+  const std::size_t pixels = width * height;
+  for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
+    std::vector<double> row;
+    for (std::size_t y = first; y < end; ++y) {
+      layer.row(static_cast<int>(y), row);
+      for (std::size_t c = 0; c < channels(); ++c) {
+        float* const to = planes + 2 * c * pixels + y * width;
+        split(row.data() + c * width, width, to, to + pixels);
+      }
+    }
+  });
+}
+
+// As the planes of the picture's grid have them, without padding.
+Buffer<float> Surroundings::planes_of(const SmoothPicture& layer, double allowed) const {
+  const auto pixels = static_cast<std::size_t>(context_.frame.crop.width) *
+                      static_cast<std::size_t>(context_.frame.crop.height);
+  const bool is_extended = context_.plan.is_extended();
+  BufferPool& pool = context_.device.pool;
+  Buffer<float> planes =
+      pool.get<float>((is_extended ? 2 : 1) * channels() * pixels, "clouds around");
+  const MappedValues<float> mapped = pool.map_to_write(planes);
+  if (is_extended)
+    put_rows_of_pairs(layer, mapped.data());
+  else if (SmoothPicture::single_rounding * brightest() * layer.largest() <= allowed)
+    put_rows<float>(layer, mapped.data());
+  else
+    put_rows<double>(layer, mapped.data());
   return planes;
 }
 
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
-  if (!clouds.empty()) put_behind(picture_of(clouds, {0, clouds.size(), 0}, 1), planes);
+  if (!clouds.empty()) put_behind(clouds, {0, clouds.size(), 0}, 1, planes);
 }
 
 // There are no more layers than clouds.
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                         const Planes& planes) const {
-  put_behind(picture_of(clouds, layer, clouds.size()), planes);
+  put_behind(clouds, layer, clouds.size(), planes);
 }
 
-void Surroundings::put_behind(const SmoothPicture& layer, const Planes& planes) const {
+void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                              std::size_t parts, const Planes& planes) const {
   const Rectangle& crop = context_.frame.crop;
   shared::BehindParameters parameters{};
   parameters.width = crop.width;
@@ -343,7 +381,9 @@ void Surroundings::put_behind(const SmoothPicture& layer, const Planes& planes) 
   parameters.crop_x = crop.x;
   parameters.crop_y = crop.y;
   DeviceContext& device = context_.device;
-  const Buffer<float> behind = planes_of(layer);
+  const double allowed =
+      0.25 * share_of_promise * context_.plan.shares.promise / static_cast<double>(parts);
+  const Buffer<float> behind = planes_of(picture_of(clouds, layer, allowed), allowed);
   const auto items =
       static_cast<std::size_t>(ceil_divide(crop.width, context_.specialization.pixels_behind()));
   Launch(device, "surroundings",
