@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <unordered_map>
+#include <iterator>
 #include <vector>
 
+#include "certificate/crowd_cells.h"
 #include "certificate/expected_ends.h"
 #include "certificate/octave_errors.h"
 #include "certificate/peak_cells.h"
@@ -20,23 +20,9 @@
 namespace splotchcl {
 namespace {
 
-// A square of cells of fewer sampled particles tells nothing of how many there are.
-constexpr double fewest = 6;
-// What the light of n sampled particles may be too large by, in parts of itself times root n.
-constexpr double deviations = 2;
 // More than is found: the check asks for one and a half times as much, and finds what the sample
 // does not show.
 constexpr double margin_of_all = 2.5, margin_of_sample = 4;
-
-struct Sampled {
-  double peak = 0, count = 0;
-
-  Sampled& operator+=(const Sampled& other) {
-    peak += other.peak;
-    count += other.count;
-    return *this;
-  }
-};
 
 // Where splats are drawn: on the picture's own grid, or on the others of a level.
 struct GridsOfSplats {
@@ -50,68 +36,15 @@ struct GridsOfSplats {
 
 // The sampled splats of one octave of widths on the grid that they are drawn on, in cells as those
 // of the check (docs/accuracy.md, "Checked after drawing").
-class OctaveSample {
- public:
-  OctaveSample(int octave, GridsOfSplats on)
-      : on_(on), shift_(on.level + peak_cell_shift(octave - on.level)) {}
+struct OctaveSample {
+  OctaveSample(int octave_of_widths, GridsOfSplats drawn_on)
+      : octave(octave_of_widths),
+        on(drawn_on),
+        cells(on.level + peak_cell_shift(octave - on.level)) {}
 
-  GridsOfSplats on() const { return on_; }
-
-  void add(const SampledCloud& cloud, double most_peak) {
-    Sampled& cell = cells_[key(cell_of(cloud.x), cell_of(cloud.y))];
-    cell += {cloud.weight * std::min(cloud.light, most_peak), 1};
-  }
-
-  // The most light of peaks that lie upon one another, beyond what an even field has there.
-  double crowded_light(bool is_sample) const {
-    double most = 0;
-    for (const auto& [cell, sampled] : cells_) {
-      // Four cells of one particle each are too few, so a square that tells something has another.
-      if (is_sample && sampled.count < fewest / 4) continue;
-      const auto x = static_cast<std::int32_t>(cell >> 32);
-      const auto y = static_cast<std::int32_t>(cell & 0xffffffffu);
-      // The four squares of two cells by two with this one.
-      for (const int left : {x - 1, x}) {
-        for (const int top : {y - 1, y})
-          most = light_of_square(left, top, is_sample, most);
-      }
-    }
-    return most;
-  }
-
- private:
-  static std::uint64_t key(std::int32_t x, std::int32_t y) {
-    return std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
-  }
-  std::int32_t cell_of(double place) const {
-    constexpr double farthest = 1e9;  // clouds as wide may lie as far beside the picture
-    return static_cast<std::int32_t>(
-        std::clamp(std::floor(std::ldexp(place, -shift_)), -farthest, farthest));
-  }
-  Sampled sum(int left, int top, int side) const {
-    Sampled all;
-    for (int y = top; y < top + side; ++y) {
-      for (int x = left; x < left + side; ++x) {
-        const auto found = cells_.find(key(x, y));
-        if (found != cells_.end()) all += found->second;
-      }
-    }
-    return all;
-  }
-  // Or `least`, where it is less.
-  double light_of_square(int left, int top, bool is_sample, double least) const {
-    constexpr double square = 4, around = 32;
-    const Sampled here = sum(left, top, 2);
-    if (is_sample && here.count < fewest) return least;
-    const double certain = is_sample ? 1 - deviations / std::sqrt(here.count) : 1;
-    if (certain * here.peak <= least) return least;
-    const double beside = sum(left - 2, top - 2, 6).peak - here.peak;
-    return std::max(least, certain * here.peak - beside * square / around);
-  }
-
-  GridsOfSplats on_;
-  int shift_;
-  std::unordered_map<std::uint64_t, Sampled> cells_;
+  int octave;
+  GridsOfSplats on;
+  CrowdCells cells;
 };
 
 GridsOfSplats grids_of(const SampledCloud& cloud, double sigma, const FramePlan& plan) {
@@ -123,52 +56,55 @@ GridsOfSplats grids_of(const SampledCloud& cloud, double sigma, const FramePlan&
   return {std::min(std::ilogb(ratio) + pyramid.first_level, coarsest), false};
 }
 
-// Octaves on the picture's own grid, and on coarse ones.
-using Samples = std::array<std::vector<OctaveSample>, width_octaves>;
-
-Samples collect(const std::vector<SampledCloud>& clouds, const FramePlan& plan) {
-  Samples samples;
+// Octaves on the picture's own grid, and on coarse ones, the narrowest first.
+std::vector<OctaveSample> collect(const std::vector<SampledCloud>& clouds, const FramePlan& plan) {
+  std::array<std::vector<OctaveSample>, width_octaves> octaves;
   for (const SampledCloud& cloud : clouds) {
     const double sigma = drawn_sigma(cloud, plan);
     const int octave = width_octave(sigma);
     const GridsOfSplats on = grids_of(cloud, sigma, plan);
-    std::vector<OctaveSample>& of_octave = samples[static_cast<std::size_t>(octave)];
-    auto at = std::find_if(of_octave.begin(), of_octave.end(),
-                           [&](const OctaveSample& one) { return one.on() == on; });
-    if (at == of_octave.end()) at = of_octave.insert(at, OctaveSample(octave, on));
+    std::vector<OctaveSample>& samples = octaves[static_cast<std::size_t>(octave)];
+    auto at = std::find_if(samples.begin(), samples.end(),
+                           [&](const OctaveSample& one) { return one.on == on; });
+    if (at == samples.end()) at = samples.insert(at, OctaveSample(octave, on));
     const auto bright = static_cast<double>(plan.splats.bright_peak);
-    at->add(cloud, on.are_picture ? bright : cloud.light);
+    const double light = on.are_picture ? std::min(cloud.light, bright) : cloud.light;
+    at->cells.add(cloud.x, cloud.y, cloud.weight * light);
   }
-  return samples;
+  std::vector<OctaveSample> all;
+  for (std::vector<OctaveSample>& samples : octaves)
+    std::move(samples.begin(), samples.end(), std::back_inserter(all));
+  return all;
 }
 
 // What splats of one octave on one grid do where most lie upon one another.
 struct Crowd {
-  int octave;
+  int octave = 0;
   GridsOfSplats on;
-  double light, error;  // over what is promised
-  double light_of_means;
+  double light = 0, error = 0;  // over what is promised
+  double light_of_means = 0;
 };
 
+Crowd crowd_of(OctaveSample& sample, bool is_sample, const Frame& frame, const FramePlan& plan) {
+  PeakCells nothing;
+  nothing.octave = sample.octave;
+  nothing.level = sample.on.level;
+  nothing.is_beside_picture = sample.on.level == 0 && !sample.on.are_picture;
+  nothing.peaks = nothing.endings = {1, 1, 1, {0}};
+  const OctaveErrors errors(nothing, frame, plan);
+  const double light = sample.cells.crowded_light(is_sample);
+  const double error = std::min(errors.peak_error() * light, errors.part_of_itself(light));
+  return {sample.octave, sample.on, light, error / plan.shares.promise, errors.light_of_means()};
+}
+
 std::vector<Crowd> crowds_of(const std::vector<SampledCloud>& clouds, bool is_sample,
-                             const Frame& frame, const FramePlan& plan) {
-  const Samples samples = collect(clouds, plan);
-  std::vector<Crowd> crowds;
-  for (int octave = 0; octave < width_octaves; ++octave) {
-    for (const OctaveSample& sample : samples[static_cast<std::size_t>(octave)]) {
-      PeakCells nothing;
-      nothing.octave = octave;
-      nothing.level = sample.on().level;
-      nothing.is_beside_picture = sample.on().level == 0 && !sample.on().are_picture;
-      nothing.peaks = nothing.endings = {1, 1, 1, {0}};
-      const OctaveErrors errors(nothing, frame, plan);
-      const double light = sample.crowded_light(is_sample);
-      crowds.push_back({octave, sample.on(), light,
-                        std::min(errors.peak_error() * light, errors.part_of_itself(light)) /
-                            plan.shares.promise,
-                        errors.light_of_means()});
-    }
-  }
+                             const Frame& frame, const FramePlan& plan, const BlockLoop& loop) {
+  std::vector<OctaveSample> samples = collect(clouds, plan);
+  std::vector<Crowd> crowds(samples.size());
+  loop(samples.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      crowds[i] = crowd_of(samples[i], is_sample, frame, plan);
+  });
   return crowds;
 }
 
@@ -245,7 +181,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
   SplatNeeds needs;
   bool are_any = false;
   if (knows_ends || can_expect_crowds(frame, plan)) {
-    const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan);
+    const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan, loop);
     const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin_of_all;
     if (error > (knows_ends ? most_of_all : most_of_sample)) {
       add_needs_of_crowds(crowds, error, times, knows_ends, plan, needs);

@@ -1,0 +1,122 @@
+#include "certificate/crowd_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace splotchcl {
+namespace {
+
+// A square of cells of fewer sampled particles tells nothing of how many there are.
+constexpr double fewest = 6;
+// What the light of n sampled particles may be too large by, in parts of itself times root n.
+constexpr double deviations = 2;
+// In cells: clouds as wide may lie as far beside the picture.
+constexpr double farthest = 1e9;
+
+}  // namespace
+
+void CrowdCells::add(double x, double y, double light) {
+  const auto cell_of = [this](double place) {
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(std::ldexp(place, -shift_)), -farthest, farthest));
+  };
+  cells_.push_back({cell_of(x), cell_of(y), light, 1});
+}
+
+void CrowdCells::join_equal_cells() {
+  // Splats of a cell are added up in the order that they came in, so that it is the same anywhere.
+  std::stable_sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
+    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  });
+  std::size_t count = 0;
+  for (const Cell& cell : cells_) {
+    if (count > 0 && cells_[count - 1].x == cell.x && cells_[count - 1].y == cell.y) {
+      cells_[count - 1].light += cell.light;
+      cells_[count - 1].count += cell.count;
+    } else {
+      cells_[count++] = cell;
+    }
+  }
+  cells_.resize(count);
+}
+
+std::vector<CrowdCells::Row> CrowdCells::rows() const {
+  std::vector<Row> rows;
+  const Cell* const end = cells_.data() + cells_.size();
+  for (const Cell* cell = cells_.data(); cell != end; ++cell) {
+    if (rows.empty() || rows.back().begin->y != cell->y) rows.push_back({cell, cell});
+    rows.back().end = cell + 1;
+  }
+  return rows;
+}
+
+double CrowdCells::light_within(std::int32_t left, std::int32_t top, std::int32_t side) const {
+  double light = 0;
+  for (std::int32_t y = top; y < top + side; ++y) {
+    auto cell = std::lower_bound(
+        cells_.begin(), cells_.end(), std::tie(y, left),
+        [](const Cell& a, const auto& place) { return std::tie(a.y, a.x) < place; });
+    for (; cell != cells_.end() && cell->y == y && cell->x < left + side; ++cell)
+      light += cell->light;
+  }
+  return light;
+}
+
+double CrowdCells::light_of_square(const Square& square, bool is_sample, double least) const {
+  constexpr double cells_in_square = 4, cells_around = 32;
+  if (is_sample && square.count < fewest) return least;
+  const double certain = is_sample ? 1 - deviations / std::sqrt(square.count) : 1;
+  if (certain * square.light <= least) return least;
+  const double around = light_within(square.left - 2, square.top - 2, 6) - square.light;
+  return std::max(least, certain * square.light - around * cells_in_square / cells_around);
+}
+
+// All squares of the two rows, of which either may be empty.
+double CrowdCells::light_of_rows(const Row& upper, const Row& lower, std::int32_t top,
+                                 bool is_sample, double least) const {
+  const Cell *above = upper.begin, *below = lower.begin;
+  Cell before{};  // the column to the left, which counts where it is the next one
+  bool is_first = true;
+  double most = least;
+  while (above != upper.end || below != lower.end) {
+    const bool takes_above = above != upper.end && (below == lower.end || above->x <= below->x);
+    const bool takes_below = below != lower.end && (above == upper.end || below->x <= above->x);
+    Cell column = {takes_above ? above->x : below->x, top, 0, 0};
+    for (const Cell* cell : {takes_above ? above++ : nullptr, takes_below ? below++ : nullptr}) {
+      if (cell == nullptr) continue;
+      column.light += cell->light;
+      column.count += cell->count;
+    }
+    const bool is_next = !is_first && before.x == column.x - 1;
+    // The square of the column before ends with this one, or before it.
+    if (!is_first && !is_next)
+      most = light_of_square({before.x, top, before.light, before.count}, is_sample, most);
+    Square square = {column.x - 1, top, column.light, column.count};
+    if (is_next) {
+      square.light += before.light;
+      square.count += before.count;
+    }
+    most = light_of_square(square, is_sample, most);
+    before = column;
+    is_first = false;
+  }
+  if (is_first) return most;
+  return light_of_square({before.x, top, before.light, before.count}, is_sample, most);
+}
+
+double CrowdCells::crowded_light(bool is_sample) {
+  join_equal_cells();
+  const std::vector<Row> all = rows();
+  double most = 0;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const std::int32_t y = all[r].begin->y;
+    const bool has_row_above = r > 0 && all[r - 1].begin->y == y - 1;
+    if (!has_row_above) most = light_of_rows({}, all[r], y - 1, is_sample, most);
+    const bool has_row_below = r + 1 < all.size() && all[r + 1].begin->y == y + 1;
+    most = light_of_rows(all[r], has_row_below ? all[r + 1] : Row{}, y, is_sample, most);
+  }
+  return most;
+}
+
+}  // namespace splotchcl
