@@ -225,11 +225,14 @@ void OctaveErrors::find_uneven_peaks(const CellSums& peaks) {
   const auto across = static_cast<std::size_t>(squares_across_);
   const auto along = static_cast<std::size_t>(squares_along_);
   uneven_peaks_.resize(across * along);
+  most_uneven_of_rows_.resize(along);
   for_blocks(along, rows_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
       for (std::size_t x = 0; x < across; ++x)
         uneven_peaks_[y * across + x] =
             peaks_around(static_cast<int>(x) - 1, static_cast<int>(y) - 1);
+      const double* const row = uneven_peaks_.data() + y * across;
+      most_uneven_of_rows_[y] = largest_of(row, row + across);
     }
   });
 }
@@ -253,11 +256,13 @@ double OctaveErrors::all_ends_around(const CellRange& cell) const {
   return within + window_.next_weight * next;
 }
 
-double OctaveErrors::ends_around(const CellRange& cell) const {
-  if (is_bound_) return all_ends_around(cell) + window_.far_weight * endings_.total();
+// Or `least`, where it is less.
+double OctaveErrors::ends_around(const CellRange& cell, double least) const {
+  const double all = all_ends_around(cell);
+  if (is_bound_) return std::max(least, all + window_.far_weight * endings_.total());
+  if (all <= least) return least;
   const double cells = (2.0 * window_.reach + 1) * (2.0 * window_.reach + 1);
-  const double even = uneven * cells * even_around(cell);
-  return std::max(0.0, all_ends_around(cell) - even);
+  return std::max(least, all - uneven * cells * even_around(cell));
 }
 
 // Of the four squares of two cells by two that the cell lies in, or inner ones next to it, the
@@ -288,7 +293,7 @@ double OctaveErrors::of_ends(const PixelBlock& block, double negligible) const {
   double largest = 0;
   for (int y = range.y0; y < range.y1; ++y) {
     for (int x = range.x0; x < range.x1; ++x)
-      largest = std::max(largest, ends_around({x, x + 1, y, y + 1}));
+      largest = ends_around({x, x + 1, y, y + 1}, largest);
   }
   return ending_ * largest;
 }
@@ -308,28 +313,42 @@ double OctaveErrors::of_peaks(const PixelBlock& block, double negligible) const 
   if (is_bound_) return peak_error_ * peaks_.over_near(range);
   const double most = peak_error_ * peaks_.over_near(range.widened(1));
   if (most <= negligible) return most;
-  double largest = 0;
   const CellRange here = cells_of(block, peak_side_);
-  const bool fades = peak_weights_.back() < 1;
   const CellRange squares = {std::max(range.x0 - 1, -1), std::min(range.x1, squares_across_ - 1),
                              std::max(range.y0 - 1, -1), std::min(range.y1, squares_along_ - 1)};
+  if (squares.x0 >= squares.x1 || squares.y0 >= squares.y1) return 0;
+  // Rows of the block first: where these have much, little that is farther away is looked at.
+  const int first = std::clamp(here.y0 - 1, squares.y0, squares.y1);
+  double largest = 0;
+  for (int y = first; y < squares.y1; ++y)
+    largest = largest_of_peaks(here, squares, y, largest);
+  for (int y = first - 1; y >= squares.y0; --y)
+    largest = largest_of_peaks(here, squares, y, largest);
+  return peak_error_ * largest;
+}
+
+// In a row of squares, faded by how far they are from the block's cells; or `least`, where that is
+// less.
+double OctaveErrors::largest_of_peaks(const CellRange& here, const CellRange& squares, int y,
+                                      double least) const {
   const auto weight = [&](int rows, int columns) {
     return peak_weights_[static_cast<std::size_t>(std::max(rows, columns))];
   };
+  const int rows = std::max({0, here.y0 - y - 1, y - here.y1 + 1});
+  const double most = most_uneven_of_rows_[static_cast<std::size_t>(y + 1)];
+  if (weight(rows, 0) * most <= least) return least;
   // Squares that hold a cell of the block's columns, and those so many cells to either side.
+  const bool fades = peak_weights_.back() < 1;
   const int first = fades ? here.x0 - 1 : squares.x0, end = fades ? here.x1 : squares.x1;
   const int left = std::clamp(first, squares.x0, squares.x1);
   const int right = std::clamp(end, left, squares.x1);
-  for (int y = squares.y0; y < squares.y1; ++y) {
-    const int rows = std::max({0, here.y0 - y - 1, y - here.y1 + 1});
-    const double* const uneven = uneven_peaks_.data() + std::ptrdiff_t{y + 1} * squares_across_ + 1;
-    largest = std::max(largest, weight(rows, 0) * largest_of(uneven + left, uneven + right));
-    for (int x = squares.x0; x < left; ++x)
-      largest = std::max(largest, weight(rows, first - x) * uneven[x]);
-    for (int x = right; x < squares.x1; ++x)
-      largest = std::max(largest, weight(rows, x - end + 1) * uneven[x]);
-  }
-  return peak_error_ * largest;
+  const double* const uneven = uneven_peaks_.data() + std::ptrdiff_t{y + 1} * squares_across_ + 1;
+  double largest = std::max(least, weight(rows, 0) * largest_of(uneven + left, uneven + right));
+  for (int x = left - 1; x >= squares.x0 && weight(rows, first - x) * most > largest; --x)
+    largest = std::max(largest, weight(rows, first - x) * uneven[x]);
+  for (int x = right; x < squares.x1 && weight(rows, x - end + 1) * most > largest; ++x)
+    largest = std::max(largest, weight(rows, x - end + 1) * uneven[x]);
+  return largest;
 }
 
 double OctaveErrors::part_of_itself(double light) const {

@@ -67,11 +67,13 @@ class OctaveErrors {
  private:
   CellRange cells_of(const PixelBlock& block, int side) const;
   double all_ends_around(const CellRange& cell) const;
-  double ends_around(const CellRange& cell) const;
+  double ends_around(const CellRange& cell, double least) const;
   double even_around(const CellRange& cell) const;
   void find_inner_cells(const Frame& frame);
   double peaks_around(int x, int y) const;
   void find_uneven_peaks(const CellSums& peaks);
+  double largest_of_peaks(const CellRange& here, const CellRange& squares, int y,
+                          double least) const;
 
   bool is_bound_;
   int octave_, level_;
@@ -95,6 +97,7 @@ class OctaveErrors {
   // for. Blocks look at the same ones many times.
   std::vector<double> uneven_peaks_;
   int squares_across_ = 0, squares_along_ = 0;
+  std::vector<double> most_uneven_of_rows_;  // the largest of each row of them
 };
 
 }  // namespace splotchcl
