@@ -25,6 +25,14 @@ void advise(const Column& column, std::size_t begin, std::size_t end, int advice
   ::posix_madvise(reinterpret_cast<void*>(first), last - first, advice);
 }
 
+// Of new memory, of which the first and the last page may be others', too.
+[[maybe_unused]] void advise_whole_pages(void* memory, std::size_t bytes, int advice) {
+  const std::uintptr_t page = page_bytes(), begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = ceil_divide(begin, page) * page,
+                       last = (begin + bytes) / page * page;
+  if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, advice);
+}
+
 }  // namespace
 
 void expect_few_values(const Column& column) {
@@ -37,10 +45,13 @@ void read_ahead(const Column& column, std::size_t begin, std::size_t end) {
 
 void expect_all_written(void* memory, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  const std::uintptr_t page = page_bytes(), begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = ceil_divide(begin, page) * page,
-                       last = (begin + bytes) / page * page;
-  if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  advise_whole_pages(memory, bytes, MADV_HUGEPAGE);
+#endif
+}
+
+void make_pages(void* memory, std::size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+  advise_whole_pages(memory, bytes, MADV_POPULATE_WRITE);
 #endif
 }
 

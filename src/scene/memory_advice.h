@@ -21,4 +21,8 @@ void read_ahead(const Column& column, std::size_t begin, std::size_t end);
 // it is made with a five-hundredth of the interruptions that small ones take.
 void expect_all_written(void* memory, std::size_t bytes);
 
+// The same of memory that is about to be written to by one thread: the system clears it now, on
+// whatever threads call this for parts of it.
+void make_pages(void* memory, std::size_t bytes);
+
 }  // namespace splotchcl

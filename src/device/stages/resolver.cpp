@@ -7,6 +7,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
 #include "scene/plan/blur_filter.h"
@@ -23,7 +24,13 @@ Image image_on_large_pages(int width, int height) {
   image.width = width;
   image.height = height;
   image.pixels.reserve(values);
-  expect_all_written(image.pixels.data(), values * sizeof(float));
+  float* const room = image.pixels.data();
+  expect_all_written(room, values * sizeof(float));
+  // One thread alone would wait for the system to clear it.
+  constexpr std::size_t at_once = std::size_t{1} << 19;
+  for_blocks(values, at_once, [room](std::size_t first, std::size_t end) {
+    make_pages(room + first, (end - first) * sizeof(float));
+  });
   image.pixels.resize(values);
   return image;
 }
