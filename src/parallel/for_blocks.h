@@ -12,4 +12,9 @@ void for_blocks(std::size_t count, std::size_t block_size,
                 const std::function<void(std::size_t, std::size_t)>& work,
                 const std::function<void(double)>& progress = {});
 
+// The same on so many threads, the calling one among them, or as many as there are blocks.
+void for_blocks_on(std::size_t threads, std::size_t count, std::size_t block_size,
+                   const std::function<void(std::size_t, std::size_t)>& work,
+                   const std::function<void(double)>& progress = {});
+
 }  // namespace splotchcl
