@@ -15,6 +15,7 @@
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "device/ranks/fetch_particles.h"
+#include "parallel/thread_pool.h"
 #include "parallel/thread_seconds.h"
 #include "ranks/agreement.h"
 #include "ranks/spread_particles.h"
@@ -195,6 +196,7 @@ struct Renderer::State {
   std::function<void(double)> progress;
   std::shared_ptr<Communicator> ranks;  // null: one process
   RankWork work;                        // this one's, for the frame
+  ThreadPool threads;                   // of the host's part of frames
 };
 
 // Ranks of one host share its memory.
@@ -395,6 +397,7 @@ FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, b
 }
 
 Image Renderer::render(const Frame& frame) {
+  const ThreadPool::Scope scope(state_->threads);
   if (!frame.spread) return render(frame, first_plan(frame, state_->plan_options));
   FramePlan plan;
   frame.spread->agree_on([&] {
@@ -405,6 +408,7 @@ Image Renderer::render(const Frame& frame) {
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {
+  const ThreadPool::Scope scope(state_->threads);
   try {
     return state_->render(frame, plan);
   } catch (const compute::opencl_error& error) {

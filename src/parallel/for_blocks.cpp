@@ -2,89 +2,54 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <exception>
 #include <thread>
-#include <vector>
+
+#include "parallel/shared_blocks.h"
+#include "parallel/thread_pool.h"
 
 namespace splotchcl {
 namespace {
 
-using Work = std::function<void(std::size_t, std::size_t)>;
-using Progress = std::function<void(double)>;
-
-// One call of for_blocks().
-class Loop {
- public:
-  Loop(std::size_t count, std::size_t block_size, std::size_t threads, const Work& work,
-       const Progress& progress)
-      : count_(count),
-        block_size_(block_size),
-        work_(work),
-        progress_(progress),
-        errors_(std::max<std::size_t>(threads, 1)) {}
-
-  // A thread starts two others, and each of these two more: to start dozens one after the other
-  // would take as long as many of these loops.
-  void run(std::size_t thread) {
-    std::array<std::thread, 2> others;
-    try {
-      for (std::size_t k = 0; k < others.size(); ++k) {
-        const std::size_t other = 2 * thread + 1 + k;
-        if (other < errors_.size()) others[k] = std::thread([this, other] { run(other); });
-      }
-    } catch (...) {
-      // A limit on threads, or no memory for another: fewer do the same.
+// On threads `number` to `threads` - 1 of a tree: each starts two others, and these two more. To
+// start dozens one after the other would take as long as many of these loops.
+void run_on_new_threads(SharedBlocks& loop, std::size_t number, std::size_t threads,
+                        const std::function<void(double)>& progress) {
+  std::array<std::thread, 2> others;
+  try {
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const std::size_t other = 2 * number + 1 + k;
+      if (other >= threads) break;
+      others[k] =
+          std::thread([&loop, other, threads] { run_on_new_threads(loop, other, threads, {}); });
     }
-    take_blocks(thread);
-    for (std::thread& other : others) {
-      if (other.joinable()) other.join();
-    }
+  } catch (...) {
+    // A limit on threads, or no memory for another: fewer do the same.
   }
-
-  void throw_first_error() const {
-    for (const std::exception_ptr& error : errors_) {
-      if (error) std::rethrow_exception(error);
-    }
+  loop.take_blocks(progress);
+  for (std::thread& other : others) {
+    if (other.joinable()) other.join();
   }
-
- private:
-  void take_blocks(std::size_t thread) {
-    try {
-      for (std::size_t first = next_.fetch_add(block_size_); first < count_;
-           first = next_.fetch_add(block_size_)) {
-        const std::size_t last = std::min(first + block_size_, count_);
-        work_(first, last);
-        done_ += last - first;
-        if (thread == 0 && progress_)
-          progress_(static_cast<double>(done_.load()) / static_cast<double>(count_));
-      }
-    } catch (...) {
-      errors_[thread] = std::current_exception();
-      next_ = count_;  // the others need not go on
-    }
-  }
-
-  const std::size_t count_, block_size_;
-  const Work& work_;
-  const Progress& progress_;
-  std::atomic<std::size_t> next_{0}, done_{0};
-  std::vector<std::exception_ptr> errors_;  // of each thread
-};
+}
 
 }  // namespace
 
-void for_blocks(std::size_t count, std::size_t block_size, const Work& work,
-                const Progress& progress) {
+void for_blocks(std::size_t count, std::size_t block_size,
+                const std::function<void(std::size_t, std::size_t)>& work,
+                const std::function<void(double)>& progress) {
   for_blocks_on(std::thread::hardware_concurrency(), count, block_size, work, progress);
 }
 
-void for_blocks_on(std::size_t threads, std::size_t count, std::size_t block_size, const Work& work,
-                   const Progress& progress) {
-  const std::size_t blocks = (count + block_size - 1) / block_size;
-  Loop loop(count, block_size, std::min(threads, blocks), work, progress);
-  loop.run(0);
-  loop.throw_first_error();
+void for_blocks_on(std::size_t threads, std::size_t count, std::size_t block_size,
+                   const std::function<void(std::size_t, std::size_t)>& work,
+                   const std::function<void(double)>& progress) {
+  SharedBlocks loop(count, block_size, work);
+  const std::size_t of_loop = std::min(threads, (count + block_size - 1) / block_size);
+  ThreadPool* const pool = ThreadPool::of_this_thread();
+  if (pool != nullptr && of_loop > 1)
+    pool->run(loop, of_loop, progress);
+  else
+    run_on_new_threads(loop, 0, of_loop, progress);
+  loop.throw_error();
   if (progress) progress(1);
 }
 

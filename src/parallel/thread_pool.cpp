@@ -1,0 +1,85 @@
+#include "parallel/thread_pool.h"
+
+#include <algorithm>
+
+namespace splotchcl {
+namespace {
+
+thread_local ThreadPool* pool_of_thread = nullptr;
+
+}  // namespace
+
+ThreadPool* ThreadPool::of_this_thread() {
+  return pool_of_thread;
+}
+
+ThreadPool::Scope::Scope(ThreadPool& pool) : before_(pool_of_thread) {
+  pool_of_thread = &pool;
+}
+
+ThreadPool::Scope::~Scope() {
+  pool_of_thread = before_;
+}
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  opened_.notify_all();
+  for (std::thread& thread : threads_)
+    thread.join();
+}
+
+void ThreadPool::run(SharedBlocks& loop, std::size_t threads,
+                     const std::function<void(double)>& progress) {
+  const std::size_t others = threads > 0 ? threads - 1 : 0;
+  OpenLoop open = {loop, others, 0};
+  {
+    const std::lock_guard lock(mutex_);
+    start_threads(others);
+    open_.push_back(&open);
+  }
+  for (std::size_t k = 0; k < others; ++k)
+    opened_.notify_one();
+  loop.take_blocks(progress);
+  std::unique_lock lock(mutex_);
+  open_.erase(std::find(open_.begin(), open_.end(), &open));
+  left_.wait(lock, [&open] { return open.helpers == 0; });
+}
+
+// So many in all.
+void ThreadPool::start_threads(std::size_t count) {
+  try {
+    while (threads_.size() < count)
+      threads_.emplace_back([this] { wait_for_loops(); });
+  } catch (...) {
+    // A limit on threads, or no memory for another: fewer do the same.
+  }
+}
+
+// Innermost loops first: others wait for these.
+ThreadPool::OpenLoop* ThreadPool::loop_with_room() const {
+  const auto found = std::find_if(open_.rbegin(), open_.rend(), [](const OpenLoop* open) {
+    return open->room > 0 && open->loop.has_blocks();
+  });
+  return found != open_.rend() ? *found : nullptr;
+}
+
+void ThreadPool::wait_for_loops() {
+  const Scope scope(*this);
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    OpenLoop* open = nullptr;
+    opened_.wait(lock, [&] { return ends_ || (open = loop_with_room()) != nullptr; });
+    if (ends_) return;
+    --open->room;
+    ++open->helpers;
+    lock.unlock();
+    open->loop.take_blocks();
+    lock.lock();
+    if (--open->helpers == 0) left_.notify_all();
+  }
+}
+
+}  // namespace splotchcl

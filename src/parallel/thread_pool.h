@@ -1,0 +1,58 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "parallel/shared_blocks.h"
+
+namespace splotchcl {
+
+// Threads that wait for loops: to start one takes longer than most loops of a frame, of which there
+// are dozens. They are started when they are wanted first, and end with the pool.
+class ThreadPool {
+ public:
+  ThreadPool() = default;
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+  ~ThreadPool();
+
+  // Runs the loop on so many threads at most, the calling one among them, which is told of
+  // progress. Loops that this one's work calls for_blocks() for run on these threads, too.
+  void run(SharedBlocks& loop, std::size_t threads, const std::function<void(double)>& progress);
+
+  // The pool of the loops that this thread calls for_blocks() for; null: each starts its own.
+  static ThreadPool* of_this_thread();
+
+  // As long as it lives, the calling thread's loops run on the pool.
+  class Scope {
+   public:
+    explicit Scope(ThreadPool& pool);
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+    ~Scope();
+
+   private:
+    ThreadPool* const before_;
+  };
+
+ private:
+  // A loop that others may join.
+  struct OpenLoop {
+    SharedBlocks& loop;
+    std::size_t room = 0, helpers = 0;  // threads that may join, and those that have
+  };
+  void start_threads(std::size_t count);
+  void wait_for_loops();
+  OpenLoop* loop_with_room() const;
+
+  std::mutex mutex_;  // of all that follows
+  std::condition_variable opened_, left_;
+  std::vector<OpenLoop*> open_;
+  std::vector<std::thread> threads_;
+  bool ends_ = false;
+};
+
+}  // namespace splotchcl
