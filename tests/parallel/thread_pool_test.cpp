@@ -4,47 +4,31 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "parallel/for_blocks.h"
+#include "parallel/threads_of_loop.h"
 
 namespace splotchcl::test {
 namespace {
 
-// The threads that so many blocks run on, each of which waits until as many are at work.
-std::set<std::thread::id> threads_of_loop(std::size_t threads) {
-  std::mutex mutex;
-  std::set<std::thread::id> seen;
-  const auto count = [&] {
-    const std::lock_guard lock(mutex);
-    seen.insert(std::this_thread::get_id());
-    return seen.size();
-  };
-  for_blocks_on(threads, threads, 1, [&](std::size_t, std::size_t) {
-    while (count() < threads)
-      std::this_thread::yield();
-  });
-  return seen;
-}
-
 TEST(ThreadPool, RunsLoopsOnTheSameThreads) {
   ThreadPool pool;
   const ThreadPool::Scope scope(pool);
-  const std::set<std::thread::id> first = threads_of_loop(5);
+  const std::set<std::thread::id> first = threads_of_loop(5, 5);
   EXPECT_EQ(first.size(), 5u);
   for (int i = 0; i < 20; ++i)
-    EXPECT_EQ(threads_of_loop(5), first);
+    EXPECT_EQ(threads_of_loop(5, 5), first);
 }
 
 TEST(ThreadPool, HasMoreThreadsWhereALoopWantsThem) {
   ThreadPool pool;
   const ThreadPool::Scope scope(pool);
-  EXPECT_EQ(threads_of_loop(2).size(), 2u);
-  EXPECT_EQ(threads_of_loop(9).size(), 9u);
+  EXPECT_EQ(threads_of_loop(2, 2).size(), 2u);
+  EXPECT_EQ(threads_of_loop(9, 9).size(), 9u);
 }
 
 TEST(ThreadPool, TakesEverythingOnceInLoopsWithinLoops) {
@@ -71,7 +55,7 @@ TEST(ThreadPool, RunsAnotherLoopAfterOneThatThrew) {
     });
   };
   EXPECT_THROW(loop(), std::runtime_error);
-  EXPECT_EQ(threads_of_loop(4).size(), 4u);
+  EXPECT_EQ(threads_of_loop(4, 4).size(), 4u);
 }
 
 TEST(ThreadPool, IsOfItsScopeAlone) {

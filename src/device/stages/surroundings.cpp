@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "device/frame/column_arguments.h"
-#include "device/frame/float_pair.h"
 #include "device/frame/key_windows.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "device/stages/layer_planes.h"
 #include "device/stages/project_parameters.h"
-#include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
@@ -32,9 +30,6 @@ constexpr double negligible = 1e-14;
 
 // Of what clouds around the camera may err by, what all of them together lose by ending.
 constexpr double share_of_ends = 1e-3;
-
-// Of the picture, that a thread works out.
-constexpr std::size_t rows_at_once = 8;
 
 [[noreturn]] void refuse(const DeviceContext& device, std::uint64_t counted, std::uint64_t listed) {
   throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
@@ -74,48 +69,6 @@ double light_error(LightPlan light, double brightest, const double* exact, const
   }
   return error / std::max(1.0, exact[channel]) +
          std::abs(exact[channel + 3] - foretold[channel + 3]);
-}
-
-// An optical depth as planes carry it (opacity.cl).
-float carried(double depth, bool keeps_transmittance) {
-  const double opacity = -std::expm1(-depth);
-  if (!keeps_transmittance || opacity < 0.5) return static_cast<float>(opacity);
-  return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
-}
-
-// A row of light. Interpolation may leave less than nothing, by as little as it errs.
-template <class Number>
-void put_light(const Number* light, std::size_t count, float* to) {
-  for (std::size_t i = 0; i < count; ++i)
-    to[i] = static_cast<float>(std::max(light[i], Number(0)));
-}
-
-// A row of optical depths as planes carry them. Most layers are thin, and take no function then: by
-// five terms of the series, whose error is depth^5 / 720 of it, less than single precision rounds
-// off.
-template <class Number>
-void put_depths(const Number* depths, std::size_t count, bool keeps_transmittance, float* to) {
-  constexpr double thin = 0.03;
-  const bool are_thin = static_cast<double>(*std::max_element(depths, depths + count)) < thin;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Number d = std::max(depths[i], Number(0));
-    if (!are_thin) {
-      to[i] = carried(static_cast<double>(d), keeps_transmittance);
-      continue;
-    }
-    constexpr auto half = static_cast<Number>(1. / 2), sixth = static_cast<Number>(1. / 6),
-                   fourth = static_cast<Number>(1. / 24), fifth = static_cast<Number>(1. / 120);
-    to[i] = static_cast<float>(d * (1 - d * (half - d * (sixth - d * (fourth - d * fifth)))));
-  }
-}
-
-// Numbers as pairs of floats.
-void split(const double* values, std::size_t count, float* high, float* low) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const shared::FloatPair pair = pair_of(values[i]);
-    high[i] = pair.high;
-    low[i] = pair.low;
-  }
 }
 
 }  // namespace
@@ -254,12 +207,8 @@ std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds)
   return clouds;
 }
 
-// Of what is worked out for a pixel: in ordered scenes S, then tau, else the sum.
-std::size_t Surroundings::channels() const {
-  return context_.plan.light == LightPlan::ordered ? 6 : 3;
-}
-
-// The layer's light and depth in each pixel of the crop.
+// The layer's light and depth in each pixel of the crop: in ordered scenes S, then tau, else the
+// sum.
 SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
                                        const CloudLayer& layer, double allowed) const {
   const Frame& frame = context_.frame;
@@ -293,7 +242,7 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   settings.width = frame.width;
   settings.height = frame.height;
   settings.crop = frame.crop;
-  settings.channels = static_cast<int>(channels());
+  settings.channels = static_cast<int>(channels_of_layer(plan));
   settings.narrowest = narrowest_detail(clouds, layer.first, layer.end, frame);
   settings.allowed = allowed;
   settings.error_of = [light, brightest = brightest()](const double* exact,
@@ -304,62 +253,6 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
     return largest;
   };
   return SmoothPicture(settings, add_all);
-}
-
-// The same in single precision only.
-template <class Number>
-void Surroundings::put_rows(const SmoothPicture& layer, float* planes) const {
-  const auto width = static_cast<std::size_t>(context_.frame.crop.width);
-  const auto height = static_cast<std::size_t>(context_.frame.crop.height);
-  const bool keeps_transmittance = context_.plan.layers.keeps_transmittance;
-  for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
-    std::vector<Number> row;
-    for (std::size_t y = first; y < end; ++y) {
-      layer.row(static_cast<int>(y), row);
-      for (std::size_t c = 0; c < channels(); ++c) {
-        const Number* const values = row.data() + c * width;
-        float* const to = planes + (c * height + y) * width;
-        if (c >= 3)
-          put_depths(values, width, keeps_transmittance, to);
-        else
-          put_light(values, width, to);
-      }
-    }
-  });
-}
-
-void Surroundings::put_rows_of_pairs(const SmoothPicture& layer, float* planes) const {
-  const auto width = static_cast<std::size_t>(context_.frame.crop.width);
-  const auto height = static_cast<std::size_t>(context_.frame.crop.height);
-  const std::size_t pixels = width * height;
-  for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
-    std::vector<double> row;
-    for (std::size_t y = first; y < end; ++y) {
-      layer.row(static_cast<int>(y), row);
-      for (std::size_t c = 0; c < channels(); ++c) {
-        float* const to = planes + 2 * c * pixels + y * width;
-        split(row.data() + c * width, width, to, to + pixels);
-      }
-    }
-  });
-}
-
-// As the planes of the picture's grid have them, without padding.
-Buffer<float> Surroundings::planes_of(const SmoothPicture& layer, double allowed) const {
-  const auto pixels = static_cast<std::size_t>(context_.frame.crop.width) *
-                      static_cast<std::size_t>(context_.frame.crop.height);
-  const bool is_extended = context_.plan.is_extended();
-  BufferPool& pool = context_.device.pool;
-  Buffer<float> planes =
-      pool.get<float>((is_extended ? 2 : 1) * channels() * pixels, "clouds around");
-  const MappedValues<float> mapped = pool.map_to_write(planes);
-  if (is_extended)
-    put_rows_of_pairs(layer, mapped.data());
-  else if (SmoothPicture::single_rounding * brightest() * layer.largest() <= allowed)
-    put_rows<float>(layer, mapped.data());
-  else
-    put_rows<double>(layer, mapped.data());
-  return planes;
 }
 
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
@@ -383,7 +276,10 @@ void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const Clou
   DeviceContext& device = context_.device;
   const double allowed =
       0.25 * share_of_promise * context_.plan.shares.promise / static_cast<double>(parts);
-  const Buffer<float> behind = planes_of(picture_of(clouds, layer, allowed), allowed);
+  const SmoothPicture picture = picture_of(clouds, layer, allowed);
+  const bool may_round =
+      SmoothPicture::single_rounding * brightest() * picture.largest() <= allowed;
+  const Buffer<float> behind = layer_planes(context_, picture, may_round);
   const auto items =
       static_cast<std::size_t>(ceil_divide(crop.width, context_.specialization.pixels_behind()));
   Launch(device, "surroundings",

@@ -58,14 +58,9 @@ class Surroundings {
   void append(std::uint32_t c, const std::vector<Found>& found,
               std::vector<CloudAround>& clouds) const;
   std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, std::uint64_t depth) const;
-  std::size_t channels() const;
   // Pixels may err by `allowed`, interpolated; and once more by so much, rounded.
   SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                            double allowed) const;
-  Buffer<float> planes_of(const SmoothPicture& layer, double allowed) const;
-  template <class Number>
-  void put_rows(const SmoothPicture& layer, float* planes) const;
-  void put_rows_of_pairs(const SmoothPicture& layer, float* planes) const;
   // `parts` of the picture share what they may err by.
   void put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                   std::size_t parts, const Planes& planes) const;
