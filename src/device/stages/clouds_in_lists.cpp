@@ -76,13 +76,15 @@ shared::CloudSplat splat_of(SplatAround splat, double part, const shared::Grid& 
   return entry;
 }
 
-// Directions of the tile's pixels: into the planes, and the cone that holds them.
-shared::DirectionCone look_through(const StageContext& context, int left, int top, float* planes) {
+// Directions of the tile's pixels: into the planes, and the cone that holds them. `directions` is
+// room for them.
+shared::DirectionCone look_through(const StageContext& context, int left, int top, float* planes,
+                                   std::vector<Vec3>& directions) {
   using namespace boost::qvm;
   const shared::Grid& grid = context.layout.grids.front();
   const int width = static_cast<int>(context.specialization.tile_width());
   const int height = static_cast<int>(context.specialization.tile_height());
-  std::vector<Vec3> directions;
+  directions.clear();
   Vec3 sum{};
   for (int y = top; y < top + height; ++y) {
     float* row = planes + static_cast<std::size_t>(y - grid.first_y) * grid.stride;
@@ -110,18 +112,21 @@ shared::DirectionCone look_through(const StageContext& context, int left, int to
 
 void fill_directions(const StageContext& context, CloudTables& tables) {
   const shared::Grid& grid = context.layout.grids.front();
-  std::vector<float> planes(std::size_t{3} * grid.plane_size);
+  BufferPool& pool = context.device.pool;
+  tables.directions = pool.get<float>(std::uint64_t{3} * grid.plane_size, "directions");
+  const MappedValues<float> planes = pool.map_to_write(tables.directions);
   const auto columns = static_cast<std::size_t>(grid.tiles_x);
   std::vector<shared::DirectionCone> cones(columns * static_cast<std::size_t>(grid.tiles_y));
   for_blocks(cones.size(), 8, [&](std::size_t first, std::size_t end) {
+    std::vector<Vec3> directions;
     for (std::size_t tile = first; tile < end; ++tile) {
       const auto left = static_cast<int>(tile % columns * context.specialization.tile_width());
       const auto top = static_cast<int>(tile / columns * context.specialization.tile_height());
-      cones[tile] = look_through(context, grid.first_x + left, grid.first_y + top, planes.data());
+      cones[tile] =
+          look_through(context, grid.first_x + left, grid.first_y + top, planes.data(), directions);
     }
   });
-  tables.directions = context.device.pool.upload(planes, "directions");
-  tables.cones = context.device.pool.upload(cones, "cones of directions");
+  tables.cones = pool.upload(cones, "cones of directions");
 }
 
 // A splat that touches all tiles of the picture's grid and adds no light by itself.
