@@ -61,6 +61,7 @@ compute::buffer BufferPool::take(std::uint64_t bytes, const char* what, Filling 
   } else {
     release_until_it_fits(wanted);
     memory = new_buffer(static_cast<std::size_t>(wanted), filling);
+    ++buffers_made_;
     total_bytes_ += wanted;
     peak_bytes_ = std::max(peak_bytes_, total_bytes_);
   }

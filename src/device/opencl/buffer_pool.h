@@ -203,6 +203,8 @@ class BufferPool {
   // The largest total since reset_peak().
   std::uint64_t peak_bytes() const { return peak_bytes_; }
   void reset_peak() { peak_bytes_ = total_bytes_; }
+  // Buffers that the device had to make: a frame like the one before needs none.
+  std::uint64_t buffers_made() const { return buffers_made_; }
 
  private:
   friend class PooledMemory;
@@ -222,6 +224,7 @@ class BufferPool {
   std::uint64_t idle_bytes_;  // that may lie idle however little has been in use
   std::optional<LargePages> large_pages_;
   std::vector<compute::buffer> free_;
+  std::uint64_t buffers_made_ = 0;
   std::uint64_t used_bytes_ = 0, total_bytes_ = 0;  // total: used and free
   std::uint64_t most_used_bytes_ = 0, peak_bytes_ = 0;
 };
