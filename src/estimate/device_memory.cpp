@@ -10,6 +10,7 @@
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
 #include "device/frame/splat_capacity.h"
+#include "device/opencl/buffer_pool.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -155,11 +156,18 @@ class FrameBuffers {
   const PictureLayout layout_;
 };
 
-std::uint64_t bytes_for_sums(const FrameBuffers& buffers) {
+// Of two that are not needed together, where memory of the one seldom serves for the other: what
+// lies idle is kept as far as the pool keeps it.
+std::uint64_t bytes_held(std::uint64_t first, std::uint64_t then, const DeviceTraits& traits) {
+  const std::uint64_t idle = traits.shares_host_memory ? BufferPool::idle_on_processors : 0;
+  return std::max(first, then) + std::min({first, then, idle});
+}
+
+std::uint64_t bytes_for_sums(const FrameBuffers& buffers, const DeviceTraits& traits) {
   const std::uint64_t drawing = buffers.splats(buffers.chunk_splats()) + buffers.tiles_of_chunk() +
                                 buffers.lists(buffers.blocks_of_chunk());
   return buffers.held_leaves() * buffers.light() + buffers.collecting_levels() +
-         std::max(drawing, buffers.blurred_columns());
+         bytes_held(drawing, buffers.blurred_columns(), traits);
 }
 
 constexpr std::uint64_t key = sizeof(std::uint32_t), order = sizeof(std::uint32_t);
@@ -233,7 +241,7 @@ std::uint64_t estimate_device_bytes(const Frame& frame, const FramePlan& plan,
   const FrameBuffers buffers(frame, plan, specialization, traits);
   const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
   return uploaded + (plan.needs_sort() ? bytes_in_order(buffers, frame, traits, splats)
-                                       : bytes_for_sums(buffers));
+                                       : bytes_for_sums(buffers, traits));
 }
 
 std::uint64_t estimate_device_bytes_of_windows(const Frame& frame, const FramePlan& plan,

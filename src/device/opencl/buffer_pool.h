@@ -117,6 +117,9 @@ enum class Filling { whole, in_parts };
 // kernels.
 class BufferPool {
  public:
+  // So many bytes may lie idle on a processor, whatever has been in use.
+  static constexpr std::uint64_t idle_on_processors = std::uint64_t{32} << 20;
+
   // `timer` is told of what is copied.
   BufferPool(const compute::context& context, const compute::command_queue& queue,
              StageTimer& timer, const DeviceTraits& traits)
@@ -124,7 +127,7 @@ class BufferPool {
         queue_(queue),
         timer_(timer),
         shares_host_memory_(traits.shares_host_memory),
-        idle_bytes_(traits.shares_host_memory ? std::uint64_t{32} << 20 : traits.gpu_memory / 16) {
+        idle_bytes_(traits.shares_host_memory ? idle_on_processors : traits.gpu_memory / 16) {
     if (traits.large_pages) large_pages_.emplace();
   }
   BufferPool(const BufferPool&) = delete;
