@@ -124,7 +124,7 @@ TEST_P(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
 // The last group of a sort by work-groups, and the last stretch of its scans, may be full, empty
 // but for one pair, or short of one.
 TEST_P(Sort, TakesAnyNumberOfPairsAroundPowersOfTwo) {
-  const int largest = long_tests() ? 24 : 20;
+  const int largest = long_tests() ? 24 : 18;
   for (int k = 1; k <= largest; ++k) {
     for (const int beside : {-1, 0, 1}) {
       const Keys keys =
