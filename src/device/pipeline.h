@@ -49,6 +49,9 @@ class Pipeline {
   Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame,
            const FramePlan& plan, std::function<void(double)> progress = {},
            FrameRanks* ranks = nullptr);
+  // It goes on reading the plan, which one that ends with the call would not let it.
+  Pipeline(DeviceContext& device, ParticleStore& particles, const Frame& frame, FramePlan&& plan,
+           std::function<void(double)> progress = {}, FrameRanks* ranks = nullptr) = delete;
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
