@@ -25,6 +25,17 @@ Keys stable_order(const Keys& keys) {
   return order;
 }
 
+// The same of keys below `end`, in less time than comparing them takes.
+Keys stable_order_below(std::uint32_t end, const Keys& keys) {
+  std::vector<Keys> of_key(end);
+  for (std::uint32_t i = 0; i < keys.size(); ++i)
+    of_key[keys[i]].push_back(i);
+  Keys order;
+  for (const Keys& equal : of_key)
+    order.insert(order.end(), equal.begin(), equal.end());
+  return order;
+}
+
 // In both shapes.
 class Sort : public StageTest, public testing::WithParamInterface<bool> {
  protected:
@@ -124,12 +135,12 @@ TEST_P(Sort, LeavesOutNoDigitInWhichKeysDiffer) {
 // The last group of a sort by work-groups, and the last stretch of its scans, may be full, empty
 // but for one pair, or short of one.
 TEST_P(Sort, TakesAnyNumberOfPairsAroundPowersOfTwo) {
-  const int largest = long_tests() ? 24 : 18;
+  const int largest = long_tests() ? 24 : 20;
   for (int k = 1; k <= largest; ++k) {
     for (const int beside : {-1, 0, 1}) {
       const Keys keys =
           random_keys((std::size_t{1} << k) + static_cast<std::size_t>(beside), 0, 1000);
-      ASSERT_EQ(device_order(keys), stable_order(keys)) << "2^" << k << " + " << beside;
+      ASSERT_EQ(device_order(keys), stable_order_below(1000, keys)) << "2^" << k << " + " << beside;
     }
   }
 }
