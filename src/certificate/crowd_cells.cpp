@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace splotchcl {
@@ -32,8 +33,7 @@ void CrowdCells::join_equal_cells() {
   std::size_t count = 0;
   for (const Cell& cell : cells_) {
     if (count > 0 && cells_[count - 1].x == cell.x && cells_[count - 1].y == cell.y) {
-      cells_[count - 1].light += cell.light;
-      cells_[count - 1].count += cell.count;
+      cells_[count - 1] += cell;
     } else {
       cells_[count++] = cell;
     }
@@ -63,46 +63,39 @@ double CrowdCells::light_within(std::int32_t left, std::int32_t top, std::int32_
   return light;
 }
 
-double CrowdCells::light_of_square(const Square& square, bool is_sample, double least) const {
+double CrowdCells::light_of_square(const Cell& square, bool is_sample, double least) const {
   constexpr double cells_in_square = 4, cells_around = 32;
   if (is_sample && square.count < fewest) return least;
   const double certain = is_sample ? 1 - deviations / std::sqrt(square.count) : 1;
   if (certain * square.light <= least) return least;
-  const double around = light_within(square.left - 2, square.top - 2, 6) - square.light;
+  const double around = light_within(square.x - 2, square.y - 2, 6) - square.light;
   return std::max(least, certain * square.light - around * cells_in_square / cells_around);
 }
 
-// All squares of the two rows, of which either may be empty.
+// All squares of the two rows, of which either may be empty: of a column alone or with the next.
 double CrowdCells::light_of_rows(const Row& upper, const Row& lower, std::int32_t top,
                                  bool is_sample, double least) const {
   const Cell *above = upper.begin, *below = lower.begin;
-  Cell before{};  // the column to the left, which counts where it is the next one
-  bool is_first = true;
+  std::optional<Cell> before;
   double most = least;
+  const auto look_at = [&](const Cell& square) { most = light_of_square(square, is_sample, most); };
   while (above != upper.end || below != lower.end) {
     const bool takes_above = above != upper.end && (below == lower.end || above->x <= below->x);
     const bool takes_below = below != lower.end && (above == upper.end || below->x <= above->x);
     Cell column = {takes_above ? above->x : below->x, top, 0, 0};
-    for (const Cell* cell : {takes_above ? above++ : nullptr, takes_below ? below++ : nullptr}) {
-      if (cell == nullptr) continue;
-      column.light += cell->light;
-      column.count += cell->count;
-    }
-    const bool is_next = !is_first && before.x == column.x - 1;
-    // The square of the column before ends with this one, or before it.
-    if (!is_first && !is_next)
-      most = light_of_square({before.x, top, before.light, before.count}, is_sample, most);
-    Square square = {column.x - 1, top, column.light, column.count};
-    if (is_next) {
-      square.light += before.light;
-      square.count += before.count;
-    }
-    most = light_of_square(square, is_sample, most);
+    if (takes_above) column += *above++;
+    if (takes_below) column += *below++;
+    Cell square = column;
+    square.x = column.x - 1;
+    if (before && before->x == square.x)
+      square += *before;
+    else if (before)
+      look_at(*before);
+    look_at(square);
     before = column;
-    is_first = false;
   }
-  if (is_first) return most;
-  return light_of_square({before.x, top, before.light, before.count}, is_sample, most);
+  if (before) look_at(*before);
+  return most;
 }
 
 double CrowdCells::crowded_light(bool is_sample) {

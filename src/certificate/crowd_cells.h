@@ -19,24 +19,26 @@ class CrowdCells {
   double crowded_light(bool is_sample);
 
  private:
+  // Or several: their left and top one's place.
   struct Cell {
     std::int32_t x, y;
     double light, count;
+
+    Cell& operator+=(const Cell& other) {
+      light += other.light;
+      count += other.count;
+      return *this;
+    }
   };
-  // A row of cells, or of columns of two rows.
   struct Row {
     const Cell *begin = nullptr, *end = nullptr;
-  };
-  struct Square {
-    std::int32_t left, top;
-    double light, count;
   };
 
   void join_equal_cells();
   std::vector<Row> rows() const;
   double light_within(std::int32_t left, std::int32_t top, std::int32_t side) const;
   // Or `least`, where it is less.
-  double light_of_square(const Square& square, bool is_sample, double least) const;
+  double light_of_square(const Cell& square, bool is_sample, double least) const;
   double light_of_rows(const Row& upper, const Row& lower, std::int32_t top, bool is_sample,
                        double least) const;
 

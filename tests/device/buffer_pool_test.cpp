@@ -43,6 +43,13 @@ class Pool : public StageTest {
     large = get(40 * megabyte);
     EXPECT_EQ(memory_of(large), memory);
   }
+  // What is held where so many bytes came back and others are wanted.
+  std::uint64_t most_held(std::uint64_t came_back, std::uint64_t wanted) {
+    get(came_back).reset();
+    own_.reset_peak();
+    const auto other = get(wanted);
+    return own_.peak_bytes();
+  }
 
   BufferPool own_;
 };
@@ -65,11 +72,7 @@ TEST_F(Pool, KeepsALargeBufferWhenALittleMoreIsWanted) {
 }
 
 TEST_F(Pool, GivesFreeMemoryBackRatherThanHoldMuchMoreThanWasInUse) {
-  auto large = get(400 * megabyte);
-  large.reset();
-  own_.reset_peak();
-  const auto other = get(100 * megabyte);
-  EXPECT_LE(own_.peak_bytes(), 432 * megabyte);
+  EXPECT_LE(most_held(400 * megabyte, 100 * megabyte), 432 * megabyte);
 }
 
 TEST_F(Pool, KeepsTheBuffersOfASmallFrameForTheNext) {
@@ -83,11 +86,7 @@ TEST_F(Pool, KeepsTheBuffersOfASmallFrameForTheNext) {
 
 TEST_F(Pool, GivesFreeMemoryBackWhereItsLimitIsSmall) {
   own_.expect_at_most(64 * megabyte);
-  auto large = get(40 * megabyte);
-  large.reset();
-  own_.reset_peak();
-  const auto other = get(10 * megabyte);
-  EXPECT_LE(own_.peak_bytes(), 42 * megabyte);
+  EXPECT_LE(most_held(40 * megabyte, 10 * megabyte), 42 * megabyte);
 }
 
 TEST_F(Pool, HandsOutTwoBuffersThatDoNotOverlap) {
@@ -121,10 +120,7 @@ TEST_F(PoolOfAGpu, KeepsAsMuchAsWasInUse) {
 }
 
 TEST_F(PoolOfAGpu, KeepsNoMoreThanASixteenthOfItsMemory) {
-  auto large = get(400 * megabyte);
-  large.reset();
-  const auto other = get(150 * megabyte);
-  EXPECT_LE(own_.peak_bytes(), 500 * megabyte);
+  EXPECT_LE(most_held(400 * megabyte, 150 * megabyte), 500 * megabyte);
 }
 
 TEST_F(PoolOfAGpu, HandsOutMemoryForAlmostTheSameSize) {

@@ -210,7 +210,8 @@ std::vector<CloudAround> Surroundings::in_order(std::vector<CloudAround> clouds)
 // The layer's light and depth in each pixel of the crop: in ordered scenes S, then tau, else the
 // sum.
 SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
-                                       const CloudLayer& layer, double allowed) const {
+                                       const CloudLayer& layer, double allowed,
+                                       double brightest) const {
   const Frame& frame = context_.frame;
   const FramePlan& plan = context_.plan;
   const LightPlan light = plan.light;
@@ -245,8 +246,7 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   settings.channels = static_cast<int>(channels_of_layer(plan));
   settings.narrowest = narrowest_detail(clouds, layer.first, layer.end, frame);
   settings.allowed = allowed;
-  settings.error_of = [light, brightest = brightest()](const double* exact,
-                                                       const double* foretold) {
+  settings.error_of = [light, brightest](const double* exact, const double* foretold) {
     double largest = 0;
     for (std::size_t c = 0; c < 3; ++c)
       largest = std::max(largest, light_error(light, brightest, exact, foretold, c));
@@ -276,9 +276,9 @@ void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const Clou
   DeviceContext& device = context_.device;
   const double allowed =
       0.25 * share_of_promise * context_.plan.shares.promise / static_cast<double>(parts);
-  const SmoothPicture picture = picture_of(clouds, layer, allowed);
-  const bool may_round =
-      SmoothPicture::single_rounding * brightest() * picture.largest() <= allowed;
+  const double of_depth = brightest();
+  const SmoothPicture picture = picture_of(clouds, layer, allowed, of_depth);
+  const bool may_round = SmoothPicture::single_rounding * of_depth * picture.largest() <= allowed;
   const Buffer<float> behind = layer_planes(context_, picture, may_round);
   const auto items =
       static_cast<std::size_t>(ceil_divide(crop.width, context_.specialization.pixels_behind()));

@@ -60,7 +60,7 @@ class Surroundings {
   std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, std::uint64_t depth) const;
   // Pixels may err by `allowed`, interpolated; and once more by so much, rounded.
   SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                           double allowed) const;
+                           double allowed, double brightest) const;
   // `parts` of the picture share what they may err by.
   void put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                   std::size_t parts, const Planes& planes) const;
