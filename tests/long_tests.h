@@ -13,7 +13,8 @@ bool long_tests();
 // tests, else every seventh, which meets what follows from a seed modulo 2, 3 or 5.
 std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last);
 
-// Of so many rounds with random input: all of them in long tests, else a fifth.
+// Of so many rounds with random input: all of them in long tests, else a fifth, or a fiftieth in
+// the sanitizers' build.
 int rounds(int all);
 
 }  // namespace splotchcl::test

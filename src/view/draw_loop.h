@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "view/frame_scheduler.h"
-#include "view/page_messages.h"
 #include "view/preview_quality.h"
+#include "view/requests/page_messages.h"
 #include "view/view_drawer.h"
 
 namespace splotchcl::view {

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "view/access.h"
 #include "view/draw_loop.h"
 #include "view/page_server.h"
+#include "view/requests/access.h"
 
 namespace splotchcl::view {
 

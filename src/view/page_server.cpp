@@ -14,7 +14,7 @@
 
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/page_files.h"
+#include "view/requests/page_files.h"
 
 namespace splotchcl::view {
 namespace {

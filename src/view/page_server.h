@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "view/access.h"
 #include "view/draw_loop.h"
+#include "view/requests/access.h"
 
 namespace splotchcl::view {
 

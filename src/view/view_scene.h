@@ -7,7 +7,7 @@
 #include <string>
 
 #include "splotchcl/scene.h"
-#include "view/page_messages.h"
+#include "view/requests/page_messages.h"
 
 // What a page's state makes of the scene that was opened.
 namespace splotchcl::view {

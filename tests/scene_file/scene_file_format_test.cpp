@@ -28,7 +28,7 @@ TEST(FormattedScene, ReadsBackAsTheSameScene) {
 
 TEST(FormattedScene, OfWhatWasReadIsTheSameText) {
   test::RandomScenes scenes(612);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::rounds(200); ++i) {
     const std::string text = format_scene(scenes.next());
     EXPECT_EQ(format_scene(parse_scene(text, "scene.toml")), text);
   }

@@ -64,34 +64,34 @@ void expect_brute_force(const std::vector<float>& positions, std::size_t k, doub
 }
 
 TEST(SmoothingLengths, AreTheDistancesThatBruteForceFinds) {
-  expect_brute_force(random_positions(700, 100, 1), 32, 0);
+  expect_brute_force(random_positions(300, 100, 1), 32, 0);
   expect_brute_force(random_positions(65, 100, 2), 64, 0);
 }
 
 TEST(SmoothingLengths, AreFoundAcrossTheFacesOfAPeriodicBox) {
-  expect_brute_force(random_positions(700, 100, 3), 32, 100);
+  expect_brute_force(random_positions(250, 100, 3), 32, 100);
 }
 
 TEST(SmoothingLengths, PeriodicBoxMayBeginAnywhere) {
-  std::vector<float> positions = random_positions(300, 100, 4);
+  std::vector<float> positions = random_positions(150, 100, 4);
   for (float& x : positions)
     x -= 70;
   expect_brute_force(positions, 20, 100);
 }
 
 TEST(SmoothingLengths, OfClusteredParticlesAreFoundToo) {
-  std::vector<float> positions = random_positions(200, 100, 5);
-  const std::vector<float> clump = random_positions(400, 0.01F, 6);
+  std::vector<float> positions = random_positions(100, 100, 5);
+  const std::vector<float> clump = random_positions(150, 0.01F, 6);
   for (const float x : clump)
     positions.push_back(99.99F + x);  // at a corner of the box
   expect_brute_force(positions, 48, 100);
 }
 
 TEST(SmoothingLengths, AreTheSameInEveryRun) {
-  const Column positions = Column::owning(random_positions(20000, 1, 7));
-  const Column first = find_smoothing_lengths(positions, 20000, 1.0);
-  const Column second = find_smoothing_lengths(positions, 20000, 1.0);
-  EXPECT_TRUE(std::equal(first.data(), first.data() + 20000, second.data()));
+  const Column positions = Column::owning(random_positions(12000, 1, 7));
+  const Column first = find_smoothing_lengths(positions, 12000, 1.0);
+  const Column second = find_smoothing_lengths(positions, 12000, 1.0);
+  EXPECT_TRUE(std::equal(first.data(), first.data() + 12000, second.data()));
 }
 
 TEST(SmoothingLengths, WithFewerParticlesThanNeighborsReachTheFarthest) {
@@ -155,7 +155,7 @@ TEST(SmoothingLengths, InCentimetresDoNotOverflow) {
 
 TEST(SmoothingLengths, ReportTheirProgressUpToOne) {
   std::vector<double> reported;
-  find_smoothing_lengths(Column::owning(random_positions(50000, 1, 10)), 50000, {}, 8,
+  find_smoothing_lengths(Column::owning(random_positions(10000, 1, 10)), 10000, {}, 8,
                          [&](double fraction) { reported.push_back(fraction); });
   ASSERT_FALSE(reported.empty());
   EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));

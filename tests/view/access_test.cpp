@@ -1,5 +1,5 @@
 // Who may talk to the server of the live view.
-#include "view/access.h"
+#include "view/requests/access.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The files of the page are in the program.
-#include "view/page_files.h"
+#include "view/requests/page_files.h"
 
 #include <gtest/gtest.h>
 

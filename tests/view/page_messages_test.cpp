@@ -1,5 +1,5 @@
 // What a page may say, and what is refused.
-#include "view/page_messages.h"
+#include "view/requests/page_messages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "view/access.h"
+#include "view/requests/access.h"
 
 #include <sys/random.h>
 

@@ -1,4 +1,4 @@
-#include "view/page_files.h"
+#include "view/requests/page_files.h"
 
 #include "splotchcl_embedded/view_page.h"
 

@@ -1,4 +1,4 @@
-#include "view/page_messages.h"
+#include "view/requests/page_messages.h"
 
 #include <fmt/format.h>
 
