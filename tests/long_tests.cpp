@@ -17,7 +17,9 @@ std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last) {
 }
 
 int rounds(int all) {
-  return long_tests() ? all : (all + 4) / 5;
+  if (long_tests()) return all;
+  constexpr int share = SPLOTCHCL_SHARE_OF_ROUNDS;
+  return (all + share - 1) / share;
 }
 
 }  // namespace splotchcl::test

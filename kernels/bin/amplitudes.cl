@@ -1,19 +1,13 @@
 // The colors of splats: what they emit and absorb at the center.
 
-// Vectors, since what a loop writes to an array goes through memory in pieces, which a processor
-// cannot forward to the copy of the whole entry.
-INLINED float4 knot_at(__global const float* knots, uint number) {
-  return vload4(number, knots);
-}
-
 // A position is in [0, 1], so that the knot below is one of them. Behind the last there is one more
-// in memory, of which nothing is taken. Numbers are converted as signed ones, which most processors
-// do in one step.
-INLINED float3 sample_knots(__global const float* knots, uint first, uint count, float position) {
-  const float place = position * (float)(int)(count - 1u);
+// in memory, of which nothing is taken. Vectors, since what a loop writes to an array goes through
+// memory in pieces, which a processor cannot forward to the copy of the whole entry.
+INLINED float3 sample_knots(__global const float* knots, uint first, float last, float position) {
+  const float place = position * last;
   const int below = (int)place;
-  const float4 color = knot_at(knots, first + (uint)below);
-  const float4 above = knot_at(knots, first + (uint)below + 1u);
+  __global const float* at = knots + (size_t)(first + (uint)below) * KNOT_FLOATS;
+  const float4 color = vload4(0, at), above = vload4(1, at);
   return (color + (place - (float)below) * (above - color)).xyz;
 }
 
@@ -24,25 +18,15 @@ INLINED float3 own_color_of(const Splat splat) {
 #endif
 
 #ifndef LIGHT_ORDERED
-// E w, or A w in the proportional plan, at the cloud's centre (scene.h, Absorption). A
-// component that only emits has no place in the proportional plan, and a gray one in neither.
+// E w, or A w in the proportional plan, at the cloud's centre.
 INLINED float3 summed_amplitude(const Splat splat, const ComponentColors colors,
                                 __global const float* knots) {
-#ifdef LIGHT_EMISSION
-  const int own = 0;
-  const float scale = splat.weight * colors.brightness;
-#else
-  const int own = colors.absorption_knot_count > 0;
-  const float scale =
-      splat.weight *
-      (colors.absorption_kind == ABSORPTION_FACTOR ? colors.absorption_factor : colors.brightness);
-#endif
   float3 summed =
-      scale * sample_knots(knots, own ? colors.first_absorption_knot : colors.first_knot,
-                           own ? colors.absorption_knot_count : colors.knot_count, splat.color);
+      splat.weight * colors.summed_scale *
+      sample_knots(knots, colors.first_summed_knot, colors.last_summed_knot, splat.color);
 #ifdef VECTOR_COLORS
   // An absorption palette of its own is not the particles' colour.
-  if (!own) summed *= own_color_of(splat);
+  if (colors.first_summed_knot == colors.first_knot) summed *= own_color_of(splat);
 #endif
   return summed;
 }
@@ -68,6 +52,11 @@ INLINED float own_part(const Splat splat, const BinParameters p) {
 #endif
 }
 
+// Numbers are converted as signed ones, which most processors do in one step.
+INLINED float last_of(uint knots) {
+  return (float)(int)(knots - 1u);
+}
+
 typedef struct Amplitudes {
   float3 emission, absorption;
 } Amplitudes;
@@ -75,14 +64,14 @@ typedef struct Amplitudes {
 // E w and A w at the cloud's centre (scene.h, Absorption).
 INLINED Amplitudes amplitudes_of(const Splat splat, const ComponentColors colors,
                                  __global const float* knots, const BinParameters p) {
-  float3 emitted = sample_knots(knots, colors.first_knot, colors.knot_count, splat.color);
+  float3 emitted = sample_knots(knots, colors.first_knot, last_of(colors.knot_count), splat.color);
 #ifdef VECTOR_COLORS
   emitted *= own_color_of(splat);
 #endif
   float3 absorbed = emitted;
   if (colors.absorption_knot_count > 0) {
-    absorbed = sample_knots(knots, colors.first_absorption_knot, colors.absorption_knot_count,
-                            splat.color);
+    absorbed = sample_knots(knots, colors.first_absorption_knot,
+                            last_of(colors.absorption_knot_count), splat.color);
   }
   Amplitudes found;
   found.emission = splat.weight * colors.brightness * emitted;

@@ -95,31 +95,50 @@ typedef struct ListedBand {
   __global TileSplat* entries;
 } ListedBand;
 
-// A place for the next entry of a tile, if it is of the band; else null.
+INLINED int is_of_band(const ListedBand band, uint tile) {
+  return tile - band.first_tile < band.tiles;
+}
+
+// The place for the next entry of a tile of the band.
 INLINED __global TileSplat* next_entry(const ListedBand band, uint tile) {
-  if (tile - band.first_tile >= band.tiles) return 0;
   return band.entries + (band.starts[tile] + band.count[tile]++);
 }
 
-#ifndef EXTENDED_NUMBERS
-// A call: hardly any splats have to have their tiles found again, or units of a pixel and more.
+#ifdef EXTENDED_NUMBERS
+INLINED void list_slot(const ListedBand band, const Splat splat, const Grid grid, uint touched,
+                       uint slot) {
+  const int4 range = unpack_tiles(touched, splat, grid);
+  for (int ty = range.z; ty <= range.w; ++ty) {
+    for (int tx = range.x; tx <= range.y; ++tx) {
+      const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
+      if (is_of_band(band, tile)) next_entry(band, tile)->slot = slot;
+    }
+  }
+}
+#else
+// A call: hardly any splats have to have their tiles found again.
 __attribute__((noinline)) static void list_far_or_wide(
     const BinParameters* p, const ListedBand* band, __global const Grid* grids,
-    __global const Splat* from, uint touched, __global const ComponentColors* component_colors,
+    __global const Splat* from, __global const ComponentColors* component_colors,
     __global const float* knots) {
   const Splat splat = *from;
   const Grid grid = grids[grid_of(splat)];
-  const int4 range = unpack_tiles(touched, splat, grid);
+  const int4 range = tile_range(splat, grid);
   TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
   for (int ty = range.z; ty <= range.w; ++ty) {
     for (int tx = range.x; tx <= range.y; ++tx) {
-      __global TileSplat* to = next_entry(*band, grid.corner_tile + (uint)(ty * grid.tiles_x + tx));
-      if (!to) continue;
+      const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
+      if (!is_of_band(*band, tile)) continue;
       set_place(&entry, splat, grid,
                 (int2)(tx * TILE_WIDTH + TILE_WIDTH / 2, ty * TILE_HEIGHT + TILE_HEIGHT / 2));
-      *to = entry;
+      *next_entry(*band, tile) = entry;
     }
   }
+}
+
+// In units of 2^-bits pixels. TILE_WIDTH and TILE_HEIGHT are powers of two.
+INLINED int2 size_of_tile(int bits) {
+  return (int2)(TILE_WIDTH, TILE_HEIGHT) << bits;
 }
 
 INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global const Grid* grids,
@@ -127,26 +146,22 @@ INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global
                         __global const ComponentColors* component_colors,
                         __global const float* knots) {
   const Splat splat = *from;
-  __global const Grid* grid = grids + grid_of(splat);
-  const int bits = place_bits_of(splat, *grid);
-  if (touched == FOUND_AGAIN || bits <= 0) {
-    list_far_or_wide(p, band, grids, from, touched, component_colors, knots);
-    return;
-  }
-  const float unit = unit_of(splat, *grid);
+  const int bits = p->place_bits;
+  const float unit = as_float((127 - bits) << 23);
   TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
+  __global const Grid* grid = grids + grid_of(splat);
   const uint column = first_column_of_tiles(touched), row = first_row_of_tiles(touched);
   const uint columns = columns_of_tiles(touched), tiles_x = (uint)grid->tiles_x;
   // From the middle of the first tile, and between those of two.
-  const int2 middle = (int2)(grid->middle_x, grid->middle_y);
-  const int2 first = (int2)((int)column, (int)row) * (int2)(TILE_WIDTH, TILE_HEIGHT) +
-                     (int2)(TILE_WIDTH / 2, TILE_HEIGHT / 2) - middle;
-  int2 units = (int2)(splat.x, splat.y) - (first << bits);
+  const int2 to_middle =
+      (int2)(grid->middle_x, grid->middle_y) - (int2)(TILE_WIDTH / 2, TILE_HEIGHT / 2);
+  int2 units = (int2)(splat.x, splat.y) + (to_middle << bits) -
+               (int2)((int)column, (int)row) * size_of_tile(bits);
   uint tile = grid->corner_tile + row * tiles_x + column, in_row = 0;
   // One loop: most splats are in one tile, and it ends where a processor expects it to.
   for (uint left = columns * rows_of_tiles(touched);;) {
-    __global TileSplat* to = next_entry(*band, tile);
-    if (to) {
+    if (is_of_band(*band, tile)) {
+      __global TileSplat* to = next_entry(*band, tile);
       set_units(&entry, splat, units, unit);
       *to = entry;
       ask_to_write(to + ENTRIES_AHEAD);
@@ -171,13 +186,12 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
                           __global const float* knots, __global TileSplat* entries) {
   const uint block = piece_of_item(p.block_count);
   if (block == NO_PIECE) return;
-  __global uint* count = counts + (size_t)block * p.tile_count;
   const uint end = slots_end(p, blocks, block);
   ListedBand band;
   band.first_tile = p.first_tile;
   band.tiles = p.end_tile - p.first_tile;
   band.starts = starts;
-  band.count = count;
+  band.count = counts + (size_t)block * p.tile_count;
   band.entries = entries;
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #ifdef BLOCKS_OF_PROJECTION
@@ -191,24 +205,16 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
 #else
     const uint touched = tiles[slot - p.first];
 #endif
-#ifdef EXTENDED_NUMBERS
-    const Splat splat = *from;
-    const Grid grid = grids[grid_of(splat)];
-    const int4 range = unpack_tiles(touched, splat, grid);
-    for (int ty = range.z; ty <= range.w; ++ty) {
-      for (int tx = range.x; tx <= range.y; ++tx) {
-        __global TileSplat* to =
-            next_entry(band, grid.corner_tile + (uint)(ty * grid.tiles_x + tx));
-        if (!to) continue;
-#ifdef LIGHT_ORDERED
-        to->slot = order[slot];
+#if defined(EXTENDED_NUMBERS) && defined(LIGHT_ORDERED)
+    list_slot(band, *from, grids[grid_of(*from)], touched, order[slot]);
+#elif defined(EXTENDED_NUMBERS)
+    list_slot(band, *from, grids[grid_of(*from)], touched, slot);
 #else
-        to->slot = slot;
-#endif
-      }
+    if (touched == FOUND_AGAIN) {
+      list_far_or_wide(&p, &band, grids, from, component_colors, knots);
+    } else {
+      list_splat(&p, &band, grids, from, touched, component_colors, knots);
     }
-#else
-    list_splat(&p, &band, grids, from, touched, component_colors, knots);
 #endif
   }
 }

@@ -48,6 +48,7 @@ struct BinParameters {
   unsigned int segment_length;        // entries of a tile's list per work-item or group
   unsigned int segment_capacity;      // segments that the buffer holds
   unsigned int first_tile, end_tile;  // lists are made of these only
+  int place_bits;  // as in Grid, of all grids; and of splats whose tiles are known their own
   float mean_sigma;
   float widening;
   struct GridBlurs blurs;

@@ -31,7 +31,16 @@ INLINED INTEGER last_pixel(VALUE place, VALUE radius, const AxisLanes axis) {
   return whole_below(min(max(place + axis.middle - 0.5f + radius, (VALUE)(-1.0f)), axis.last));
 }
 
-INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
+// A splat's first tile is so many behind the first of its grid, of which so many are in a row: in
+// grids that are in memory as a whole.
+typedef struct TileLanes {
+  INTEGER packed;
+  INTEGER from_corner, tiles_x;
+  INTEGER has_several;  // 1 where it touches more than that one
+} TileLanes;
+
+// One that is not visible is in the first tile of its grid.
+INLINED TileLanes tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
   const INTEGER level = level_of(s.grid, p);
   const INTEGER guard = select((INTEGER)(0), (INTEGER)(p.guard), s.grid > 0);
   const AxisLanes across = axis_of(p.middle_x, p.width, level, guard);
@@ -51,6 +60,13 @@ INLINED INTEGER tiles_of_lanes(const SplatLanes s, const ProjectParameters p) {
                          rows << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
   const INTEGER fits = (max(column, row) < 1 << FIRST_TILE_BITS) &
                        (max(columns, rows) < (1 << TILE_COUNT_BITS) - 1) & (s.radius >= 0.0f) &
-                       (first_x <= last_x) & (first_y <= last_y);
-  return select((INTEGER)((int)FOUND_AGAIN), packed, fits);
+                       (first_x <= last_x) & (first_y <= last_y) & (s.place.coarser == 0) &
+                       (INTEGER)(p.place_bits > 0 ? -1 : 0);
+  TileLanes tiles;
+  tiles.packed = select((INTEGER)((int)ONE_TILE), select((INTEGER)((int)FOUND_AGAIN), packed, fits),
+                        s.visible);
+  tiles.tiles_x = (TO_INTEGER(across.last) >> shift_x) + 1;
+  tiles.from_corner = (row * tiles.tiles_x + column) & s.visible;
+  tiles.has_several = (columns + rows > 2) & s.visible & (INTEGER)(1);
+  return tiles;
 }

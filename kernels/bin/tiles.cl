@@ -85,7 +85,8 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
 }
 
 // A range of tiles in a word: the first column and row, and how many of both. Ranges that do not
-// fit are found again.
+// fit are found again, and those of splats in coarser units than their grid's, or of a pixel and
+// more.
 #define FIRST_TILE_BITS 10
 #define TILE_COUNT_BITS 6
 #define FOUND_AGAIN 0xffffffffu
@@ -121,6 +122,7 @@ INLINED int4 unpack_tiles(uint packed, const Splat splat, const Grid grid) {
 }
 
 INLINED uint tiles_of(const Splat splat, const Grid grid) {
+  if (grid.place_bits <= 0 || coarser_of(splat) > 0) return FOUND_AGAIN;
   return pack_tiles(tile_range(splat, grid));
 }
 
@@ -186,8 +188,23 @@ INLINED void count_waiting(WaitingCounts* waiting, __global uint* count) {
   waiting->count = 0;
 }
 
-// Counts the splat in the tiles that it touches, at the latest when those that wait are counted.
-// One that is not visible, of ONE_TILE, counts for nothing.
+INLINED uint has_several_tiles(uint packed) {
+  return packed >> 2 * FIRST_TILE_BITS != ONE_TILE >> 2 * FIRST_TILE_BITS;
+}
+
+// Counts a splat in the tiles that it touches, from `corner` on, at the latest when those that wait
+// are counted. One that is not visible, of ONE_TILE, counts for nothing.
+INLINED void count_from_corner(uint tiles, uint corner, uint tiles_x, uint is_visible,
+                               uint has_several, __global uint* count, WaitingCounts* waiting) {
+  count[corner] += is_visible;
+  const uint last = waiting->count;
+  waiting->tiles[last] = tiles;
+  waiting->corner[last] = corner;
+  waiting->tiles_x[last] = tiles_x;
+  waiting->count = last + has_several;
+  if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
+}
+
 INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
                             uint is_visible, __global uint* count, WaitingCounts* waiting) {
   if (tiles == FOUND_AGAIN) {
@@ -197,11 +214,5 @@ INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global co
   const uint tiles_x = (uint)grid->tiles_x;
   const uint corner =
       grid->corner_tile + first_row_of_tiles(tiles) * tiles_x + first_column_of_tiles(tiles);
-  count[corner] += is_visible;
-  const uint last = waiting->count;
-  waiting->tiles[last] = tiles;
-  waiting->corner[last] = corner;
-  waiting->tiles_x[last] = tiles_x;
-  waiting->count = last + (tiles >> 2 * FIRST_TILE_BITS != ONE_TILE >> 2 * FIRST_TILE_BITS);
-  if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
+  count_from_corner(tiles, corner, tiles_x, is_visible, has_several_tiles(tiles), count, waiting);
 }

@@ -136,7 +136,8 @@ EACH_VECTOR(DECLARE, double)
 EACH_SCALAR(DECLARE)
 #undef DECLARE
 #ifdef cl_khr_fp64
-#define DECLARE(FROM) CONVERSION(FROM, double, ) CONVERSION(FROM, double, 8)
+#define DECLARE(FROM) \
+  CONVERSION(FROM, double, ) CONVERSION(FROM, double, 8) CONVERSION(FROM, double, 16)
 EACH_SCALAR(DECLARE)
 #undef DECLARE
 #endif

@@ -78,14 +78,18 @@ INLINED int level_of_grid(uint grid, const GridBlurs* blurs) {
 INLINED float blur_of_grid(uint grid, const GridBlurs* blurs) {
   return grid == 0 ? 0.0f : blurs->sigma2[(grid - 1u) & (MOST_BLURS - 1u)];
 }
+// The power of two by which its units are coarser than its grid's.
+INLINED uint coarser_of(const Splat splat) {
+  return splat.component_and_grid >> 24;
+}
 // The splat's units are 2^-place_bits pixels.
 INLINED int place_bits_of(const Splat splat, const Grid grid) {
-  return grid.place_bits - (int)(splat.component_and_grid >> 24);
+  return grid.place_bits - (int)coarser_of(splat);
 }
 
 // In pixels of the grid: a power of two.
 INLINED float unit_of(const Splat splat, const Grid grid) {
-  return as_float(as_uint(grid.unit) + ((splat.component_and_grid >> 24) << 23));
+  return as_float(as_uint(grid.unit) + (coarser_of(splat) << 23));
 }
 
 #ifdef FINE_PLACES

@@ -91,3 +91,18 @@ static inline VALUE log2_positive(VALUE x) {
       t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
   return TO_VALUE(exponent) + series - choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
 }
+
+// Eight floats at any address in one access: vload8 and vstore8 may become two, and a processor
+// cannot forward two stores to one load.
+#ifdef __clang__
+typedef float8 __attribute__((aligned(4))) Eight;
+#define load_eight(p) (*(const Eight*)(p))
+#define store_eight(v, p) (*(Eight*)(p) = (v))
+#define load_global_eight(p) (*(__global const Eight*)(p))
+#define store_global_eight(v, p) (*(__global Eight*)(p) = (v))
+#else
+#define load_eight(p) vload8(0, p)
+#define store_eight(v, p) vstore8(v, 0, p)
+#define load_global_eight load_eight
+#define store_global_eight store_eight
+#endif

@@ -147,6 +147,11 @@ struct ComponentColors {
   float brightness;
   int absorption_kind;
   float absorption_factor;
+  // Of what sums add up: the palette's first knot and the number of its last one, and what the
+  // color of a splat of weight 1 is multiplied by.
+  unsigned int first_summed_knot;
+  float last_summed_knot;
+  float summed_scale;
 };
 
 #ifdef __OPENCL_VERSION__

@@ -11,6 +11,7 @@
 #endif
 
 static inline void clear_planes(float* tile) {
+#pragma unroll 8
   for (int i = 0; i < PLANES * TILE_PIXELS; i += PATCH_WIDTH)
     store_patch((PATCH)(0.0f), tile + i);
 }
@@ -27,7 +28,7 @@ static inline void load_opacities(float* tile, __global const float* planes, con
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global const float* row = planes + row_of_tile(grid, corner, c, y);
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        store_eight(load_eight_of_planes(row + x), tile + c * TILE_PIXELS + y * ROW + x);
+        store_eight(load_global_eight(row + x), tile + c * TILE_PIXELS + y * ROW + x);
       }
     }
   }
@@ -53,9 +54,10 @@ static inline void store_tile(const float* tile, __global float* planes, const G
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       __global float* row = planes + row_of_tile(grid, corner, c, y);
+#pragma unroll
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         const float8 drawn = load_eight(tile + c * TILE_PIXELS + y * ROW + x);
-        store_eight_of_planes(c < SUMS ? load_eight_of_planes(row + x) + drawn : drawn, row + x);
+        store_global_eight(c < SUMS ? load_global_eight(row + x) + drawn : drawn, row + x);
       }
     }
   }
@@ -88,12 +90,11 @@ static inline void add_block_to_planes(const float* block, __global float* plane
       __global float* opacities = planes + row_of_tile(grid, corner, SUMS + c, y);
       const float* drawn = block + c * TILE_PIXELS + y * ROW;
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        const float8 opacity = load_eight_of_planes(opacities + x);
+        const float8 opacity = load_global_eight(opacities + x);
         const float8 behind = load_eight(drawn + SUMS * TILE_PIXELS + x);
         const float8 t = transmittance_of(opacity);
-        store_eight_of_planes(load_eight_of_planes(light + x) + t * load_eight(drawn + x),
-                              light + x);
-        store_eight_of_planes(carry_behind(opacity, t, behind), opacities + x);
+        store_global_eight(load_global_eight(light + x) + t * load_eight(drawn + x), light + x);
+        store_global_eight(carry_behind(opacity, t, behind), opacities + x);
       }
     }
   }
@@ -112,8 +113,8 @@ static inline void store_partial(const float* tile, __global float* partial) {
   for (int c = 0; c < PLANES; ++c) {
     for (int y = 0; y < TILE_HEIGHT; ++y) {
       for (int x = 0; x < TILE_WIDTH; x += 8) {
-        store_eight_of_planes(load_eight(tile + c * TILE_PIXELS + y * ROW + x),
-                              partial + (c * TILE_HEIGHT + y) * TILE_WIDTH + x);
+        store_global_eight(load_eight(tile + c * TILE_PIXELS + y * ROW + x),
+                           partial + (c * TILE_HEIGHT + y) * TILE_WIDTH + x);
       }
     }
   }
@@ -173,7 +174,7 @@ static inline int is_opaque(const float* front, __global const float* planes, co
       float8 most = (float8)(0.0f);
       for (int x = 0; x < TILE_WIDTH; x += 8) {
         const float8 opacity =
-            front ? load_eight(front + row + x) : load_eight_of_planes(row_of_planes + x);
+            front ? load_eight(front + row + x) : load_global_eight(row_of_planes + x);
         most = max(most, transmittance_of(opacity) * transmittance_of(load_eight(block + row + x)));
       }
       const float4 four = max(most.lo, most.hi);

@@ -14,21 +14,6 @@
 // The first pixel's center, from the tile's middle.
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
-// Eight floats at any address in one access: vstore8 may become two, and a processor cannot
-// forward two stores to the load of the next splat's row.
-#ifdef __clang__
-typedef float8 __attribute__((aligned(4))) Eight;
-#define load_eight(p) (*(const Eight*)(p))
-#define store_eight(v, p) (*(Eight*)(p) = (v))
-#define load_eight_of_planes(p) (*(__global const Eight*)(p))
-#define store_eight_of_planes(v, p) (*(__global Eight*)(p) = (v))
-#else
-#define load_eight(p) vload8(0, p)
-#define store_eight(v, p) vstore8(v, 0, p)
-#define load_eight_of_planes load_eight
-#define store_eight_of_planes store_eight
-#endif
-
 // Shapes of a splat on a face of a cube come row by row, and cut (face_rows.cl).
 #ifdef FACE_OF_CUBE
 #define SHAPE_OF_ROW(k) load_eight(along + 8 * (k))

@@ -50,6 +50,26 @@ INLINED void list_splat(const Splat listed, __global const Splat* kept, __global
 }
 #endif
 
+#ifdef COUNTS_ALL_LANES
+// Writes LANES splats from `slot` on and counts them; returns the slot behind the visible ones.
+INLINED uint list_all_lanes(const SplatArrays* found, uint slot, __global Splat* splats,
+                            __global const Grid* grids, __global uint* count,
+                            WaitingCounts* waiting) {
+  for (uint k = 0; k < LANES; ++k) {
+    __global Splat* kept = splats + slot;
+    ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
+    STORE_SPLAT(*found, k, splat, kept);
+    // Vectors' comparisons give -1.
+    const uint is_visible = -(uint)found->visible[k];
+    const uint corner = grids[found->grid[k]].corner_tile + (uint)found->from_corner[k];
+    count_from_corner(found->splats[k].tiles, corner, (uint)found->tiles_x[k], is_visible,
+                      (uint)found->has_several[k], count, waiting);
+    slot += is_visible;
+  }
+  return slot;
+}
+#endif
+
 INLINED BlockCounts no_counts(void) {
   BlockCounts counts;
   counts.visible = counts.bad = counts.too_sharp = counts.around = 0;
@@ -75,7 +95,15 @@ INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
   if (ANY(lanes.too_sharp)) of_block->too_sharp += count_true(lanes.too_sharp);
   if (!ANY(lanes.visible)) return 0;
 #ifdef TILES_OF_LANES
-  spread(lanes, select((INTEGER)((int)ONE_TILE), tiles_of_lanes(lanes, *p), lanes.visible), found);
+  const TileLanes tiles = tiles_of_lanes(lanes, *p);
+  spread(lanes, tiles.packed, found);
+#ifdef COUNTS_ALL_LANES
+  found->has_known_tiles = !p->has_parts && !ANY(tiles.packed == (INTEGER)((int)FOUND_AGAIN));
+  STORE(lanes.grid, found->grid);
+  STORE(tiles.from_corner, found->from_corner);
+  STORE(tiles.tiles_x, found->tiles_x);
+  STORE(tiles.has_several, found->has_several);
+#endif
 #else
   spread(lanes, (INTEGER)(0), found);
 #endif
@@ -128,6 +156,12 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
   for (uint i = begin; i < end && !is_left_out; i += LANES) {
     SplatArrays found;
     if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
+#ifdef COUNTS_ALL_LANES
+    if (found.has_known_tiles) {
+      slot = list_all_lanes(&found, slot, splats, grids, count, &waiting);
+      continue;
+    }
+#endif
     for (uint k = 0; k < LANES; ++k) {
 #ifdef WRITES_ALL_LANES
       const uint is_visible = (uint)found.visible[k] & 1u;

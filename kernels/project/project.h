@@ -140,7 +140,8 @@ struct ProjectParameters {
   // Of the picture, and its coarser grids' guard bands (Grid), for finding the tiles of lanes.
   int width, height, middle_x, middle_y, guard;
   unsigned int tile_count;
-  float beside;  // pixels of a coarse grid beside the picture, or the crop, that are in memory
+  int has_parts;  // of some grid not all tiles are in memory
+  float beside;   // pixels of a coarse grid beside the picture, or the crop, that are in memory
   float sigmas_shown;  // no splat on a coarse grid with a peak up to 1 shows farther than that
   float reach;         // sigmas beyond which nothing is drawn on any grid
   struct GridBlurs blurs;

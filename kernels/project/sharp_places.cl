@@ -77,41 +77,39 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, uint i, uint end, co
   return view;
 }
 #else
-INLINED PairLanes pair_offset(VALUE position, const float* camera) {
-  PairLanes rest;
-  rest.high = (VALUE)(-camera[1]);
-  rest.low = (VALUE)(-camera[2]);
-  return sum_of_pairs(exact_sum(position, (VALUE)(-camera[0])), rest);
+INLINED ExtendedValue offset_in_extended(VALUE position, const float* camera) {
+  FloatPair rest;
+  rest.high = -camera[1];
+  rest.low = -camera[2];
+  return sum_of_extended(exact_sum(position, -camera[0]), extended_value(rest));
 }
 
-INLINED PairLanes pair_along(const PairLanes* d, const FloatPair* axis) {
-  return sum_of_pairs(sum_of_pairs(product_of_pairs(d[0], pair_lanes(axis[0])),
-                                   product_of_pairs(d[1], pair_lanes(axis[1]))),
-                      product_of_pairs(d[2], pair_lanes(axis[2])));
+INLINED ExtendedValue along_in_extended(const ExtendedValue* d, const FloatPair* axis) {
+  const ExtendedValue x = product_of_extended(d[0], extended_value(axis[0]));
+  return product_plus(d[2], extended_value(axis[2]),
+                      product_plus(d[1], extended_value(axis[1]), x));
 }
 
-// The view of these lanes as well as pairs know it.
+// The view of these lanes as well as extended numbers know it.
 INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, const Vectors position,
                              const ProjectParameters p, const ExtendedParameters e) {
-  PairLanes d[3];
-  d[0] = pair_offset(position.x, e.position[0]);
-  d[1] = pair_offset(position.y, e.position[1]);
-  d[2] = pair_offset(position.z, e.position[2]);
-  PairLanes scale = pair_lanes(e.pixels_per_length);
+  ExtendedValue d[3];
+  d[0] = offset_in_extended(position.x, e.position[0]);
+  d[1] = offset_in_extended(position.y, e.position[1]);
+  d[2] = offset_in_extended(position.z, e.position[2]);
+  ExtendedValue scale = extended_value(e.pixels_per_length);
   if (p.perspective) {
-    PairLanes depth = pair_along(d, e.forward);
-    depth.high = max(depth.high, (VALUE)(p.least_depth));
-    scale = quotient_of_pairs(scale, depth);
+    scale = quotient_of_extended(scale, not_below(along_in_extended(d, e.forward), p.least_depth));
   }
-  const PairLanes x = sum_of_pairs(product_of_pairs(pair_along(d, e.right), scale),
-                                   pair_lanes(e.center_from_middle_x));
-  const PairLanes y = sum_of_pairs(product_of_pairs(pair_along(d, e.down), scale),
-                                   pair_lanes(e.center_from_middle_y));
-  view.x = choose(view.x, x.high, sharp);
-  view.x_low = choose(view.x_low, x.low, sharp);
-  view.y = choose(view.y, y.high, sharp);
-  view.y_low = choose(view.y_low, y.low, sharp);
-  view.scale = choose(view.scale, scale.high, sharp);
+  const ExtendedValue x =
+      product_plus(along_in_extended(d, e.right), scale, extended_value(e.center_from_middle_x));
+  const ExtendedValue y =
+      product_plus(along_in_extended(d, e.down), scale, extended_value(e.center_from_middle_y));
+  view.x = choose(view.x, high_value(x), sharp);
+  view.x_low = choose(view.x_low, low_value(x), sharp);
+  view.y = choose(view.y, high_value(y), sharp);
+  view.y_low = choose(view.y_low, low_value(y), sharp);
+  view.scale = choose(view.scale, high_value(scale), sharp);
   return view;
 }
 #endif
@@ -130,7 +128,10 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
   // place, and are misplaced alike.
   const VALUE all = max(crowd_peak, (VALUE)(1.0f));
   const VALUE of_copies = max(own_peak, min(MOST_COPIES * own_peak, all));
-  const VALUE fading = 0.693147181f * log2_positive(max(of_copies, (VALUE)(1.0f)));
-  const VALUE slope = choose(0.86f * of_copies, 2.0f * sqrt(fading), of_copies > 2.0f);
+  VALUE fading = (VALUE)(0.0f), slope = 0.86f * of_copies;
+  if (ANY(of_copies > 1.0f)) {
+    fading = 0.693147181f * log2_positive(max(of_copies, (VALUE)(1.0f)));
+    slope = choose(slope, 2.0f * sqrt(fading), of_copies > 2.0f);
+  }
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));
 }

@@ -13,6 +13,12 @@
 #define WRITES_ALL_LANES
 #endif
 
+// Where grids are in memory as a whole, and no splat has to have its tiles found again, all lanes
+// are counted in tiles that are known already.
+#if defined(WRITES_ALL_LANES) && defined(COUNT_TILES)
+#define COUNTS_ALL_LANES
+#endif
+
 // SplatLanes as arrays, to be written one by one.
 typedef struct SplatArrays {
   int visible[LANES];
@@ -36,6 +42,11 @@ typedef struct SplatArrays {
 #ifdef TILES_OF_LANES
   int tiles[LANES];
 #endif
+#endif
+#ifdef COUNTS_ALL_LANES
+  int grid[LANES];
+  int from_corner[LANES], tiles_x[LANES], has_several[LANES];  // TileLanes
+  int has_known_tiles;
 #endif
 #ifdef SORT_KEYS
   long sort_keys[LANES];
@@ -71,14 +82,14 @@ INLINED void store_eight_splats(float8 x, float8 y, float8 sigma, float8 radius,
   const float8 last26 = first_pairs(light2, lists2), last37 = last_pairs(light2, lists2);
   // Without a loop, which compilers leave, and then put pieces of these in memory.
   float* words = (float*)splats;
-  vstore8((float8)(first04.lo, last04.lo), 0, words);
-  vstore8((float8)(first15.lo, last15.lo), 1, words);
-  vstore8((float8)(first26.lo, last26.lo), 2, words);
-  vstore8((float8)(first37.lo, last37.lo), 3, words);
-  vstore8((float8)(first04.hi, last04.hi), 4, words);
-  vstore8((float8)(first15.hi, last15.hi), 5, words);
-  vstore8((float8)(first26.hi, last26.hi), 6, words);
-  vstore8((float8)(first37.hi, last37.hi), 7, words);
+  store_eight((float8)(first04.lo, last04.lo), words + 0);
+  store_eight((float8)(first15.lo, last15.lo), words + 8);
+  store_eight((float8)(first26.lo, last26.lo), words + 16);
+  store_eight((float8)(first37.lo, last37.lo), words + 24);
+  store_eight((float8)(first04.hi, last04.hi), words + 32);
+  store_eight((float8)(first15.hi, last15.hi), words + 40);
+  store_eight((float8)(first26.hi, last26.hi), words + 48);
+  store_eight((float8)(first37.hi, last37.hi), words + 56);
 }
 
 INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
@@ -95,7 +106,7 @@ INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
 }
 #endif
 
-// `tiles` are those of TILES_OF_LANES.
+// `tiles` are TileLanes, packed, where there are any.
 INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
   STORE(s.visible, a->visible);
 #ifndef EXTENDED_NUMBERS
@@ -142,7 +153,7 @@ INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
 #ifdef SPLATS_OF_EIGHT_WORDS
 // In one piece: a structure is copied in pieces.
 #define STORE_SPLAT(found, k, splat, to) \
-  vstore8(vload8(k, (const float*)(found).splats), 0, (__global float*)(to))
+  store_global_eight(load_eight((const float*)((found).splats + (k))), (__global float*)(to))
 #else
 #define STORE_SPLAT(found, k, splat, to) *(to) = splat
 #endif

@@ -20,7 +20,7 @@ struct StageContext {
         layout(make_picture_layout(of, with, specialization)),
         grids(on.pool.upload(all_grids(layout), "grids")),
         stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
-        colors(upload_component_colors(of, on.pool)) {}
+        colors(upload_component_colors(of, with.light, on.pool)) {}
 
   DeviceContext& device;
   const Frame& frame;

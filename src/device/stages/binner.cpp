@@ -39,6 +39,7 @@ Binner::Binner(const StageContext& context)
   parameters_.segment_capacity =
       static_cast<std::uint32_t>(layout.tile_count + entry_capacity_ / traits.segment_length + 1);
   parameters_.end_tile = layout.tile_count;
+  parameters_.place_bits = context.layout.grids.front().place_bits;
   parameters_.mean_sigma = context.plan.splats.mean_sigma;
   parameters_.widening = context.plan.splats.widening;
   parameters_.blurs = grid_blurs(context.plan.pyramid);
