@@ -56,6 +56,8 @@ struct SplatNeeds {
   std::array<WidthNeed, width_octaves> widths;
   double grid_light = 1;  // of all that lies in one place on a coarse grid
   int slabs = 0;          // at least, of an ordered frame that is drawn in slabs
+  // Ordered: what the picture makes of an error of a part of every layer, at least.
+  double response_to_layers = 0;
 };
 
 // Where a splat ends and how its pixels are sampled. Widths in pixels.
@@ -164,6 +166,8 @@ struct PlaceLimits {
 
 // How layers are put together.
 struct LayerLimits {
+  // The part by which splats may err alike, for the series of phi.
+  double part = 0;
   // Optical depths up to which 1, 2, 3 and 4 terms of phi's series serve.
   float phi_first = 0, phi_short = 0, phi_third = 0, phi_series = 0;
   float stop = 0;  // a tile whose transmittance is at most this is finished; below 0: never

@@ -46,11 +46,12 @@ double part_of_all_splats(const CollectedSplats& splats, const FramePlan& plan) 
   return of_exp + plan.shares.pixel_mean + 8 * rounding + of_sums;
 }
 
-// What pixels err by whatever splats lie there.
+// What pixels err by whatever splats lie there. Series of phi make layers err by parts of
+// themselves, of which a picture's light knows what they do.
 double error_of_all_pixels(const CollectedSplats& splats, const FramePlan& plan) {
   constexpr double of_the_light = 8 * 0x1p-24;  // roundings of the light itself
-  return plan.shares.phi + plan.shares.early_stop + (plan.certify ? of_the_light : 0) +
-         splats.around * plan.shares.promise;
+  return (plan.needs_sort() ? 0 : plan.shares.phi) + plan.shares.early_stop +
+         (plan.certify ? of_the_light : 0) + splats.around * plan.shares.promise;
 }
 
 // The same in all blocks.
@@ -75,6 +76,7 @@ class FrameErrors {
         promise_(plan.shares.promise),
         rest_(error_of_all_pixels(splats, plan)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) + part_of_colors(frame) : 0),
+        part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
     for (std::size_t octave = 0; octave < lights_.size(); ++octave)
@@ -101,7 +103,7 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise;
+    sums.rest = rest_ / promise_ + (part_of_all_ + part_of_layers_) * light.even / promise;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
@@ -132,8 +134,11 @@ class FrameErrors {
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
 
-  void add_needs(const std::vector<Part>& parts, const ErrorParts& sums, SplatNeeds& needs) const {
-    const double error = sums.sum();
+  void add_needs(std::size_t block, const std::vector<Part>& parts, const ErrorParts& sums,
+                 SplatNeeds& needs) const {
+    const double error = sums.sum(), even = picture_.blocks[block].even;
+    if (part_of_layers_ * even / promise_of(block) > least_part)
+      needs.response_to_layers = std::max(needs.response_to_layers, margin * even);
     // Peaks may be as small as they get.
     const double room = std::max(least_room, 1 - sums.rest - sums.peaks);
     const double of_ends = std::max(error, (sums.ends + sums.even) / room);
@@ -190,7 +195,7 @@ class FrameErrors {
   PictureLight picture_;
   std::vector<OctaveErrors> octaves_;
   bool is_bound_, is_cut_;
-  double promise_, rest_, part_of_all_;
+  double promise_, rest_, part_of_all_, part_of_layers_;
   int slabs_;
   const std::vector<float>& of_slabs_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
@@ -201,7 +206,7 @@ class FrameErrors {
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  if (!plan.has_errors_of_splats)
+  if (!plan.has_errors_of_splats && !plan.needs_sort())
     return even_certificate(image, error_of_all_pixels(splats, plan), plan.shares.promise);
   const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
@@ -226,7 +231,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
       continue;
     }
     const ErrorParts sums = errors.in_block(b, parts);
-    errors.add_needs(parts, sums, certificate.needs);
+    errors.add_needs(b, parts, sums, certificate.needs);
   }
   return certificate;
 }

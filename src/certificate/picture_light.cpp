@@ -40,13 +40,14 @@ Response of_proportional(const Range& light, double source, double contrast) {
 // A splat in front takes away from what lies behind, of which no more reaches the eye than the
 // pixel's whole light, and adds its own: an error of a part e of it does e (E T - A I), of which
 // neither is negative. Absorption counts as `expected` of emission (plan.h, light_behind). Errors
-// of a part of every splat do no more than to a single source, and no more than all of them one by
-// one; of either sign what all take away, and what they add (docs/accuracy.md).
+// of a part of every splat do no more than to a single source, and no more than where all light
+// lies as deep as it may; of either sign what all take away, and what they add (docs/accuracy.md).
 Response of_ordered(double light, double opacity, double brightest_behind, double expected) {
   constexpr double euler = 2.718281828459045, deep = 60;
   const double depth = opacity < 1 ? std::min(-std::log1p(-opacity), deep) : deep;
+  const double deepest = light > 0 ? std::min(depth - 1, std::log(brightest_behind / light)) : 0.0;
   const double of_parts =
-      std::min(brightest_behind * std::min(opacity, 1 / euler), light * std::max(1.0, depth));
+      std::min(brightest_behind * std::min(opacity, 1 / euler), light * std::max(1.0, deepest));
   const double one_by_one = std::min(1 + depth, 2 + std::log(std::max(1.0, brightest_behind)));
   return {std::max(1.0, light / expected), of_parts, std::max(one_by_one, 1 / expected)};
 }

@@ -229,6 +229,44 @@ TEST_F(CertificateTest, CountsLayersBeforeALightPixelForAsMuchAsItHas) {
   }
 }
 
+Image even_picture(double light, double opacity) {
+  Image image = dark_picture();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<float>(i % 4 == 3 ? opacity : light);
+  return image;
+}
+
+// Behind thin layers light errs by the same part as they do, behind deeper ones by 1 / e of a
+// source at most.
+TEST_F(CertificateTest, CountsTheSeriesOfLayersByTheLightThatTheyShowIn) {
+  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
+  plan_ = make_plan(frame_);
+  const auto of_layers = [&](double light, double opacity) {
+    const Image image = even_picture(light, opacity);
+    return certify({{}, 1, {}}, image, frame_, plan_).worst.rest * frame_.tolerance -
+           plan_.shares.early_stop;
+  };
+  const double part = plan_.layers.part;
+  EXPECT_NEAR(of_layers(0, 0.5), 0, 1e-9);
+  EXPECT_NEAR(of_layers(0.05, 0.5), 0.05 * part, 1e-9);
+  EXPECT_NEAR(of_layers(0.05, 1 - std::exp(-3)), 2 * 0.05 * part, 1e-9);
+  EXPECT_NEAR(of_layers(0.05, 1), std::log(1 / 0.05) * 0.05 * part, 1e-9);
+  EXPECT_NEAR(of_layers(std::exp(-1), 1), std::exp(-1) * part, 1e-9);
+}
+
+TEST_F(CertificateTest, AsksForMoreTermsOfThePhiOfLayersInALightPicture) {
+  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
+  frame_.kernel.cut = 2.0;
+  frame_.kernel.sampling = Sampling::center;
+  plan_ = make_plan(frame_);
+  const Image image = even_picture(0.5, 0.9);
+  const Certificate certificate = certify({}, image, frame_, plan_);
+  ASSERT_FALSE(certificate.keeps_promise());
+  const FramePlan refined = refine_plan(frame_, plan_, certificate.needs);
+  EXPECT_LT(refined.layers.phi_first, 0.5f * plan_.layers.phi_first);
+  EXPECT_TRUE(certify({}, image, frame_, refined).keeps_promise());
+}
+
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {
   frame_.kernel.cut = 2.0;
   plan_ = make_plan(frame_);

@@ -115,6 +115,15 @@ double light_of_uneven_ends(const Frame& frame, const FramePlan& plan) {
   return std::min(1.0, std::max(plan.light_behind, response));
 }
 
+// What an error of a part of every layer does to the picture: to a single source 1 / e of it, and
+// more where brighter ones may be behind it. What is guessed too low the check after drawing finds.
+double response_to_layers(const Frame& frame, const FramePlan& plan, double most) {
+  constexpr double of_sources = 0.9;
+  if (!plan.needs_sort() || plan.is_extended() || !std::isfinite(brightest_source(frame)))
+    return std::max(1.0, most);
+  return std::min(most, std::max(of_sources * plan.light_behind, plan.needs.response_to_layers));
+}
+
 // Everything that follows from the precision, the shares and the needs.
 void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
@@ -137,8 +146,8 @@ void set_limits(const Frame& frame, FramePlan& plan) {
     const double of_places = plan.precision == Precision::full ? unchecked : response;
     plan.places = choose_place_limits(frame, plan, of_places);
   }
-  plan.layers =
-      choose_layer_limits(plan.shares, plan.light, std::max(background, source), unchecked);
+  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source),
+                                    response_to_layers(frame, plan, unchecked));
 }
 
 // Bounds are several times larger than estimates.
@@ -217,6 +226,7 @@ FramePlan in_order_plan(const Frame& frame, const FramePlan& plan) {
   ordered.slabs = 0;
   set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, false), ordered);
   ordered.needs = first_needs(ordered, light_of_uneven_ends(frame, ordered));
+  ordered.needs.response_to_layers = plan.needs.response_to_layers;
   set_limits(frame, ordered);
   return ordered;
 }
@@ -233,6 +243,8 @@ FramePlan refine_plan(const Frame& frame, const FramePlan& plan, const SplatNeed
     need.light = std::max(need.light, needs.widths[octave].light);
   }
   refined.needs.grid_light = std::max(refined.needs.grid_light, needs.grid_light);
+  refined.needs.response_to_layers =
+      std::max(refined.needs.response_to_layers, needs.response_to_layers);
   set_limits(frame, refined);
   return refined;
 }

@@ -127,12 +127,17 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
   return limits;
 }
 
+// A layer of depth y whose phi errs by a part of itself is one of a splat that errs by
+// phi(y) exp(y) = (exp(y) - 1) / y times that, for depths up to 0.5.
+constexpr double phi_of_thin_layers = 1.3;
+
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
                                 double brightest_behind, double response) {
   LayerLimits limits;
   // One term of the series errs by y / 2 of phi, two by y^2 / 6, three by y^3 / 24, four by
   // y^4 / 120.
-  const double phi = shares.phi / std::max(1.0, response);
+  const double phi = shares.phi / (phi_of_thin_layers * response);
+  limits.part = phi * phi_of_thin_layers;
   limits.phi_first = static_cast<float>(std::min(0.5, 2 * phi));
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
   limits.phi_third = static_cast<float>(std::min(0.5, std::cbrt(24 * phi)));

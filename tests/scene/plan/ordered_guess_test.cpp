@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "reference/frames.h"
@@ -66,6 +67,13 @@ TEST(LightBehind, IsWhiteWhereStarsOnlyEmit) {
   frame.components.push_back(frame.components.front());
   frame.components.back().absorption = {Kind::none, 0};
   EXPECT_EQ(light_behind(frame), 1);
+}
+
+// To a single source an error of all layers does 1 / e of it.
+TEST(LightBehind, DecidesHowFarTheSeriesOfLayersMayErr) {
+  const double bright = make_plan(gray_clouds(10, 0.1)).layers.part;
+  const double dim = make_plan(gray_clouds(1e-4, 1)).layers.part;
+  EXPECT_NEAR(dim / bright, std::exp(-1) / (0.9 * 0.1), 1e-6);
 }
 
 TEST(LightBehind, IsTheSameForEveryCrop) {
