@@ -103,7 +103,8 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = rest_ / promise_ + (part_of_all_ + part_of_layers_) * light.even / promise;
+    sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise +
+                part_of_layers_ * light.layers / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
@@ -136,9 +137,9 @@ class FrameErrors {
 
   void add_needs(std::size_t block, const std::vector<Part>& parts, const ErrorParts& sums,
                  SplatNeeds& needs) const {
-    const double error = sums.sum(), even = picture_.blocks[block].even;
-    if (part_of_layers_ * even / promise_of(block) > least_part)
-      needs.response_to_layers = std::max(needs.response_to_layers, margin * even);
+    const double error = sums.sum(), layers = picture_.blocks[block].layers;
+    if (part_of_layers_ * layers / promise_ > least_part)
+      needs.response_to_layers = std::max(needs.response_to_layers, margin * layers);
     // Peaks may be as small as they get.
     const double room = std::max(least_room, 1 - sums.rest - sums.peaks);
     const double of_ends = std::max(error, (sums.ends + sums.even) / room);

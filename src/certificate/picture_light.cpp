@@ -20,7 +20,7 @@ struct Range {
 // What a block does for an error of 1 in a sum of splats, and of a part of every splat; and the
 // same over max(1, I), pixel by pixel.
 struct Response {
-  double of_sum = 0, of_parts = 0, relative = 1;
+  double of_sum = 0, of_parts = 0, relative = 1, layers = 0;
 };
 
 // I = q + (background - q) T with T = exp(-x): dI / dx = q - I, and an error of a part of every
@@ -34,22 +34,25 @@ Response of_proportional(const Range& light, double source, double contrast) {
   const double at = std::clamp(contrast / euler, least, most);
   const double of_parts = at > 0 ? std::max(0.0, -at * std::log(at / contrast)) : 0;
   // What has faded below 1 counts as an error of the sum.
-  return {most, of_parts, std::max({1.0, most, of_parts}) / std::max(1.0, light.least)};
+  return {most, of_parts, std::max({1.0, most, of_parts}) / std::max(1.0, light.least), 0};
 }
 
 // A splat in front takes away from what lies behind, of which no more reaches the eye than the
 // pixel's whole light, and adds its own: an error of a part e of it does e (E T - A I), of which
 // neither is negative. Absorption counts as `expected` of emission (plan.h, light_behind). Errors
 // of a part of every splat do no more than to a single source, and no more than where all light
-// lies as deep as it may; of either sign what all take away, and what they add (docs/accuracy.md).
+// lies as deep as it may, which over the light falls as that grows; of either sign what all take
+// away, and what they add (docs/accuracy.md).
 Response of_ordered(double light, double opacity, double brightest_behind, double expected) {
   constexpr double euler = 2.718281828459045, deep = 60;
   const double depth = opacity < 1 ? std::min(-std::log1p(-opacity), deep) : deep;
-  const double deepest = light > 0 ? std::min(depth - 1, std::log(brightest_behind / light)) : 0.0;
-  const double of_parts =
-      std::min(brightest_behind * std::min(opacity, 1 / euler), light * std::max(1.0, deepest));
+  const auto of_parts = [&](double of) {
+    const double deepest = of > 0 ? std::min(depth - 1, std::log(brightest_behind / of)) : 0.0;
+    return std::min(brightest_behind * std::min(opacity, 1 / euler), of * std::max(1.0, deepest));
+  };
   const double one_by_one = std::min(1 + depth, 2 + std::log(std::max(1.0, brightest_behind)));
-  return {std::max(1.0, light / expected), of_parts, std::max(one_by_one, 1 / expected)};
+  return {std::max(1.0, light / expected), of_parts(light), std::max(one_by_one, 1 / expected),
+          of_parts(std::min(light, 1.0))};
 }
 
 double brightest_channel(const Image& image) {
@@ -102,7 +105,7 @@ struct Surroundings {
 
 Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around) {
   const Range& light = ranges.channels[channel];
-  if (around.light == LightPlan::emission) return {1, light.most, 1};
+  if (around.light == LightPlan::emission) return {1, light.most, 1, 0};
   if (around.light == LightPlan::ordered) {
     return of_ordered(light.most, ranges.opacity, around.behind, around.expected);
   }
@@ -118,6 +121,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around) {
     block.response = std::max(block.response, response.of_sum);
     block.even = std::max(block.even, response.of_parts);
     block.relative = std::max(block.relative, response.relative);
+    block.layers = std::max(block.layers, response.layers);
     least = std::min(least, ranges.channels[c].least);
   }
   block.allowed = std::max(1.0, least);

@@ -267,6 +267,21 @@ TEST_F(CertificateTest, AsksForMoreTermsOfThePhiOfLayersInALightPicture) {
   EXPECT_TRUE(certify({}, image, frame_, refined).keeps_promise());
 }
 
+// A star's pixel may err by as much more as it is brighter than white, whatever is beside it.
+TEST_F(CertificateTest, CountsLayersBeforeAStarAsPartsOfItsLight) {
+  DrawnComponent gas = component_of({Cloud{}}, one_color(1, 1, 1));
+  gas.absorption = {Absorption::Kind::gray, 1};
+  frame_.components.push_back(gas);
+  frame_.kernel.cut = 2.0;
+  frame_.kernel.sampling = Sampling::center;
+  plan_ = make_plan(frame_);
+  ASSERT_TRUE(plan_.needs_sort());
+  Image image = even_picture(0.01, 0.5);
+  const std::size_t star = image.pixels.size() / 2;
+  std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(star), 3, 1000.0f);
+  EXPECT_TRUE(certify({}, image, frame_, plan_).keeps_promise());
+}
+
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {
   frame_.kernel.cut = 2.0;
   plan_ = make_plan(frame_);

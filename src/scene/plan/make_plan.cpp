@@ -119,9 +119,11 @@ double light_of_uneven_ends(const Frame& frame, const FramePlan& plan) {
 // more where brighter ones may be behind it. What is guessed too low the check after drawing finds.
 double response_to_layers(const Frame& frame, const FramePlan& plan, double most) {
   constexpr double of_sources = 0.9;
-  if (!plan.needs_sort() || plan.is_extended() || !std::isfinite(brightest_source(frame)))
-    return std::max(1.0, most);
-  return std::min(most, std::max(of_sources * plan.light_behind, plan.needs.response_to_layers));
+  const bool can_guess =
+      plan.needs_sort() && !plan.is_extended() && std::isfinite(brightest_source(frame));
+  const double guess =
+      can_guess ? std::min(most, of_sources * plan.light_behind) : std::max(1.0, most);
+  return std::max(guess, plan.needs.response_to_layers);
 }
 
 // Everything that follows from the precision, the shares and the needs.
