@@ -51,19 +51,33 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
 }
 #endif
 
-// Per tile, an exclusive scan over the blocks, in place, and the list's length.
+// Per tile, an exclusive scan over the blocks, in place, and the list's length. A work-item takes as
+// many tiles as a vector holds: what they count lies side by side.
 __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
                               __global uint* lengths) {
-  const uint tile = get_global_id(0);
-  if (tile >= p.tile_count) return;
-  uint running = 0;
-  for (uint b = 0; b < p.block_count; ++b) {
-    const size_t place = (size_t)b * p.tile_count + tile;
-    const uint count = counts[place];
-    counts[place] = running;
-    running += count;
+  const uint first = get_global_id(0) * TILES_OF_SCAN;
+  if (first >= p.tile_count) return;
+  if (p.tile_count - first >= TILES_OF_SCAN) {
+    uint8 running = (uint8)(0u);
+    for (uint b = 0; b < p.block_count; ++b) {
+      __global uint* of_block = counts + (size_t)b * p.tile_count + first;
+      const uint8 count = vload8(0, of_block);
+      vstore8(running, 0, of_block);
+      running += count;
+    }
+    vstore8(running, 0, lengths + first);
+    return;
   }
-  lengths[tile] = running;
+  for (uint tile = first; tile < p.tile_count; ++tile) {
+    uint running = 0;
+    for (uint b = 0; b < p.block_count; ++b) {
+      const size_t place = (size_t)b * p.tile_count + tile;
+      const uint count = counts[place];
+      counts[place] = running;
+      running += count;
+    }
+    lengths[tile] = running;
+  }
 }
 
 // Starts of the lists of a band of tiles, and the segments that long ones are cut into.

@@ -37,6 +37,9 @@ struct TileSplat {
 // Lists are read some entries at a time (entry_lanes.cl): so many may be looked at behind the last.
 #define ENTRIES_BEHIND 7
 
+// Tiles of a work-item that scans counts.
+#define TILES_OF_SCAN 8
+
 // Which splats a binning pass takes: work-item b walks the slots first + b * stride ...
 // of at most `length` splats.
 struct BinParameters {

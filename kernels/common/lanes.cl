@@ -7,6 +7,7 @@
 #undef AS_VALUE
 #undef AS_INTEGER
 #undef ANY
+#undef OR_OF_LANES
 #undef LANES
 #if defined(LANES_16)
 #define LANES 16
@@ -64,7 +65,8 @@
 // Two instructions, where PoCL's any() looks at one lane after the other.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_reduce_or)
-#define ANY(mask) (__builtin_reduce_or(mask) != 0)
+#define OR_OF_LANES(bits) __builtin_reduce_or(bits)
+#define ANY(mask) (OR_OF_LANES(mask) != 0)
 #endif
 #endif
 #ifndef ANY
@@ -91,6 +93,21 @@ static inline VALUE log2_positive(VALUE x) {
       t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
   return TO_VALUE(exponent) + series - choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
 }
+
+#if LANES > 1
+// The bits of all lanes together.
+static inline uint or_of_lanes(INTEGER bits) {
+#ifdef OR_OF_LANES
+  return (uint)OR_OF_LANES(bits);
+#else
+  int of_lane[LANES], all = 0;
+  STORE(bits, of_lane);
+  for (uint k = 0; k < LANES; ++k)
+    all |= of_lane[k];
+  return (uint)all;
+#endif
+}
+#endif
 
 // Eight floats at any address in one access: vload8 and vstore8 may become two, and a processor
 // cannot forward two stores to one load.

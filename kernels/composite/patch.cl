@@ -51,6 +51,7 @@ typedef struct AxisOfSplats {
   float low[MOST_SHAPES];  // what is to be added to it
 #endif
   float sigma[MOST_SHAPES], factor[MOST_SHAPES];  // as factor_of() has it
+  ShapeBits means;                                // those that are taken as means over pixels
 #ifndef CUT_BY_ROWS
   float first[MOST_SHAPES], last[MOST_SHAPES];  // pixels that are drawn
 #endif

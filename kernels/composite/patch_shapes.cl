@@ -43,12 +43,13 @@ typedef struct PatchValues {
 #endif
 
 // The shape of splat k along an axis, at these pixels of the tile, `d` from its center.
-INLINED PATCH shape_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d,
-                          float mean_sigma) {
-  const float factor = axis->factor[k], sigma = axis->sigma[k];
-  if (sigma >= mean_sigma) return WITHIN_SQUARE(exp2_negative(d * d * factor), pixels, axis, k);
+INLINED PATCH center_values_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
+  return WITHIN_SQUARE(exp2_negative(d * d * axis->factor[k]), pixels, axis, k);
+}
+INLINED PATCH means_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
+  const float factor = axis->factor[k];
   const PATCH mean = error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor);
-  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * sigma), pixels, axis, k);
+  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * axis->sigma[k]), pixels, axis, k);
 }
 
 // What limits are held against: the square of the distance along columns, as a disc has it.
@@ -58,32 +59,44 @@ INLINED PATCH square_of_disc(PATCH d, float squeeze) {
 }
 #endif
 
-INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, float mean_sigma,
-                         PATCH lanes, PatchValues* values) {
-  const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
-  for (; splats != 0; splats = without_first(splats)) {
-    const uint k = first_of(splats), at = k * PATCH_WIDTH;
-    const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);
-    store_patch(shape_along(&shapes->x, k, pixels, d, mean_sigma), values->across + at);
-#ifdef CUT_BY_ROWS
-    store_patch(square_of_disc(d, SQUEEZE_OF(shapes, k)), values->squares + at);
-#endif
+// Center values and means have loops of their own, whose constants stay in registers.
+#define EACH_ACROSS(chosen, shape_along)                                     \
+  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {   \
+    const uint k = first_of(left), at = k * PATCH_WIDTH;                     \
+    const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);                  \
+    store_patch(shape_along(&shapes->x, k, pixels, d), values->across + at); \
+    PUT_SQUARES                                                              \
   }
+#ifdef CUT_BY_ROWS
+#define PUT_SQUARES store_patch(square_of_disc(d, SQUEEZE_OF(shapes, k)), values->squares + at);
+#else
+#define PUT_SQUARES
+#endif
+INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, PATCH lanes,
+                         PatchValues* values) {
+  const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
+  EACH_ACROSS(splats & ~shapes->x.means, center_values_along)
+  EACH_ACROSS(splats & shapes->x.means, means_along)
 }
 
 // Of as many rows from `y` on as a register holds.
-INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, float mean_sigma,
-                        PATCH lanes, PatchValues* values) {
-  const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
-  for (; splats != 0; splats = without_first(splats)) {
-    const uint k = first_of(splats), at = k * TILE_HEIGHT + (uint)y;
-    const PATCH d = DISTANCE_ALONG(&shapes->y, k, centers);
-    const PATCH shape = shape_along(&shapes->y, k, pixels, d, mean_sigma);
-    store_patch(shape, values->along + at);
-#ifdef CUT_BY_ROWS
-    store_patch(shapes->cut2[k] - d * d, values->limits + at);
-#endif
+#define EACH_ALONG(chosen, shape_along)                                     \
+  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {  \
+    const uint k = first_of(left), at = k * TILE_HEIGHT + (uint)y;          \
+    const PATCH d = DISTANCE_ALONG(&shapes->y, k, centers);                 \
+    store_patch(shape_along(&shapes->y, k, pixels, d), values->along + at); \
+    PUT_LIMITS                                                              \
   }
+#ifdef CUT_BY_ROWS
+#define PUT_LIMITS store_patch(shapes->cut2[k] - d * d, values->limits + at);
+#else
+#define PUT_LIMITS
+#endif
+INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, PATCH lanes,
+                        PatchValues* values) {
+  const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
+  EACH_ALONG(splats & ~shapes->y.means, center_values_along)
+  EACH_ALONG(splats & shapes->y.means, means_along)
 }
 
 // Written out: compilers leave loops as they are.
@@ -120,6 +133,7 @@ INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, f
 #endif
   axis->sigma[number] = sigma;
   axis->factor[number] = factor_of(sigma, mean_sigma);
+  axis->means |= (ShapeBits)(sigma < mean_sigma) << number;
 #ifndef CUT_BY_ROWS
   axis->first[number] = (float)pixels.x;
   axis->last[number] = (float)pixels.y;

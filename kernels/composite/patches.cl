@@ -66,7 +66,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
                                   int x, int y, PATCH lanes) {
   PatchSplat splat;
   const PATCH across = load_patch(values->across + k * PATCH_WIDTH);
-  splat.along = values->along + (k * TILE_HEIGHT + (uint)y);
+  splat.along = values->along + (size_t)k * TILE_HEIGHT + y;
 #ifdef LIGHT_ORDERED
   splat.across = across;
   splat.light = shapes->light + k * PLANES;
@@ -82,7 +82,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
 #endif
 #ifdef CUT_BY_ROWS
   splat.square = load_patch(values->squares + k * PATCH_WIDTH);
-  splat.limits = values->limits + (k * TILE_HEIGHT + (uint)y);
+  splat.limits = values->limits + (size_t)k * TILE_HEIGHT + y;
 #ifdef SAMPLING_MEAN
   splat.dx = DISTANCE_ALONG(&shapes->x, k, ((float)x + FIRST_X) + lanes);
   splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
@@ -223,16 +223,15 @@ INLINED ShapeBits splats_of_rows(const PatchReach* reach, int y) {
 // Adds the splats of these shapes to the tile. A call whose argument tells the compiler that it may
 // use registers of sixteen floats (lanes.cl).
 __attribute__((noinline)) static void add_to_patches(float* tile, const PatchShapes* shapes,
-                                                     LayerForms forms, float mean_sigma,
-                                                     PATCH lanes) {
+                                                     LayerForms forms, PATCH lanes) {
   PatchValues values;
   const PatchReach* const reach = &shapes->reach;
   for (int y = 0; y < TILE_HEIGHT; y += PATCH_WIDTH)
-    fill_along(shapes, splats_of_rows(reach, y), y, mean_sigma, lanes, &values);
+    fill_along(shapes, splats_of_rows(reach, y), y, lanes, &values);
   for (int x = 0; x < TILE_WIDTH; x += PATCH_WIDTH) {
     const ShapeBits of_column = splats_of_column(reach, x / PATCH_WIDTH);
     if (of_column == 0) continue;
-    fill_across(shapes, of_column, x, mean_sigma, lanes, &values);
+    fill_across(shapes, of_column, x, lanes, &values);
     for (int y = 0; y < TILE_HEIGHT; y += PATCH_HEIGHT)
       add_to_patch(tile, x, y, shapes, &values, forms, lanes);
   }

@@ -21,12 +21,6 @@
 #define SHAPE_OF_ROW(k) (across * along[k])
 #endif
 
-// Sums take most of their time for narrow splats that are not cut.
-#if !defined(LIGHT_ORDERED) && !defined(KERNEL_CUT) && !defined(ELLIPSES) && \
-    !defined(FACE_OF_CUBE) && !defined(FINE_PLACES) && SUMMED == 3
-#define NARROW_SPLATS
-#endif
-
 // As gaussian() wants it.
 static inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
@@ -240,6 +234,7 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   }
 #else
   SUMMED_CHANNELS
+#pragma unroll 4
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
 #ifdef FACE_OF_CUBE
     const float8 shape = SHAPE_OF_ROW(k);

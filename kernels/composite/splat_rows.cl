@@ -113,7 +113,8 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 #if defined(LIGHT_ORDERED) || defined(KERNEL_CUT)
 #define DRAWN_ROWS(count) (count)
 #else
-#define DRAWN_ROWS(count) ((count) <= 4 ? 4 : 7)
+#define FEW_ROWS 4
+#define DRAWN_ROWS(count) ((count) <= FEW_ROWS ? FEW_ROWS : 7)
 #endif
 
 // How a splat's layer is computed. Of the splats of a block up to this one, `depth_of_block` is the
@@ -130,52 +131,6 @@ static inline int form_of_splat(__global const TileSplat* splat, const SplatTile
 }
 #else
 #define form_of_splat(splat, of_tile, depth_of_block, p) 0
-#endif
-
-#ifdef NARROW_SPLATS
-#define ADD_ROW                            \
-  {                                        \
-    const float8 shape = (float8)(*along); \
-    ADD_CHANNELS                           \
-  }
-
-// The edges of a grain's pixels along both axes fit one call.
-INLINED void add_grain(float* pixel, const EntryWindows* windows, int i,
-                       __global const TileSplat* splat) {
-  const float8 first = (float8)((float4)(windows->across[i]), (float4)(windows->along[i]));
-  const float8 within =
-      error_function((first + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) * windows->per_sigma[i]);
-  const float8 means = within.s12345677 - within;
-  float of_both[8];
-  store_eight(means, of_both);
-  const float8 across = (float8)(means.s012, 0.0f, (float4)(0.0f)) * windows->scale[i];
-  const float* along = of_both + 4;
-  SUMMED_CHANNELS
-#pragma unroll
-  for (int k = 0; k < GRAIN; ++k, ++along, pixel += ROW)
-    ADD_ROW
-}
-
-INLINED void add_narrow_splat(float* tile, const EntryWindows* windows, int i,
-                              __global const TileSplat* splat) {
-  float* pixel = tile + windows->y[i] * ROW + windows->x[i];
-  if (windows->pixels[i] == GRAIN) {
-    add_grain(pixel, windows, i, splat);
-    return;
-  }
-  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float per_sigma = windows->per_sigma[i];
-  const float8 of_columns = error_function((windows->across[i] + ramp) * per_sigma);
-  const float8 of_rows = error_function((windows->along[i] + ramp) * per_sigma);
-  float rows[8];
-  store_eight(of_rows.s12345677 - of_rows, rows);
-  const float8 across = (of_columns.s12345677 - of_columns) * windows->scale[i];
-  const int count = DRAWN_ROWS(windows->last_row[i] - windows->y[i] + 1);
-  const float* along = rows;
-  SUMMED_CHANNELS
-  for (int k = 0; k < count; ++k, ++along, pixel += ROW)
-    ADD_ROW
-}
 #endif
 
 // Draws a splat that touches these rows and columns of the tile.

@@ -5,7 +5,7 @@ typedef struct WaitingSplats {
   uint count;
 } WaitingSplats;
 #define clear_waiting(waiting) ((waiting)->count = 0)
-#define add_waiting(tile, waiting, mean_sigma)
+#define add_waiting(tile, waiting)
 #define let_wait(tile, waiting, rows, columns, splat, mean_sigma, form) 0
 #else
 
@@ -17,14 +17,15 @@ typedef struct WaitingSplats {
 
 static inline void clear_waiting(WaitingSplats* waiting) {
   clear_reach(&waiting->shapes.reach);
+  waiting->shapes.x.means = waiting->shapes.y.means = 0;
   waiting->count = 0;
   waiting->forms.more_terms = waiting->forms.three_terms = 0;
 }
 
 // Adds those that wait to the tile.
-static inline void add_waiting(float* tile, WaitingSplats* waiting, float mean_sigma) {
+static inline void add_waiting(float* tile, WaitingSplats* waiting) {
   if (waiting->count == 0) return;
-  add_to_patches(tile, &waiting->shapes, waiting->forms, mean_sigma, PATCH_LANES);
+  add_to_patches(tile, &waiting->shapes, waiting->forms, PATCH_LANES);
   clear_waiting(waiting);
 }
 
@@ -55,7 +56,7 @@ static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 
                            __global const TileSplat* splat, float mean_sigma, int form) {
   if (!waits(waiting, rows, columns, splat, form)) {
 #ifdef LIGHT_ORDERED
-    add_waiting(tile, waiting, mean_sigma);
+    add_waiting(tile, waiting);
 #endif
     return 0;
   }
@@ -65,7 +66,7 @@ static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 
   waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
   waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
 #endif
-  if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting, mean_sigma);
+  if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
   return 1;
 }
 #endif

@@ -290,15 +290,16 @@ std::vector<std::string> Specialization::composite_files() const {
                {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(),
-                 {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl", "patch.cl",
-                  "patch_reach.cl", "patch_shapes.cl", "patches.cl", "waiting.cl"});
+    files.insert(files.end(), {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl",
+                               "patch.cl", "patch_reach.cl", "patch_shapes.cl", "patches.cl",
+                               "waiting.cl", "tile_planes.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {
       files.push_back("splat_rows.cl");
     }
-    files.insert(files.end(), {"stencil_rows.cl", "pieces.cl", "composite_rows.cl"});
+    files.insert(files.end(), {"stencil_rows.cl", "narrow_splats.cl", "ordered_list.cl",
+                               "summed_list.cl", "pieces.cl", "composite_rows.cl"});
   } else {
     files.insert(files.end(),
                  {"flags.cl", "tile_batch.cl", "layer_behind.cl", "composite_groups.cl"});

@@ -125,7 +125,7 @@ void Binner::scan_blocks(CountedSplats& counted) const {
       .value(parameters)
       .arg(counted.tile_counts)
       .arg(counted.tile_lengths)
-      .run_grid(parameters.tile_count, 1, 1);
+      .run_grid(ceil_divide(parameters.tile_count, TILES_OF_SCAN), 1, 1);
   counted.lengths = device.pool.download(counted.tile_lengths, parameters.tile_count);
 }
 

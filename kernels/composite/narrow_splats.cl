@@ -1,0 +1,177 @@
+// Narrow splats of sums, most of a large snapshot: what does not differ from pixel to pixel is
+// worked out for eight entries at once, and no loop over columns is left.
+#if !defined(LIGHT_ORDERED) && !defined(KERNEL_CUT) && !defined(ELLIPSES) && \
+    !defined(FACE_OF_CUBE) && !defined(FINE_PLACES) && SUMMED == 3
+#define NARROW_SPLATS
+
+// Pixels along both axes of those that are taken as means over pixels, of which an eight of edges
+// has seven, and two have fifteen. Both axes of a grain have eight edges together.
+#define GRAIN 3
+#define SEVEN 7
+#define FIFTEEN 15
+// Of those that are taken at pixels' centers, two eights of these.
+#define SIXTEEN 16
+// Where registers are wider, all beyond seven pixels wait (waiting.cl).
+#if WIDEST_ALONE == SIXTEEN
+#define MIDDLE_SPLATS
+#endif
+
+typedef struct NarrowSplats {
+  int pixels[LANES];       // of the window along both axes, or 0
+  int x[LANES], y[LANES];  // its first pixel
+  int rows[LANES];         // that the splat touches from there on
+  // Its first edges, or centers, from the splat's center, in pixels: widths divide them when an
+  // edge may be at the center, which is to stay there.
+  float across[LANES], along[LANES], per_sigma[LANES];
+  float scale[LANES];  // of the product of both axes
+} NarrowSplats;
+
+INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
+  const INTEGER of_means = select((INTEGER)(SEVEN), (INTEGER)(GRAIN), pixels <= GRAIN);
+#ifdef MIDDLE_SPLATS
+  const INTEGER wider = select((INTEGER)(SIXTEEN), (INTEGER)(FIFTEEN), sigma < mean_sigma);
+  const INTEGER found = select(wider, of_means, pixels <= SEVEN & sigma < mean_sigma);
+  return found & (sigma > 0.0f) & (pixels <= wider);
+#else
+  return of_means & (sigma > 0.0f) & (pixels <= SEVEN) & (sigma < mean_sigma);
+#endif
+}
+
+INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_sigma,
+                                const EntryWindows* windows, NarrowSplats* narrow) {
+  const VALUE sigma = OF_ENTRIES(entries, sigma);
+  const INTEGER first_column = vload8(0, windows->first_column);
+  const INTEGER first_row = vload8(0, windows->first_row);
+  const INTEGER last_row = vload8(0, windows->last_row);
+  const INTEGER columns = vload8(0, windows->last_column) - first_column + 1;
+  const INTEGER rows = last_row - first_row + 1;
+  const INTEGER pixels = narrow_windows(sigma, max(columns, rows), mean_sigma);
+  const INTEGER x = min(first_column, TILE_WIDTH - pixels);
+  // Of narrow ones as many rows are drawn as columns, of wider ones as many as they touch.
+  const INTEGER y =
+      select(min(first_row, TILE_HEIGHT - pixels), first_row, pixels > (INTEGER)(SEVEN));
+  STORE(pixels, narrow->pixels);
+  STORE(x, narrow->x);
+  STORE(y, narrow->y);
+  STORE(last_row - y + 1, narrow->rows);
+  const VALUE to_first = choose((VALUE)(-0.5f), (VALUE)(0.0f), pixels == SIXTEEN);
+  STORE(TO_VALUE(x) + FIRST_X + to_first - OF_ENTRIES(entries, x), narrow->across);
+  STORE(TO_VALUE(y) + FIRST_Y + to_first - OF_ENTRIES(entries, y), narrow->along);
+  STORE(1.0f / sigma, narrow->per_sigma);
+  const VALUE of_means = sigma * sigma * (PIXEL_MEAN_SCALE * PIXEL_MEAN_SCALE);
+  STORE(choose(of_means, (VALUE)(1.0f), pixels == SIXTEEN), narrow->scale);
+}
+
+#define ADD_ROW                            \
+  {                                        \
+    const float8 shape = (float8)(*along); \
+    ADD_CHANNELS                           \
+  }
+
+// The edges of a grain's pixels along both axes fit one call.
+INLINED void add_grain(float* pixel, const NarrowSplats* narrow, int i,
+                       __global const TileSplat* splat) {
+  const float8 first = (float8)((float4)(narrow->across[i]), (float4)(narrow->along[i]));
+  const float8 within =
+      error_function((first + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) * narrow->per_sigma[i]);
+  const float8 means = within.s12345677 - within;
+  float of_both[8];
+  store_eight(means, of_both);
+  const float8 across = (float8)(means.s012, 0.0f, (float4)(0.0f)) * narrow->scale[i];
+  const float* along = of_both + 4;
+  SUMMED_CHANNELS
+#pragma unroll
+  for (int k = 0; k < GRAIN; ++k, ++along, pixel += ROW)
+    ADD_ROW
+}
+
+// Of at most seven pixels along both axes.
+INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
+                              __global const TileSplat* splat) {
+  float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
+  if (narrow->pixels[i] == GRAIN) {
+    add_grain(pixel, narrow, i, splat);
+    return;
+  }
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float per_sigma = narrow->per_sigma[i];
+  const float8 of_columns = error_function((narrow->across[i] + ramp) * per_sigma);
+  const float8 of_rows = error_function((narrow->along[i] + ramp) * per_sigma);
+  float rows[8];
+  store_eight(of_rows.s12345677 - of_rows, rows);
+  const float8 across = (of_columns.s12345677 - of_columns) * narrow->scale[i];
+  // Four rows or seven, without a loop that ends elsewhere for each splat.
+  const float* along = rows;
+  SUMMED_CHANNELS
+#pragma unroll
+  for (int k = 0; k < FEW_ROWS; ++k, ++along, pixel += ROW)
+    ADD_ROW
+  if (narrow->rows[i] <= FEW_ROWS) return;
+#pragma unroll
+  for (int k = FEW_ROWS; k < SEVEN; ++k, ++along, pixel += ROW)
+    ADD_ROW
+}
+
+#ifdef MIDDLE_SPLATS
+typedef struct TwoEights {
+  float8 first, second;
+} TwoEights;
+
+// Means between fifteen pixels' edges, the first of which is `first` pixels from the center; the
+// sixteenth is 0.
+INLINED TwoEights fifteen_means(float first, float per_sigma) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float8 a = error_function((first + ramp) * per_sigma);
+  const float8 b = error_function((first + (ramp + 8.0f)) * per_sigma);
+  TwoEights means;
+  means.first = (float8)(a.s1234, a.s567, b.s0) - a;
+  means.second = b.s12345677 - b;
+  return means;
+}
+
+INLINED TwoEights sixteen_values(float first, float inverse) {
+  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+  TwoEights values;
+  values.first = gaussian(first + ramp, inverse);
+  values.second = gaussian(first + (ramp + 8.0f), inverse);
+  return values;
+}
+
+#define MIDDLE_CHANNEL(c)                                 \
+  const float8 left##c = across.first * splat->summed[c], \
+               right##c = across.second * splat->summed[c];
+#define ADD_MIDDLE(c)                                           \
+  {                                                             \
+    float* const to = pixel + c * TILE_PIXELS;                  \
+    store_eight(load_eight(to) + shape * left##c, to);          \
+    store_eight(load_eight(to + 8) + shape * right##c, to + 8); \
+  }
+
+// Of up to sixteen pixels along both axes.
+INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
+                              __global const TileSplat* splat) {
+  const float per_sigma = narrow->per_sigma[i], scale = narrow->scale[i];
+  TwoEights across, along;
+  if (narrow->pixels[i] == FIFTEEN) {
+    across = fifteen_means(narrow->across[i], per_sigma);
+    along = fifteen_means(narrow->along[i], per_sigma);
+  } else {
+    const float inverse = 1.44269504f * (per_sigma * per_sigma);
+    across = sixteen_values(narrow->across[i], inverse);
+    along = sixteen_values(narrow->along[i], inverse);
+  }
+  across.first *= scale;
+  across.second *= scale;
+  float rows[16];
+  store_eight(along.first, rows);
+  store_eight(along.second, rows + 8);
+  MIDDLE_CHANNEL(0)
+  MIDDLE_CHANNEL(1) MIDDLE_CHANNEL(2) float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
+  const int count = narrow->rows[i];
+  for (int k = 0; k < count; ++k, pixel += ROW) {
+    const float8 shape = (float8)(rows[k]);
+    ADD_MIDDLE(0) ADD_MIDDLE(1) ADD_MIDDLE(2)
+  }
+}
+#endif
+#endif
