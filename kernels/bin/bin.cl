@@ -51,8 +51,8 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
 }
 #endif
 
-// Per tile, an exclusive scan over the blocks, in place, and the list's length. A work-item takes as
-// many tiles as a vector holds: what they count lies side by side.
+// Per tile, an exclusive scan over the blocks, in place, and the list's length. A work-item takes
+// as many tiles as a vector holds: what they count lies side by side.
 __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
                               __global uint* lengths) {
   const uint first = get_global_id(0) * TILES_OF_SCAN;

@@ -167,24 +167,25 @@ INLINED WaitingCounts no_waiting_counts(void) {
   return waiting;
 }
 
-// In all tiles but the first, which has counted them.
-INLINED void count_waiting(WaitingCounts* waiting, __global uint* count) {
-  for (uint i = 0; i < waiting->count; ++i) {
-    const uint tiles = waiting->tiles[i], tiles_x = waiting->tiles_x[i];
-    __global uint* first = count + waiting->corner[i];
-    const uint columns = columns_of_tiles(tiles), rows = rows_of_tiles(tiles);
-    // Most have two, the last of which is the second.
-    ++first[(rows - 1) * tiles_x + columns - 1];
-    if (columns + rows == 3) continue;
-    const uint others = columns * rows - 1;
-    uint x = 1 % columns, y = 1 / columns;
-    for (uint k = 1; k < others; ++k) {
-      ++first[y * tiles_x + x];
-      const uint is_last = x == columns - 1;
-      x = is_last ? 0 : x + 1;
-      y += is_last;
-    }
+// Counts a splat of several tiles in all but the first, at `first`, which has counted it.
+INLINED void count_behind_first(uint tiles, uint tiles_x, __global uint* first) {
+  const uint columns = columns_of_tiles(tiles), rows = rows_of_tiles(tiles);
+  // Most have two, the last of which is the second.
+  ++first[(rows - 1) * tiles_x + columns - 1];
+  if (columns + rows == 3) return;
+  const uint others = columns * rows - 1;
+  uint x = 1 % columns, y = 1 / columns;
+  for (uint k = 1; k < others; ++k) {
+    ++first[y * tiles_x + x];
+    const uint is_last = x == columns - 1;
+    x = is_last ? 0 : x + 1;
+    y += is_last;
   }
+}
+
+INLINED void count_waiting(WaitingCounts* waiting, __global uint* count) {
+  for (uint i = 0; i < waiting->count; ++i)
+    count_behind_first(waiting->tiles[i], waiting->tiles_x[i], count + waiting->corner[i]);
   waiting->count = 0;
 }
 
@@ -192,19 +193,8 @@ INLINED uint has_several_tiles(uint packed) {
   return packed >> 2 * FIRST_TILE_BITS != ONE_TILE >> 2 * FIRST_TILE_BITS;
 }
 
-// Counts a splat in the tiles that it touches, from `corner` on, at the latest when those that wait
-// are counted. One that is not visible, of ONE_TILE, counts for nothing.
-INLINED void count_from_corner(uint tiles, uint corner, uint tiles_x, uint is_visible,
-                               uint has_several, __global uint* count, WaitingCounts* waiting) {
-  count[corner] += is_visible;
-  const uint last = waiting->count;
-  waiting->tiles[last] = tiles;
-  waiting->corner[last] = corner;
-  waiting->tiles_x[last] = tiles_x;
-  waiting->count = last + has_several;
-  if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
-}
-
+// Counts a splat in the tiles that it touches, at the latest when those that wait are counted. One
+// that is not visible, of ONE_TILE, counts for nothing.
 INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
                             uint is_visible, __global uint* count, WaitingCounts* waiting) {
   if (tiles == FOUND_AGAIN) {
@@ -214,5 +204,11 @@ INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global co
   const uint tiles_x = (uint)grid->tiles_x;
   const uint corner =
       grid->corner_tile + first_row_of_tiles(tiles) * tiles_x + first_column_of_tiles(tiles);
-  count_from_corner(tiles, corner, tiles_x, is_visible, has_several_tiles(tiles), count, waiting);
+  count[corner] += is_visible;
+  const uint last = waiting->count;
+  waiting->tiles[last] = tiles;
+  waiting->corner[last] = corner;
+  waiting->tiles_x[last] = tiles_x;
+  waiting->count = last + has_several_tiles(tiles);
+  if (waiting->count == MOST_WAITING) count_waiting(waiting, count);
 }

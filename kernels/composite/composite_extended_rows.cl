@@ -11,8 +11,8 @@
 // Planes of whole pages would share lines of the cache.
 #define PLANE (TILE_PIXELS + 8)
 // Eight pixels of the tile, which begin at multiples of eight.
-#define load_eight(p) (*(const double8*)(p))
-#define store_eight(v, p) (*(double8*)(p) = (v))
+#define load_doubles(p) (*(const double8*)(p))
+#define store_doubles(v, p) (*(double8*)(p) = (v))
 #define DARKEST 1e-300  // of transmittances: their logarithm is a number
 
 // What a splat adds to a channel at its center.
@@ -32,9 +32,9 @@ INLINED double8 phi_of_thin(double8 y) {
 
 INLINED void add_thin(double* source, double8 covered, const Channel of) {
   double* const passing = source + SUMS * PLANE;
-  const double8 t = load_eight(passing), u = t * covered;
-  store_eight(load_eight(source) + u * of.emission, source);
-  store_eight(t - u * of.summed, passing);
+  const double8 t = load_doubles(passing), u = t * covered;
+  store_doubles(load_doubles(source) + u * of.emission, source);
+  store_doubles(t - u * of.summed, passing);
 }
 
 INLINED void add_thinnest_layer(double* source, double8 shape, const Channel of) {
@@ -48,17 +48,17 @@ INLINED void add_thin_layer(double* source, double8 shape, const Channel of) {
 
 INLINED void add_layer(double* source, double8 shape, const Channel of) {
   double* const passing = source + SUMS * PLANE;
-  const double8 t = load_eight(passing), depth = shape * of.summed;
+  const double8 t = load_doubles(passing), depth = shape * of.summed;
   const double8 series = phi_of_thin(depth), passed = exp_of_minus(min(depth, (double8)(700.0)));
   const long8 is_thick = depth > THIN_LAYER;
   const double8 phi = select(series, (1.0 - passed) / max(depth, (double8)(THIN_LAYER)), is_thick);
-  store_eight(load_eight(source) + t * shape * phi * of.emission, source);
-  store_eight(t * select(1.0 - depth * series, passed, is_thick), passing);
+  store_doubles(load_doubles(source) + t * shape * phi * of.emission, source);
+  store_doubles(t * select(1.0 - depth * series, passed, is_thick), passing);
 }
 #endif
 
 INLINED void add_sum(double* sum, double8 shape, const Channel of) {
-  store_eight(load_eight(sum) + shape * of.summed, sum);
+  store_doubles(load_doubles(sum) + shape * of.summed, sum);
 }
 
 // Written out for each channel, in values: what a loop took from an array it would fetch anew for
@@ -101,9 +101,9 @@ static inline void add_splat(double* tile, __global const ExtendedSplat* from,
 // Between the tile and pixels in memory, which hold depths.
 static inline void take_pixels(double* tile, const Pixels pixels) {
   for (int c = 0; c < SUMS; ++c) {
-    store_eight(pixels.light[c], tile + c * PLANE);
+    store_doubles(pixels.light[c], tile + c * PLANE);
 #ifdef LIGHT_ORDERED
-    store_eight(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), tile + (c + SUMS) * PLANE);
+    store_doubles(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), tile + (c + SUMS) * PLANE);
 #endif
   }
 }
@@ -111,9 +111,9 @@ static inline void take_pixels(double* tile, const Pixels pixels) {
 static inline Pixels give_pixels(const double* tile) {
   Pixels pixels;
   for (int c = 0; c < SUMS; ++c) {
-    pixels.light[c] = load_eight(tile + c * PLANE);
+    pixels.light[c] = load_doubles(tile + c * PLANE);
 #ifdef LIGHT_ORDERED
-    const double8 passing = load_eight(tile + (c + SUMS) * PLANE);
+    const double8 passing = load_doubles(tile + (c + SUMS) * PLANE);
     pixels.depth[c] = -log(max(passing, (double8)(DARKEST)));
 #endif
   }

@@ -134,7 +134,7 @@ INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed
   }
 }
 
-// A block of splats behind what is in front of it (composite_rows.cl, SPLATS_OF_BLOCK).
+// A block of splats behind what is in front of it (ordered_list.cl, add_block()).
 static inline void add_block(float* block, float* front) {
   add_layer(front, block);
   for (int c = 0; c < PLANES; ++c)

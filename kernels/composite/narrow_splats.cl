@@ -1,7 +1,7 @@
-// Narrow splats of sums, most of a large snapshot: what does not differ from pixel to pixel is
-// worked out for eight entries at once, and no loop over columns is left.
-#if !defined(LIGHT_ORDERED) && !defined(KERNEL_CUT) && !defined(ELLIPSES) && \
-    !defined(FACE_OF_CUBE) && !defined(FINE_PLACES) && SUMMED == 3
+// Narrow splats, most of a large snapshot: what does not differ from pixel to pixel is worked out
+// for eight entries at once, and no loop over columns is left.
+#if !defined(KERNEL_CUT) && !defined(ELLIPSES) && !defined(FACE_OF_CUBE) && \
+    !defined(FINE_PLACES) && SUMMED == 3
 #define NARROW_SPLATS
 
 // Pixels along both axes of those that are taken as means over pixels, of which an eight of edges
@@ -16,10 +16,17 @@
 #define MIDDLE_SPLATS
 #endif
 
+// Of windows up to so many pixels all rows are drawn, whether a splat touches them or not.
+#ifdef LIGHT_ORDERED
+#define WHOLE_WINDOW GRAIN
+#else
+#define WHOLE_WINDOW SEVEN
+#endif
+
 typedef struct NarrowSplats {
-  int pixels[LANES];       // of the window along both axes, or 0
-  int x[LANES], y[LANES];  // its first pixel
-  int rows[LANES];         // that the splat touches from there on
+  int pixels[LANES];                // of the window along both axes, or 0
+  int x[LANES], y[LANES];           // its first pixel
+  int columns[LANES], rows[LANES];  // that the splat touches from there on
   // Its first edges, or centers, from the splat's center, in pixels: widths divide them when an
   // edge may be at the center, which is to stay there.
   float across[LANES], along[LANES], per_sigma[LANES];
@@ -43,16 +50,16 @@ INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_si
   const INTEGER first_column = vload8(0, windows->first_column);
   const INTEGER first_row = vload8(0, windows->first_row);
   const INTEGER last_row = vload8(0, windows->last_row);
-  const INTEGER columns = vload8(0, windows->last_column) - first_column + 1;
-  const INTEGER rows = last_row - first_row + 1;
-  const INTEGER pixels = narrow_windows(sigma, max(columns, rows), mean_sigma);
+  const INTEGER last_column = vload8(0, windows->last_column);
+  const INTEGER touched = max(last_column - first_column, last_row - first_row) + 1;
+  const INTEGER pixels = narrow_windows(sigma, touched, mean_sigma);
   const INTEGER x = min(first_column, TILE_WIDTH - pixels);
-  // Of narrow ones as many rows are drawn as columns, of wider ones as many as they touch.
   const INTEGER y =
-      select(min(first_row, TILE_HEIGHT - pixels), first_row, pixels > (INTEGER)(SEVEN));
+      select(min(first_row, TILE_HEIGHT - pixels), first_row, pixels > (INTEGER)(WHOLE_WINDOW));
   STORE(pixels, narrow->pixels);
   STORE(x, narrow->x);
   STORE(y, narrow->y);
+  STORE(last_column - x + 1, narrow->columns);
   STORE(last_row - y + 1, narrow->rows);
   const VALUE to_first = choose((VALUE)(-0.5f), (VALUE)(0.0f), pixels == SIXTEEN);
   STORE(TO_VALUE(x) + FIRST_X + to_first - OF_ENTRIES(entries, x), narrow->across);
@@ -62,63 +69,30 @@ INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_si
   STORE(choose(of_means, (VALUE)(1.0f), pixels == SIXTEEN), narrow->scale);
 }
 
-#define ADD_ROW                            \
-  {                                        \
-    const float8 shape = (float8)(*along); \
-    ADD_CHANNELS                           \
-  }
-
-// The edges of a grain's pixels along both axes fit one call.
-INLINED void add_grain(float* pixel, const NarrowSplats* narrow, int i,
-                       __global const TileSplat* splat) {
-  const float8 first = (float8)((float4)(narrow->across[i]), (float4)(narrow->along[i]));
-  const float8 within =
-      error_function((first + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) * narrow->per_sigma[i]);
-  const float8 means = within.s12345677 - within;
-  float of_both[8];
-  store_eight(means, of_both);
-  const float8 across = (float8)(means.s012, 0.0f, (float4)(0.0f)) * narrow->scale[i];
-  const float* along = of_both + 4;
-  SUMMED_CHANNELS
-#pragma unroll
-  for (int k = 0; k < GRAIN; ++k, ++along, pixel += ROW)
-    ADD_ROW
-}
-
-// Of at most seven pixels along both axes.
-INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
-                              __global const TileSplat* splat) {
-  float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
-  if (narrow->pixels[i] == GRAIN) {
-    add_grain(pixel, narrow, i, splat);
-    return;
-  }
-  const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float per_sigma = narrow->per_sigma[i];
-  const float8 of_columns = error_function((narrow->across[i] + ramp) * per_sigma);
-  const float8 of_rows = error_function((narrow->along[i] + ramp) * per_sigma);
-  float rows[8];
-  store_eight(of_rows.s12345677 - of_rows, rows);
-  const float8 across = (of_columns.s12345677 - of_columns) * narrow->scale[i];
-  // Four rows or seven, without a loop that ends elsewhere for each splat.
-  const float* along = rows;
-  SUMMED_CHANNELS
-#pragma unroll
-  for (int k = 0; k < FEW_ROWS; ++k, ++along, pixel += ROW)
-    ADD_ROW
-  if (narrow->rows[i] <= FEW_ROWS) return;
-#pragma unroll
-  for (int k = FEW_ROWS; k < SEVEN; ++k, ++along, pixel += ROW)
-    ADD_ROW
-}
-
-#ifdef MIDDLE_SPLATS
 typedef struct TwoEights {
   float8 first, second;
 } TwoEights;
 
-// Means between fifteen pixels' edges, the first of which is `first` pixels from the center; the
-// sixteenth is 0.
+// Of a grain's three pixels along both axes: the edges of both fit one call.
+INLINED TwoEights grain_means(float across, float along, float per_sigma) {
+  const float8 first = (float8)((float4)(across), (float4)(along));
+  const float8 within = error_function((first + (float8)(0, 1, 2, 3, 0, 1, 2, 3)) * per_sigma);
+  const float8 means = within.s12345677 - within;
+  TwoEights of_axes;
+  of_axes.first = (float8)(means.s012, 0.0f, (float4)(0.0f));
+  of_axes.second = (float8)(means.hi, (float4)(0.0f));
+  return of_axes;
+}
+
+// Means between seven pixels' edges, the first of which is `first` pixels from the center; the
+// eighth is 0.
+INLINED float8 seven_means_from(float first, float per_sigma) {
+  const float8 within = error_function((first + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) * per_sigma);
+  return within.s12345677 - within;
+}
+
+#ifdef MIDDLE_SPLATS
+// The same between fifteen; the sixteenth is 0.
 INLINED TwoEights fifteen_means(float first, float per_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float8 a = error_function((first + ramp) * per_sigma);
@@ -137,6 +111,101 @@ INLINED TwoEights sixteen_values(float first, float inverse) {
   return values;
 }
 
+// Both axes of a splat of up to sixteen pixels.
+INLINED void fill_middle(const NarrowSplats* narrow, int i, TwoEights* across, TwoEights* along) {
+  const float per_sigma = narrow->per_sigma[i];
+  if (narrow->pixels[i] == FIFTEEN) {
+    *across = fifteen_means(narrow->across[i], per_sigma);
+    *along = fifteen_means(narrow->along[i], per_sigma);
+  } else {
+    const float inverse = 1.44269504f * (per_sigma * per_sigma);
+    *across = sixteen_values(narrow->across[i], inverse);
+    *along = sixteen_values(narrow->along[i], inverse);
+  }
+  across->first *= narrow->scale[i];
+  across->second *= narrow->scale[i];
+}
+#endif
+
+#ifdef LIGHT_ORDERED
+// Draws it in one window of eight columns, or two.
+INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
+                              __global const TileSplat* splat, int form) {
+  const int pixels = narrow->pixels[i];
+  TwoEights across, along;
+  if (pixels == GRAIN) {
+    const TwoEights axes = grain_means(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
+    across.first = axes.first * narrow->scale[i];
+    along.first = axes.second;
+  }
+#ifdef MIDDLE_SPLATS
+  else if (pixels > SEVEN) {
+    fill_middle(narrow, i, &across, &along);
+  }
+#endif
+  else {
+    across.first = seven_means_from(narrow->across[i], narrow->per_sigma[i]) * narrow->scale[i];
+    along.first = seven_means_from(narrow->along[i], narrow->per_sigma[i]);
+  }
+  float of_rows[16];
+  store_eight(along.first, of_rows);
+  store_eight(along.second, of_rows + 8);
+  Window window;
+  window.x = narrow->x[i];
+  window.y = narrow->y[i];
+  window.rows = pixels == GRAIN ? GRAIN : narrow->rows[i];
+  update_window(tile, &window, across.first, of_rows, splat, form);
+#ifdef MIDDLE_SPLATS
+  if (pixels <= SEVEN || narrow->columns[i] <= 8) return;
+  window.x += 8;
+  update_window(tile, &window, across.second, of_rows, splat, form);
+#endif
+}
+#else
+#define ADD_ROW                            \
+  {                                        \
+    const float8 shape = (float8)(*along); \
+    ADD_CHANNELS                           \
+  }
+
+INLINED void add_grain(float* pixel, const NarrowSplats* narrow, int i,
+                       __global const TileSplat* splat) {
+  const TwoEights axes = grain_means(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
+  float of_rows[8];
+  store_eight(axes.second, of_rows);
+  const float8 across = axes.first * narrow->scale[i];
+  const float* along = of_rows;
+  SUMMED_CHANNELS
+#pragma unroll
+  for (int k = 0; k < GRAIN; ++k, ++along, pixel += ROW)
+    ADD_ROW
+}
+
+// Of at most seven pixels along both axes.
+INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
+                              __global const TileSplat* splat) {
+  float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
+  if (narrow->pixels[i] == GRAIN) {
+    add_grain(pixel, narrow, i, splat);
+    return;
+  }
+  float of_rows[8];
+  store_eight(seven_means_from(narrow->along[i], narrow->per_sigma[i]), of_rows);
+  const float8 across =
+      seven_means_from(narrow->across[i], narrow->per_sigma[i]) * narrow->scale[i];
+  // Four rows or seven, without a loop that ends elsewhere for each splat.
+  const float* along = of_rows;
+  SUMMED_CHANNELS
+#pragma unroll
+  for (int k = 0; k < FEW_ROWS; ++k, ++along, pixel += ROW)
+    ADD_ROW
+  if (narrow->rows[i] <= FEW_ROWS) return;
+#pragma unroll
+  for (int k = FEW_ROWS; k < SEVEN; ++k, ++along, pixel += ROW)
+    ADD_ROW
+}
+
+#ifdef MIDDLE_SPLATS
 #define MIDDLE_CHANNEL(c)                                 \
   const float8 left##c = across.first * splat->summed[c], \
                right##c = across.second * splat->summed[c];
@@ -150,18 +219,8 @@ INLINED TwoEights sixteen_values(float first, float inverse) {
 // Of up to sixteen pixels along both axes.
 INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
                               __global const TileSplat* splat) {
-  const float per_sigma = narrow->per_sigma[i], scale = narrow->scale[i];
   TwoEights across, along;
-  if (narrow->pixels[i] == FIFTEEN) {
-    across = fifteen_means(narrow->across[i], per_sigma);
-    along = fifteen_means(narrow->along[i], per_sigma);
-  } else {
-    const float inverse = 1.44269504f * (per_sigma * per_sigma);
-    across = sixteen_values(narrow->across[i], inverse);
-    along = sixteen_values(narrow->along[i], inverse);
-  }
-  across.first *= scale;
-  across.second *= scale;
+  fill_middle(narrow, i, &across, &along);
   float rows[16];
   store_eight(along.first, rows);
   store_eight(along.second, rows + 8);
@@ -173,5 +232,6 @@ INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
     ADD_MIDDLE(0) ADD_MIDDLE(1) ADD_MIDDLE(2)
   }
 }
+#endif
 #endif
 #endif

@@ -112,10 +112,18 @@ typedef struct BlockOfLayers {
 #endif
 } BlockOfLayers;
 
+// What eight entries of the list are drawn by.
+typedef struct LayerBatch {
+  EntryWindows windows;
+#ifdef NARROW_SPLATS
+  NarrowSplats narrow;
+#endif
+} LayerBatch;
+
 // Whether the entry touches the tile: lists have splats that do not, too (splat.h), and those of a
 // crop other ones.
 INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entry,
-                       const EntryWindows* windows, int in_batch, const CompositeParameters* p) {
+                       const LayerBatch* batch, int in_batch, const CompositeParameters* p) {
 #ifdef CLOUDS_IN_LISTS
   const float sigma = entry->sigma;
   if (is_cloud(sigma)) {
@@ -123,11 +131,18 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
     return add_cloud(block.tile, cloud_of(sigma, block.clouds), block.clouds, block.depth, p);
   }
 #endif
-  const int2 rows = rows_of_entry(windows, in_batch), columns = columns_of_entry(windows, in_batch);
+  const int2 rows = rows_of_entry(&batch->windows, in_batch);
+  const int2 columns = columns_of_entry(&batch->windows, in_batch);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   const int form = form_of_splat(entry, block.of_tile, block.depth, p);
-  if (!let_wait(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form))
-    add_splat(block.tile, entry, rows, columns, block.of_tile, form);
+  if (let_wait(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form)) return 1;
+#ifdef NARROW_SPLATS
+  if (batch->narrow.pixels[in_batch] != 0) {
+    add_narrow_splat(block.tile, &batch->narrow, in_batch, entry, form);
+    return 1;
+  }
+#endif
+  add_splat(block.tile, entry, rows, columns, block.of_tile, form);
   return 1;
 }
 
@@ -160,16 +175,19 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
   block.clouds = &clouds_here;
 #endif
   RowsAhead rows = rows_ahead(segment, place);
-  EntryWindows windows;
+  LayerBatch batch;
   const uint end = is_opaque(own_front, place, tile, p->stop) ? segment.begin : segment.end;
   for (uint k = segment.begin, drawn = 0; k < end; ++k) {
     const int in_batch = (int)((k - segment.begin) % LANES);
     if (in_batch == 0) {
       ask_for_entries(entries + k + ENTRIES_AHEAD);
-      find_windows(entries + k, &windows);
+      find_windows(entries + k, &batch.windows);
+#ifdef NARROW_SPLATS
+      find_narrow_splats(entries + k, block.mean_sigma, &batch.windows, &batch.narrow);
+#endif
     }
     ask_for_rows(&rows, place, 1);
-    if (!draw_layer(block, entries + k, &windows, in_batch, p)) continue;
+    if (!draw_layer(block, entries + k, &batch, in_batch, p)) continue;
     ++drawn;
     if (drawn % SPLATS_UNTIL_OPAQUE == 0u) {
       add_waiting(tile, &waiting);

@@ -1,5 +1,6 @@
-// A sum's list, eight entries at a time and those of one kind after the other: what comes first
-// does not matter, and a processor foresees what it does next.
+// A sum's list, entry by entry. What they are drawn by is worked out for eight at a time; they are
+// drawn in the order of the list, so that a crop, whose lists have others that do not show, has the
+// bits of the whole picture.
 #ifndef LIGHT_ORDERED
 
 #ifdef SPLATS_OF_BLOCK
@@ -25,33 +26,38 @@ static inline void add_block(float* block, float* front) {
 #error "kinds of entries are bits of bytes"
 #endif
 
-// Kinds of entries, of each of which there is a bit for each of LANES in a byte of a word.
-#define NARROW 0  // at most seven pixels along both axes
-#define MIDDLE 1  // at most sixteen
-#define STENCIL 2
-#define OTHER 3
+// Bits of LANES entries: those that touch the tile, and of these stencils, and narrow splats of at
+// most seven pixels along both axes, and of at most sixteen. Lists have some that do not touch it,
+// too (splat.h), and those of a crop other ones.
+typedef struct EntryKinds {
+  uint touching, stencils, narrow, middle;
+} EntryKinds;
 
-INLINED uint entries_of(uint kinds, int kind) {
-  return kinds >> 8 * kind & 0xffu;
-}
-
-// Of `count` entries, or of the first LANES of them, those that touch the tile: lists have some
-// that do not, too (splat.h), and those of a crop other ones.
-INLINED uint kinds_of(__global const TileSplat* entries, uint count, const EntryWindows* windows,
-                      const INTEGER narrow STENCIL_PARAMETER) {
+// Of `count` entries, or of the first LANES of them.
+INLINED EntryKinds kinds_of(__global const TileSplat* entries, uint count,
+                            const EntryWindows* windows, const INTEGER narrow STENCIL_PARAMETER) {
   const INTEGER bits = (INTEGER)(1, 2, 4, 8, 16, 32, 64, 128);
   const INTEGER is_there = NUMBERS_OF_LANES < (INTEGER)((int)min(count, (uint)LANES));
-  const INTEGER touches = (vload8(0, windows->first_row) <= vload8(0, windows->last_row)) &
-                          (vload8(0, windows->first_column) <= vload8(0, windows->last_column));
-  INTEGER kinds = bits << 8 * OTHER;
+  INTEGER touches = (vload8(0, windows->first_row) <= vload8(0, windows->last_row)) &
+                    (vload8(0, windows->first_column) <= vload8(0, windows->last_column));
+  INTEGER kinds = bits;
 #ifdef NARROW_SPLATS
-  kinds = select(kinds, bits << 8 * MIDDLE, narrow > (INTEGER)(0));
-  kinds = select(kinds, bits << 8 * NARROW, narrow > (INTEGER)(0) & narrow <= (INTEGER)(SEVEN));
+  kinds |= (bits << 8) & (narrow > (INTEGER)(0)) & (narrow <= (INTEGER)(SEVEN));
+  kinds |= (bits << 16) & (narrow > (INTEGER)(SEVEN));
 #endif
 #ifdef STENCILS
-  if (stencil) kinds = select(kinds, bits << 8 * STENCIL, OF_ENTRIES(entries, sigma) < 0.0f);
+  // Stencils beside the tile add nothing to it.
+  const INTEGER is_stencil = (OF_ENTRIES(entries, sigma) < 0.0f) & (INTEGER)(stencil ? -1 : 0);
+  kinds |= (bits << 24) & is_stencil;
+  touches |= is_stencil;
 #endif
-  return or_of_lanes(kinds & touches & is_there);
+  const uint all = or_of_lanes(kinds & touches & is_there);
+  EntryKinds found;
+  found.touching = all & 0xffu;
+  found.narrow = all >> 8 & 0xffu;
+  found.middle = all >> 16 & 0xffu;
+  found.stencils = all >> 24;
+  return found;
 }
 
 // What eight entries of a list are drawn by.
@@ -65,43 +71,46 @@ typedef struct EntryBatch {
 #endif
 } EntryBatch;
 
-// Finds it, of `count` entries or the first LANES of them. Returns their kinds.
-INLINED uint find_batch(__global const TileSplat* entries, uint count, float mean_sigma,
-                        EntryBatch* batch STENCIL_PARAMETER) {
-#ifdef STENCILS
-  if (stencil && count >= LANES && are_all_stencils(entries)) {
-    find_stencils(entries, stencil, &batch->stencils);
-    return 0xffu << 8 * STENCIL;
-  }
-#endif
+// Finds it, of `count` entries or the first LANES of them.
+INLINED EntryKinds find_batch(__global const TileSplat* entries, uint count, float mean_sigma,
+                              EntryBatch* batch STENCIL_PARAMETER) {
   find_windows(entries, &batch->windows);
   INTEGER narrow = (INTEGER)(0);
 #ifdef NARROW_SPLATS
   find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
   narrow = vload8(0, batch->narrow.pixels);
 #endif
-  const uint kinds = kinds_of(entries, count, &batch->windows, narrow STENCIL_ARGUMENT);
+  const EntryKinds kinds = kinds_of(entries, count, &batch->windows, narrow STENCIL_ARGUMENT);
 #ifdef STENCILS
-  if (entries_of(kinds, STENCIL) != 0) find_stencils(entries, stencil, &batch->stencils);
+  if (kinds.stencils != 0) find_stencils(entries, stencil, &batch->stencils);
 #endif
   return kinds;
 }
 
-// The number of the first of some entries.
-INLINED int first_entry(uint entries) {
-  return (int)popcount(~entries & (entries - 1u));
-}
-
-#define EACH_ENTRY(of_kind, DRAW)                             \
-  for (uint left = (of_kind); left != 0; left &= left - 1u) { \
-    const int i = first_entry(left);                          \
-    DRAW;                                                     \
+// Draws entry `i` of a batch.
+INLINED void draw_summed(float* tile, WaitingSplats* waiting, __global const TileSplat* entry,
+                         int i, EntryBatch* batch, const EntryKinds kinds, const SplatTile* of_tile,
+                         float mean_sigma STENCIL_PARAMETER) {
+#ifdef NARROW_SPLATS
+  if (kinds.narrow >> i & 1u) {
+    add_narrow_splat(tile, &batch->narrow, i, entry);
+    return;
   }
-
-INLINED void draw_other(float* tile, WaitingSplats* waiting, __global const TileSplat* entry,
-                        const EntryWindows* windows, int i, const SplatTile* of_tile,
-                        float mean_sigma) {
-  const int2 rows = rows_of_entry(windows, i), columns = columns_of_entry(windows, i);
+#ifdef MIDDLE_SPLATS
+  if (kinds.middle >> i & 1u) {
+    add_middle_splat(tile, &batch->narrow, i, entry);
+    return;
+  }
+#endif
+#endif
+#ifdef STENCILS
+  if (kinds.stencils >> i & 1u) {
+    add_stencil(tile, &batch->stencils, i, entry, stencil);
+    return;
+  }
+#endif
+  const int2 rows = rows_of_entry(&batch->windows, i);
+  const int2 columns = columns_of_entry(&batch->windows, i);
   if (!let_wait(tile, waiting, rows, columns, entry, mean_sigma, 0))
     add_splat(tile, entry, rows, columns, of_tile, 0);
 }
@@ -129,27 +138,27 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
     __global const TileSplat* first = entries + k;
     ask_for_entries(first + ENTRIES_AHEAD);
     ask_for_rows(&rows, place, LANES);
-    const uint kinds = find_batch(first, segment.end - k, mean_sigma, &batch STENCIL_ARGUMENT);
-#ifdef STENCILS
-    EACH_ENTRY(entries_of(kinds, STENCIL),
-               add_stencil(tile, &batch.stencils, i, first + i, stencil))
-#endif
-#ifdef NARROW_SPLATS
-    EACH_ENTRY(entries_of(kinds, NARROW), add_narrow_splat(tile, &batch.narrow, i, first + i))
-#ifdef MIDDLE_SPLATS
-    EACH_ENTRY(entries_of(kinds, MIDDLE), add_middle_splat(tile, &batch.narrow, i, first + i))
-#endif
-#endif
-    EACH_ENTRY(entries_of(kinds, OTHER),
-               draw_other(tile, &waiting, first + i, &batch.windows, i, &of_tile, mean_sigma))
-#ifdef SPLATS_OF_BLOCK
-    drawn += popcount(kinds);
-    if (drawn + LANES > SPLATS_OF_BLOCK) {
-      add_waiting(tile, &waiting);
-      add_block(tile, front);
-      drawn = 0;
+#if defined(STENCILS) && !defined(SPLATS_OF_BLOCK)
+    if (stencil && segment.end - k >= LANES && are_all_stencils(first)) {
+      find_stencils(first, stencil, &batch.stencils);
+      for (int i = 0; i < LANES; ++i)
+        add_stencil(tile, &batch.stencils, i, first + i, stencil);
+      continue;
     }
 #endif
+    const EntryKinds kinds =
+        find_batch(first, segment.end - k, mean_sigma, &batch STENCIL_ARGUMENT);
+    for (uint left = kinds.touching; left != 0; left &= left - 1u) {
+      const int i = (int)popcount(~left & (left - 1u));
+      draw_summed(tile, &waiting, first + i, i, &batch, kinds, &of_tile,
+                  mean_sigma STENCIL_ARGUMENT);
+#ifdef SPLATS_OF_BLOCK
+      if (++drawn % SPLATS_OF_BLOCK == 0u) {
+        add_waiting(tile, &waiting);
+        add_block(tile, front);
+      }
+#endif
+    }
   }
   add_waiting(tile, &waiting);
 #ifdef SPLATS_OF_BLOCK

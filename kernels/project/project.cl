@@ -51,20 +51,27 @@ INLINED void list_splat(const Splat listed, __global const Splat* kept, __global
 #endif
 
 #ifdef COUNTS_ALL_LANES
+INLINED uint corner_tile_of(const SplatArrays* found, uint k, __global const Grid* grids) {
+  return grids[found->grid[k]].corner_tile + (uint)found->from_corner[k];
+}
+
 // Writes LANES splats from `slot` on and counts them; returns the slot behind the visible ones.
 INLINED uint list_all_lanes(const SplatArrays* found, uint slot, __global Splat* splats,
-                            __global const Grid* grids, __global uint* count,
-                            WaitingCounts* waiting) {
+                            __global const Grid* grids, __global uint* count) {
   for (uint k = 0; k < LANES; ++k) {
     __global Splat* kept = splats + slot;
     ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
     STORE_SPLAT(*found, k, splat, kept);
     // Vectors' comparisons give -1.
     const uint is_visible = -(uint)found->visible[k];
-    const uint corner = grids[found->grid[k]].corner_tile + (uint)found->from_corner[k];
-    count_from_corner(found->splats[k].tiles, corner, (uint)found->tiles_x[k], is_visible,
-                      (uint)found->has_several[k], count, waiting);
+    count[corner_tile_of(found, k, grids)] += is_visible;
     slot += is_visible;
+  }
+  // Those of several tiles: which these are no processor foresees, but how many.
+  for (uint left = found->have_several; left != 0; left &= left - 1u) {
+    const uint k = popcount(~left & (left - 1u));
+    count_behind_first(found->splats[k].tiles, (uint)found->tiles_x[k],
+                       count + corner_tile_of(found, k, grids));
   }
   return slot;
 }
@@ -102,7 +109,7 @@ INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
   STORE(lanes.grid, found->grid);
   STORE(tiles.from_corner, found->from_corner);
   STORE(tiles.tiles_x, found->tiles_x);
-  STORE(tiles.has_several, found->has_several);
+  found->have_several = or_of_lanes(tiles.has_several << NUMBERS_OF_LANES);
 #endif
 #else
   spread(lanes, (INTEGER)(0), found);
@@ -158,7 +165,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
     if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
 #ifdef COUNTS_ALL_LANES
     if (found.has_known_tiles) {
-      slot = list_all_lanes(&found, slot, splats, grids, count, &waiting);
+      slot = list_all_lanes(&found, slot, splats, grids, count);
       continue;
     }
 #endif

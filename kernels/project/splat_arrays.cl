@@ -45,7 +45,8 @@ typedef struct SplatArrays {
 #endif
 #ifdef COUNTS_ALL_LANES
   int grid[LANES];
-  int from_corner[LANES], tiles_x[LANES], has_several[LANES];  // TileLanes
+  int from_corner[LANES], tiles_x[LANES];  // TileLanes
+  uint have_several;                       // a bit for each that touches several tiles
   int has_known_tiles;
 #endif
 #ifdef SORT_KEYS
