@@ -26,9 +26,9 @@ static inline void add_block(float* block, float* front) {
 #error "kinds of entries are bits of bytes"
 #endif
 
-// Bits of LANES entries: those that touch the tile, and of these stencils, and narrow splats of at
-// most seven pixels along both axes, and of at most sixteen. Lists have some that do not touch it,
-// too (splat.h), and those of a crop other ones.
+// Bits of LANES entries: those that touch the tile, and of these stencils, narrow splats of at most
+// seven pixels along both axes, those and discs of at most sixteen. Lists have some that do not
+// touch it, too (splat.h), and those of a crop other ones.
 typedef struct EntryKinds {
   uint touching, stencils, narrow, middle;
 } EntryKinds;
@@ -44,6 +44,9 @@ INLINED EntryKinds kinds_of(__global const TileSplat* entries, uint count,
 #ifdef NARROW_SPLATS
   kinds |= (bits << 8) & (narrow > (INTEGER)(0)) & (narrow <= (INTEGER)(SEVEN));
   kinds |= (bits << 16) & (narrow > (INTEGER)(SEVEN));
+#endif
+#ifdef NARROW_DISCS
+  kinds |= (bits << 16) & (narrow > (INTEGER)(0));
 #endif
 #ifdef STENCILS
   // Stencils beside the tile add nothing to it.
@@ -66,6 +69,9 @@ typedef struct EntryBatch {
 #ifdef NARROW_SPLATS
   NarrowSplats narrow;
 #endif
+#ifdef NARROW_DISCS
+  NarrowDiscs discs;
+#endif
 #ifdef STENCILS
   StencilBatch stencils;
 #endif
@@ -79,6 +85,10 @@ INLINED EntryKinds find_batch(__global const TileSplat* entries, uint count, flo
 #ifdef NARROW_SPLATS
   find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
   narrow = vload8(0, batch->narrow.pixels);
+#endif
+#ifdef NARROW_DISCS
+  find_narrow_discs(entries, &batch->windows, &batch->discs);
+  narrow = vload8(0, batch->discs.columns);
 #endif
   const EntryKinds kinds = kinds_of(entries, count, &batch->windows, narrow STENCIL_ARGUMENT);
 #ifdef STENCILS
@@ -102,6 +112,12 @@ INLINED void draw_summed(float* tile, WaitingSplats* waiting, __global const Til
     return;
   }
 #endif
+#endif
+#ifdef NARROW_DISCS
+  if (kinds.middle >> i & 1u) {
+    add_narrow_disc(tile, &batch->discs, i, entry);
+    return;
+  }
 #endif
 #ifdef STENCILS
   if (kinds.stencils >> i & 1u) {

@@ -298,8 +298,9 @@ std::vector<std::string> Specialization::composite_files() const {
     } else {
       files.push_back("splat_rows.cl");
     }
-    files.insert(files.end(), {"stencil_rows.cl", "narrow_splats.cl", "ordered_list.cl",
-                               "summed_list.cl", "pieces.cl", "composite_rows.cl"});
+    files.insert(files.end(),
+                 {"stencil_rows.cl", "narrow_splats.cl", "narrow_discs.cl", "ordered_list.cl",
+                  "summed_list.cl", "pieces.cl", "composite_rows.cl"});
   } else {
     files.insert(files.end(),
                  {"flags.cl", "tile_batch.cl", "layer_behind.cl", "composite_groups.cl"});
