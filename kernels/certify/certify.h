@@ -2,10 +2,11 @@
 #ifndef SPLOTCHCL_CERTIFY_H
 #define SPLOTCHCL_CERTIFY_H
 
-// Square cells of one octave of widths in a tile.
+// Square cells of one octave of widths in a tile, in the order of its pixels' numbers, of which the
+// bits of column and row follow each other in turn (Morton's order): those of a cell are one run.
 struct OctaveCells {
   unsigned int first;  // of the tile's
-  int shift;           // cells are 2^shift pixels wide
+  int pixel_bits;      // a cell has 2^pixel_bits pixels
 };
 
 // Splats of one octave of widths are collected in cells about as wide as they are.

@@ -18,14 +18,13 @@ INLINED void add(const Contribution added, __global float* cells) {
 typedef struct Batch {
   __global const TileSplat* entries;
   int counts[LANES];  // whether they do: in this tile
-  int x[LANES], y[LANES], octave[LANES];
+  int pixel[LANES], octave[LANES];
   float peak[LANES], width2[LANES], ending[LANES];
 } Batch;
 
 INLINED Measured one_of(const Batch* batch, int i) {
   Measured m;
-  m.x = batch->x[i];
-  m.y = batch->y[i];
+  m.pixel = batch->pixel[i];
   m.octave = batch->octave[i];
   m.peak = batch->peak[i];
   m.width2 = batch->width2[i];
@@ -64,8 +63,7 @@ INLINED void collect_batch(__global const TileSplat* entries, int count, const T
   const INTEGER is_there = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < count;
   const INTEGER is_listed = (OF_ENTRIES(batch.entries, radius) < 0.0f) & is_there;
   const INTEGER counts = m.counts_here & is_there;
-  STORE(m.x, batch.x);
-  STORE(m.y, batch.y);
+  STORE(m.pixel, batch.pixel);
   STORE(m.octave, batch.octave);
   if (ANY(is_listed | (counts & (m.peak > p->edge_peak)))) {
     STORE(counts, batch.counts);
@@ -76,10 +74,11 @@ INLINED void collect_batch(__global const TileSplat* entries, int count, const T
     return;
   }
   // Those that do not count add nothing, which takes less than to leave them out.
-  STORE(choose((VALUE)(0.0f), m.peak, counts), batch.peak);
+  const VALUE peak = smaller_of(m.peak, (VALUE)(tile->of_grid.most_peak));
+  STORE(choose((VALUE)(0.0f), peak, counts), batch.peak);
   STORE(choose((VALUE)(0.0f), m.ending, counts), batch.ending);
   for (int i = 0; i < LANES; ++i)
-    add(contribution_of_drawn(one_of(&batch, i), tile->of_grid.most_peak, p), tile->cells);
+    add(contribution_of_drawn(one_of(&batch, i), INFINITY, p), tile->cells);
 }
 
 // The cells of each tile one after the other.

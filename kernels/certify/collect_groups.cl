@@ -41,7 +41,7 @@ INLINED Contribution contribution_of(__global const TileSplat* splat, const Cert
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const GridOfCells of_grid = grid_of_cells(p, g, grid);
   const MeasuredLanes lane = measured(splat, p, of_grid, reach_of(grid, column, row));
-  const Measured m = {lane.x, lane.y, lane.octave, lane.peak, lane.width2, lane.ending};
+  const Measured m = {lane.pixel, lane.octave, lane.peak, lane.width2, lane.ending};
   if (splat->radius < 0.0f)
     return contribution_of_listed(splat, m, p, of_grid.level, grids + g, column, row);
   if (lane.counts_here) {

@@ -43,10 +43,21 @@ static inline Reach reach_of(const Grid grid, int column, int row) {
   return reach;
 }
 
-INLINED uint cell_at(const OctaveCells* cells, int x, int y) {
-  return cells->first + (uint)(y >> cells->shift) * (uint)(TILE_WIDTH >> cells->shift) +
-         (uint)(x >> cells->shift);
+INLINED uint cell_of(const OctaveCells* cells, uint pixel) {
+  return cells->first + (pixel >> cells->pixel_bits);
 }
+
+// The number of a pixel of the tile (certify.h), of columns and rows below 256.
+#define PIXEL_NUMBER(T, name)               \
+  INLINED T name(T column, T row) {         \
+    T bits = column | row << 16;            \
+    bits = (bits | bits << 4) & 0x0f0f0f0f; \
+    bits = (bits | bits << 2) & 0x33333333; \
+    bits = (bits | bits << 1) & 0x55555555; \
+    return (bits | bits >> 15) & 0xffff;    \
+  }
+PIXEL_NUMBER(int, pixel_number)
+PIXEL_NUMBER(INTEGER, pixel_numbers)
 
 static inline int nearest_pixel(float center, float first, float last) {
   return (int)smaller(larger(center, first), last);
@@ -112,7 +123,7 @@ INLINED PictureInTile picture_in_tile(__global const Grid* grid, int column, int
 // Of splats: where they are in the tile, their octave of widths here, and what limits their errors.
 typedef struct MeasuredLanes {
   INTEGER counts_here;
-  INTEGER x, y;  // the pixel of the center, or the tile's nearest
+  INTEGER pixel;  // that of the center, or the tile's nearest
   INTEGER octave;
   VALUE peak, width2;
   VALUE ending;  // the peak, or 0 of a stencil, which leaves nothing out
@@ -120,7 +131,7 @@ typedef struct MeasuredLanes {
 
 // The same of one.
 typedef struct Measured {
-  int x, y, octave;
+  int pixel, octave;
   float peak, width2, ending;
 } Measured;
 
@@ -137,8 +148,8 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   const INTEGER by_mean = (drawn_sigma < grid.mean_sigma) & (is_stencil == 0);
   MeasuredLanes m;
   m.counts_here = (x >= reach.x0) & (x < reach.x1) & (y >= reach.y0) & (y < reach.y1);
-  m.x = pixel_of(x + 0.5f * TILE_WIDTH, TILE_WIDTH - 1);
-  m.y = pixel_of(y + 0.5f * TILE_HEIGHT, TILE_HEIGHT - 1);
+  m.pixel = pixel_numbers(pixel_of(x + 0.5f * TILE_WIDTH, TILE_WIDTH - 1),
+                          pixel_of(y + 0.5f * TILE_HEIGHT, TILE_HEIGHT - 1));
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
   const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
   m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
@@ -169,12 +180,13 @@ INLINED Contribution contribution_of_listed(__global const TileSplat* splat, con
                                             const CertifyParameters* p, int level,
                                             __global const Grid* grid, int column, int row) {
   const PictureInTile part = picture_in_tile(grid, column, row);
-  const int x = nearest_pixel(splat->x + 0.5f * TILE_WIDTH, part.x0, part.x1);
-  const int y = nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, part.y0, part.y1);
+  const uint pixel =
+      (uint)pixel_number(nearest_pixel(splat->x + 0.5f * TILE_WIDTH, part.x0, part.x1),
+                         nearest_pixel(splat->y + 0.5f * TILE_HEIGHT, part.y0, part.y1));
   Contribution added;
-  added.peak_cell = cell_at(&p->peaks[m.octave], x, y);
+  added.peak_cell = cell_of(&p->peaks[m.octave], pixel);
   added.peak = smaller(m.peak, p->bright_peak);
-  added.ending_cell = cell_at(&p->endings[m.octave], x, y);
+  added.ending_cell = cell_of(&p->endings[m.octave], pixel);
   added.ending =
       listed_ending(splat, p, p->extent2[octave_in_picture(m.octave, level)], m.peak, m.width2);
   return added;
@@ -183,9 +195,9 @@ INLINED Contribution contribution_of_listed(__global const TileSplat* splat, con
 INLINED Contribution contribution_of_drawn(const Measured m, float most_peak,
                                            const CertifyParameters* p) {
   Contribution added;
-  added.peak_cell = cell_at(&p->peaks[m.octave], m.x, m.y);
+  added.peak_cell = cell_of(&p->peaks[m.octave], (uint)m.pixel);
   added.peak = smaller(m.peak, most_peak);
-  added.ending_cell = cell_at(&p->endings[m.octave], m.x, m.y);
+  added.ending_cell = cell_of(&p->endings[m.octave], (uint)m.pixel);
   added.ending = m.ending;
   return added;
 }
@@ -198,7 +210,7 @@ INLINED Contribution contribution_of_bright(const Measured m, float radius, floa
                                         : exp(p->extent2[octave_in_picture(as_far, level)] -
                                               p->extent2[octave_in_picture(m.octave, level)]);
   Contribution added = contribution_of_drawn(m, most_peak, p);
-  added.ending_cell = cell_at(&p->endings[as_far], m.x, m.y);
+  added.ending_cell = cell_of(&p->endings[as_far], (uint)m.pixel);
   added.ending = m.ending > 0.0f ? p->edge_peak * part : 0.0f;
   return added;
 }

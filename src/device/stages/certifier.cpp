@@ -1,7 +1,6 @@
 #include "device/stages/certifier.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "device/frame/cell_layout.h"
@@ -45,11 +44,14 @@ struct TileRow {
   int row;
 };
 
+int side_of(const shared::OctaveCells& octave) {
+  return 1 << octave.pixel_bits / 2;
+}
+
 bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
   const auto tiles =
       static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
-  const auto cells =
-      static_cast<std::size_t>((tile_width >> octave.shift) * (tile_height >> octave.shift));
+  const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
   for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
     const float* first = values + first_of(tile, octave);
     if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
@@ -59,23 +61,24 @@ bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Gri
 
 CellSums CellsOfTiles::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
   CellSums sums;
-  sums.side = 1 << octave.shift;
-  sums.columns = grid.tiles_x * (tile_width >> octave.shift);
-  sums.rows = grid.tiles_y * (tile_height >> octave.shift);
+  sums.side = side_of(octave);
+  sums.columns = grid.tiles_x * (tile_width / sums.side);
+  sums.rows = grid.tiles_y * (tile_height / sums.side);
   sums.values.resize(static_cast<std::size_t>(sums.columns) * static_cast<std::size_t>(sums.rows));
   return sums;
 }
 
 void CellsOfTiles::add_row(const shared::OctaveCells& octave, const shared::Grid& grid,
                            int tile_row, CellSums& sums) const {
-  const int across = tile_width >> octave.shift, along = tile_height >> octave.shift;
+  const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
   float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
   for (int row = 0; row < along; ++row) {
-    for (int column = 0; column < grid.tiles_x; ++column, to += across) {
+    const std::vector<std::size_t> numbers = numbers_of_cells(across, row);
+    for (int column = 0; column < grid.tiles_x; ++column) {
       const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
-      const float* const from =
-          values + first_of(grid.first_tile + tile, octave) + std::ptrdiff_t{row} * across;
-      std::transform(from, from + across, to, to, std::plus<>());
+      const float* const from = values + first_of(grid.first_tile + tile, octave);
+      for (const std::size_t number : numbers)
+        *to++ += from[number];
     }
   }
 }
