@@ -34,15 +34,13 @@ INLINED void find_narrow_discs(__global const TileSplat* entries, const EntryWin
   STORE(radius * radius, discs->cut2);
 }
 
-#define DISC_CHANNEL(c) const float8 left##c = across * splat->summed[c];
-#define ADD_DISC_CHANNEL(c) \
-  store_eight(load_eight(pixel + c * TILE_PIXELS) + shape * left##c, pixel + c * TILE_PIXELS);
 // Eight columns of a disc, of which `squares` are the distances from its center.
 INLINED void add_columns(float* pixel, float8 across, float8 squares, const float* along,
                          const float* limits, int rows, __global const TileSplat* splat) {
-  DISC_CHANNEL(0) DISC_CHANNEL(1) DISC_CHANNEL(2) for (int k = 0; k < rows; ++k, pixel += ROW) {
+  SUMMED_CHANNELS
+  for (int k = 0; k < rows; ++k, pixel += ROW) {
     const float8 shape = select((float8)(along[k]), (float8)(0.0f), squares > limits[k]);
-    ADD_DISC_CHANNEL(0) ADD_DISC_CHANNEL(1) ADD_DISC_CHANNEL(2)
+    ADD_CHANNELS
   }
 }
 

@@ -133,6 +133,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
                               __global const TileSplat* splat, int form) {
   const int pixels = narrow->pixels[i];
   TwoEights across, along;
+  across.second = along.second = (float8)(0.0f);
   if (pixels == GRAIN) {
     const TwoEights axes = grain_means(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
     across.first = axes.first * narrow->scale[i];
@@ -208,7 +209,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
 #ifdef MIDDLE_SPLATS
 #define MIDDLE_CHANNEL(c)                                 \
   const float8 left##c = across.first * splat->summed[c], \
-               right##c = across.second * splat->summed[c];
+               right##c = across.second * splat->summed[c]
 #define ADD_MIDDLE(c)                                           \
   {                                                             \
     float* const to = pixel + c * TILE_PIXELS;                  \
@@ -224,8 +225,10 @@ INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
   float rows[16];
   store_eight(along.first, rows);
   store_eight(along.second, rows + 8);
-  MIDDLE_CHANNEL(0)
-  MIDDLE_CHANNEL(1) MIDDLE_CHANNEL(2) float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
+  MIDDLE_CHANNEL(0);
+  MIDDLE_CHANNEL(1);
+  MIDDLE_CHANNEL(2);
+  float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
   const int count = narrow->rows[i];
   for (int k = 0; k < count; ++k, pixel += ROW) {
     const float8 shape = (float8)(rows[k]);

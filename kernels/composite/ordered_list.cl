@@ -120,6 +120,13 @@ typedef struct LayerBatch {
 #endif
 } LayerBatch;
 
+INLINED void find_layers(__global const TileSplat* entries, float mean_sigma, LayerBatch* batch) {
+  find_windows(entries, &batch->windows);
+#ifdef NARROW_SPLATS
+  find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
+#endif
+}
+
 // Whether the entry touches the tile: lists have splats that do not, too (splat.h), and those of a
 // crop other ones.
 INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entry,
@@ -181,10 +188,7 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
     const int in_batch = (int)((k - segment.begin) % LANES);
     if (in_batch == 0) {
       ask_for_entries(entries + k + ENTRIES_AHEAD);
-      find_windows(entries + k, &batch.windows);
-#ifdef NARROW_SPLATS
-      find_narrow_splats(entries + k, block.mean_sigma, &batch.windows, &batch.narrow);
-#endif
+      find_layers(entries + k, block.mean_sigma, &batch);
     }
     ask_for_rows(&rows, place, 1);
     if (!draw_layer(block, entries + k, &batch, in_batch, p)) continue;

@@ -131,6 +131,19 @@ INLINED void draw_summed(float* tile, WaitingSplats* waiting, __global const Til
     add_splat(tile, entry, rows, columns, of_tile, 0);
 }
 
+#ifdef STENCILS
+// Draws LANES entries, if all of them are stencils, as most are on blurred grids; returns whether
+// they are.
+INLINED int draw_stencils(float* tile, __global const TileSplat* entries,
+                          __global const Stencil* stencil, StencilBatch* batch) {
+  if (!stencil || !are_all_stencils(entries)) return 0;
+  find_stencils(entries, stencil, batch);
+  for (int i = 0; i < LANES; ++i)
+    add_stencil(tile, batch, i, entries + i, stencil);
+  return 1;
+}
+#endif
+
 INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* place,
                        __global const Grid* grid, uint grid_number,
                        __global const TileSplat* entries, __global float* partials,
@@ -155,12 +168,7 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
     ask_for_entries(first + ENTRIES_AHEAD);
     ask_for_rows(&rows, place, LANES);
 #if defined(STENCILS) && !defined(SPLATS_OF_BLOCK)
-    if (stencil && segment.end - k >= LANES && are_all_stencils(first)) {
-      find_stencils(first, stencil, &batch.stencils);
-      for (int i = 0; i < LANES; ++i)
-        add_stencil(tile, &batch.stencils, i, first + i, stencil);
-      continue;
-    }
+    if (segment.end - k >= LANES && draw_stencils(tile, first, stencil, &batch.stencils)) continue;
 #endif
     const EntryKinds kinds =
         find_batch(first, segment.end - k, mean_sigma, &batch STENCIL_ARGUMENT);
