@@ -55,21 +55,6 @@ Response of_ordered(double light, double opacity, double brightest_behind, doubl
           of_parts(std::min(light, 1.0))};
 }
 
-double brightest_channel(const Image& image) {
-  double brightest = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (i % 4 != 3) brightest = std::max(brightest, static_cast<double>(image.pixels[i]));
-  }
-  return brightest;
-}
-
-// The brightest that shines through a layer. What emits without absorbing has no brightest
-// source, but nothing that is seen is brighter than it is seen somewhere.
-double brightest_behind(const Image& image, const Frame& frame) {
-  return std::min(std::max(brightest_background(frame), brightest_source(frame)),
-                  std::max(1.0, brightest_channel(image)));
-}
-
 struct BlockRanges {
   std::array<Range, 3> channels;
   double opacity = 0;  // the largest
@@ -93,6 +78,22 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
     ranges.channels[c] = {static_cast<double>(least[c]), static_cast<double>(most[c])};
   ranges.opacity = static_cast<double>(most[3]);
   return ranges;
+}
+
+double brightest_channel(const std::vector<BlockRanges>& blocks) {
+  double brightest = 0;
+  for (const BlockRanges& block : blocks) {
+    for (const Range& channel : block.channels)
+      brightest = std::max(brightest, channel.most);
+  }
+  return brightest;
+}
+
+// The brightest that shines through a layer. What emits without absorbing has no brightest
+// source, but nothing that is seen is brighter than it is seen somewhere.
+double brightest_behind(const std::vector<BlockRanges>& blocks, const Frame& frame) {
+  return std::min(std::max(brightest_background(frame), brightest_source(frame)),
+                  std::max(1.0, brightest_channel(blocks)));
 }
 
 // What all blocks of a picture share.
@@ -135,16 +136,20 @@ PictureLight measure_light(const Image& image, const Frame& frame, const FramePl
   PictureLight picture;
   picture.columns = BlockErrors::blocks_along(image.width);
   picture.rows = BlockErrors::blocks_along(image.height);
-  const Surroundings around = {
-      plan.light, plan.source, brightest_background(frame),
-      plan.light == LightPlan::ordered ? brightest_behind(image, frame) : 0, plan.light_behind};
   const auto columns = static_cast<std::size_t>(picture.columns);
-  picture.blocks.resize(columns * static_cast<std::size_t>(picture.rows));
-  for_blocks(picture.blocks.size(), columns, [&](std::size_t first, std::size_t last) {
+  std::vector<BlockRanges> ranges(columns * static_cast<std::size_t>(picture.rows));
+  for_blocks(ranges.size(), columns, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b)
-      picture.blocks[b] = light_of(ranges_of(image, static_cast<int>(b % columns) * side,
-                                             static_cast<int>(b / columns) * side),
-                                   around);
+      ranges[b] = ranges_of(image, static_cast<int>(b % columns) * side,
+                            static_cast<int>(b / columns) * side);
+  });
+  const bool is_ordered = plan.light == LightPlan::ordered;
+  const Surroundings around = {plan.light, plan.source, brightest_background(frame),
+                               is_ordered ? brightest_behind(ranges, frame) : 0, plan.light_behind};
+  picture.blocks.resize(ranges.size());
+  for_blocks(ranges.size(), columns, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b)
+      picture.blocks[b] = light_of(ranges[b], around);
   });
   return picture;
 }
