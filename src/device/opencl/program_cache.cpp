@@ -24,6 +24,12 @@ std::string key_of(const compute::device& device, const ProgramText& text) {
          '\n' + text.options + '\n' + text.source;
 }
 
+// All that its text is made of.
+std::string key_of(const ProgramSource& source) {
+  return names_of(source) + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
+         source.more;
+}
+
 std::size_t count_of(const std::string& word, const std::string& text) {
   std::size_t count = 0;
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
@@ -69,18 +75,24 @@ compute::kernel Program::create_kernel(const std::string& name) const {
 }
 
 Program ProgramCache::get(const ProgramSource& source) {
+  Entry*& entry = asked_for_[key_of(source)];
+  if (entry == nullptr) entry = &entry_of(source);
+  return Program(*this, *entry);
+}
+
+ProgramCache::Entry& ProgramCache::entry_of(const ProgramSource& source) {
   const compute::device device = context_.get_device();
   const bool is_short = is_pocl(device);
   ProgramText text = is_short ? short_text_of(source, device) : text_of(source, device);
   std::string key = key_of(device, text);
   const auto found = programs_.find(key);
-  if (found != programs_.end()) return Program(*this, found->second);
+  if (found != programs_.end()) return found->second;
   Entry entry;
   entry.key = key;
   entry.names = names_of(source);
   entry.text = std::move(text);
   if (is_short) entry.fallback = text_of(source, device);
-  return Program(*this, programs_.emplace(std::move(key), std::move(entry)).first->second);
+  return programs_.emplace(std::move(key), std::move(entry)).first->second;
 }
 
 const compute::program& ProgramCache::compiled(Entry& entry) {
