@@ -127,9 +127,10 @@ bool can_expect_ends(const Frame& frame, const FramePlan& plan, bool is_sample) 
   return plan.needs_sort() && plan.slabs == 0 && !is_sample && !frame.kernel.cut;
 }
 
-// What light without absorption needs is guessed from how bright it is (make_plan.cpp).
+// What light without absorption needs is guessed from how bright it is (make_plan.cpp). Splats that
+// are cut and sampled at centers of pixels err by nothing that is to be expected.
 bool can_be_expected(const FramePlan& plan) {
-  return !plan.is_extended() && !plan.certify && !plan.has_ellipses &&
+  return plan.has_errors_of_splats && !plan.is_extended() && !plan.certify && !plan.has_ellipses &&
          plan.light != LightPlan::emission;
 }
 
