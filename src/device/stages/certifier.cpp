@@ -7,6 +7,7 @@
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
 #include "scene/plan/splat_limits.h"
 
 namespace splotchcl {
@@ -96,6 +97,19 @@ std::vector<OctaveOfLevel> octaves_of_levels(const GridPyramid& pyramid) {
   return octaves;
 }
 
+// Of so many tiles, whose numbers of splats lie so far apart that a processor waits for each.
+double longest_list(const float* listed, std::size_t tiles, std::size_t cells_per_tile) {
+  constexpr std::size_t at_a_time = 256;
+  std::vector<float> longest(ceil_divide(tiles, at_a_time));
+  for_blocks(tiles, at_a_time, [&](std::size_t first, std::size_t end) {
+    float& most = longest[first / at_a_time];
+    for (std::size_t tile = first; tile < end; ++tile)
+      most = std::max(most, listed[tile * cells_per_tile]);
+  });
+  return longest.empty() ? 0.0
+                         : static_cast<double>(*std::max_element(longest.begin(), longest.end()));
+}
+
 }  // namespace
 
 Certifier::Certifier(const StageContext& context) : context_(context) {
@@ -182,8 +196,8 @@ CollectedSplats Certifier::collected() const {
   CollectedSplats found;
   if (!has_started()) return found;
   const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
-  for (std::size_t i = parameters_.listed; i < values.size(); i += parameters_.cells_per_tile)
-    found.longest_list = std::max(found.longest_list, static_cast<double>(values.data()[i]));
+  found.longest_list = longest_list(values.data() + parameters_.listed, context_.layout.tile_count,
+                                    parameters_.cells_per_tile);
   found.cells = gathered_cells(values.data());
   return found;
 }
