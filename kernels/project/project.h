@@ -205,7 +205,11 @@ struct ExtendedParameters {
   struct FloatPair center_from_middle_x, center_from_middle_y;
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
   struct FloatPair twice_pole[2];                     // in the whole picture
-  struct FloatPair size_factor, kernel_width, kernel_cut, min_radius;
+  struct FloatPair size_factor, kernel_width, min_radius;
+  int is_cut;
+  struct FloatPair kernel_cut;
+  float reach_of_mean;  // in pixels, by which a pixel sees a splat from beside its center
+  int sums_emission;    // else absorption
   struct FloatPair weight_scale;  // as in ProjectParameters
   struct ExtendedFieldScaling color, intensity;
   struct FloatPair brightness, absorption_factor;

@@ -164,17 +164,10 @@ static inline float rounded_radius(float radius, float far) {
 
 // How far a splat of this width is drawn along one axis.
 static inline float radius_of(Extended sigma, float extent, const ExtendedParameters e) {
-#ifdef KERNEL_CUT
-  const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
-  const float radius = min(extent * high_part(sigma), high_part(cut) * 1.000001f);
-#else
   const float radius = extent * high_part(sigma);
-#endif
-#ifdef SAMPLING_MEAN
-  return radius + 0.5f;
-#else
-  return radius;
-#endif
+  const Extended cut = extended_product(extended_pair(e.kernel_cut), sigma);
+  const float cut_radius = high_part(cut) * 1.000001f;
+  return (e.is_cut ? min(radius, cut_radius) : radius) + e.reach_of_mean;
 }
 
 // As splat_place() does for lanes, well enough to choose tiles by.
@@ -299,11 +292,7 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
   float peak = 0.0f;
   for (int c = 0; c < 3; ++c) {
     peak = max(peak, max(high_part(emission[c]), high_part(absorption[c])));
-#ifdef LIGHT_EMISSION
-    extended->summed[c] = pair_of(emission[c]);
-#else
-    extended->summed[c] = pair_of(absorption[c]);
-#endif
+    extended->summed[c] = pair_of(e.sums_emission ? emission[c] : absorption[c]);
     extended->emission[c] = pair_of(emission[c]);
   }
 #ifdef FACE_OF_CUBE

@@ -9,7 +9,6 @@ typedef struct WideAnglePoint {
   INTEGER seen;
 } WideAnglePoint;
 
-#ifdef EYE_OFFSET
 // Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
 static inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
   const VALUE cosine = sqrt(max(1.0f - sine * sine, (VALUE)(0.0f)));
@@ -21,7 +20,6 @@ static inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* a
   *y = turned_y;
   *z = turned_z;
 }
-#endif
 
 // x right, y down, z forward, in lengths.
 static inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
@@ -31,11 +29,11 @@ static inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE
   y /= distance;
   z /= distance;
   point.seen = distance > 0.0f & distance <= FLT_MAX;
-#ifdef EYE_OFFSET
-  const VALUE sine = p.eye_offset / distance;
-  point.seen &= fabs(sine) < 1.0f;
-  turn(&x, &y, &z, sine, p.turn_axis);
-#endif
+  if (p.eye_offset != 0.0f) {
+    const VALUE sine = p.eye_offset / distance;
+    point.seen &= fabs(sine) < 1.0f;
+    turn(&x, &y, &z, sine, p.turn_axis);
+  }
   const float focal = p.pixels_per_length;
   point.scale = focal / distance;
   point.cos_latitude = point.magnification = (VALUE)(1.0f);

@@ -9,7 +9,6 @@ typedef struct ExtendedWideAngle {
   int seen;
 } ExtendedWideAngle;
 
-#ifdef EYE_OFFSET
 static inline Extended extended_turned(Extended value, Extended across, Extended along,
                                        Extended sine, Extended cosine) {
   return extended_sum(extended_sum(extended_product(value, cosine), extended_product(across, sine)),
@@ -43,7 +42,6 @@ __attribute__((noinline)) static void extended_turn(Extended* v, Extended sine,
   for (int i = 0; i < 3; ++i)
     v[i] = turned[i];
 }
-#endif
 
 #if defined(PROJECTION_FISHEYE)
 // Less off the axis than this part of the distance, a direction is taken for one to the right
@@ -90,10 +88,10 @@ static inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_of
   ExtendedWideAngle place;
   place.distance = extended_hypotenuse(extended_hypotenuse(v[0], v[2]), v[1]);
   place.seen = high_part(place.distance) > 0.0f && high_part(place.distance) <= FLT_MAX;
-#ifdef EYE_OFFSET
-  place.seen &= extended_less(extended_magnitude(eye_offset), place.distance);
-  if (place.seen) extended_turn(v, extended_quotient(eye_offset, place.distance), e.turn_axis);
-#endif
+  if (high_part(eye_offset) != 0.0f) {
+    place.seen &= extended_less(extended_magnitude(eye_offset), place.distance);
+    if (place.seen) extended_turn(v, extended_quotient(eye_offset, place.distance), e.turn_axis);
+  }
   const Extended focal = extended_pair(e.pixels_per_length);
   place.scale = extended_quotient(focal, place.distance);
   place.cos_latitude = extended_of(1.0f);

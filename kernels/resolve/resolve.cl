@@ -63,14 +63,13 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
   // As many steps every time: lanes are registers then, not memory.
   for (int i = 0; i < 8; ++i) {
     if (i >= count) continue;
-#ifdef PROJECTION_FISHEYE
     // Half pixels from the middle: outside the circle there is no direction to show.
     const long across = 2 * (x + i) + 1 + p.circle_x, along = 2 * y + 1 + p.circle_y;
-    if (across * across + along * along > (long)p.circle_diameter * p.circle_diameter) {
+    if (p.circle_diameter > 0 &&
+        across * across + along * along > (long)p.circle_diameter * p.circle_diameter) {
       vstore4((float4)(0.0f), i, out);
       continue;
     }
-#endif
     vstore4((float4)(light[0][i], light[1][i], light[2][i], light[3][i]), i, out);
   }
 }

@@ -55,7 +55,7 @@ struct ResolveParameters {
   float background[3];
   int background_stride;  // pixels in a row of the background's picture; 0: there is none
   // Of a fisheye picture, in half pixels: twice the crop's corner less the picture's size, and
-  // the diameter of the circle outside which nothing is shown.
+  // the diameter of the circle outside which nothing is shown. 0: the picture has no circle.
   int circle_x, circle_y, circle_diameter;
 };
 

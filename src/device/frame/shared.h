@@ -49,7 +49,7 @@ static_assert(has_words<BlockBox, 8>);
 static_assert(has_words<BlockCounts, 4>);
 static_assert(has_words<KeyBins, 2>);
 static_assert(has_words<KeyPartParameters, 7>);
-static_assert(has_words<ExtendedParameters, 80>);
+static_assert(has_words<ExtendedParameters, 83>);
 static_assert(has_words<InterpolateParameters, 10>);
 static_assert(has_words<PathParameters, 26>);
 static_assert(has_words<PartOfKeys, 5>);

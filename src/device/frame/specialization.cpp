@@ -53,7 +53,6 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       copies_(plan.has_copies),
       face_of_cube_(plan.is_face_of_cube),
       keeps_transmittance_(plan.layers.keeps_transmittance),
-      eye_offset_(frame.camera.eye_offset != 0),
       clouds_around_(has_clouds_around(frame)),
       stencils_(plan.pyramid.has_stencils()),
       ten_taps_(plan.pyramid.refinement.has_ten_taps),
@@ -143,7 +142,7 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   if (finds_tiles(output)) defines += tile_size_defines();
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
-  if (extended_) defines += extended_defines();
+  defines += define_if(extended_, "EXTENDED_NUMBERS");
   return {defines, project_files(output)};
 }
 
@@ -181,16 +180,11 @@ std::vector<std::string> Specialization::project_files(ProjectOutput output) con
 }
 
 std::string Specialization::wide_angle_defines() const {
-  return define("WIDE_ANGLE") + define_if(eye_offset_, "EYE_OFFSET") +
+  return define("WIDE_ANGLE") +
          define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
          define_if(projection_ == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
          define_if(ellipses_, "ELLIPSES") + define_if(copies_, "COPIES") +
          define_if(face_of_cube_, "FACE_OF_CUBE");
-}
-
-std::string Specialization::extended_defines() const {
-  return define("EXTENDED_NUMBERS") + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
-         define_if(kernel_cut_, "KERNEL_CUT") + define_if(pixel_means_, "SAMPLING_MEAN");
 }
 
 ProgramSource Specialization::interpolate(bool rows) {
@@ -240,11 +234,10 @@ ProgramSource Specialization::scan() {
 }
 
 ProgramSource Specialization::bin() const {
-  const std::string defines =
-      tile_defines() + define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
-      define_if(vector_colors_, "VECTOR_COLORS") + define_if(has_whole_sectors(), "WHOLE_SECTORS") +
-      define_if(has_own_tiles(), "TILES_IN_SPLAT") +
-      define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
+  const std::string defines = tile_defines() + define_if(vector_colors_, "VECTOR_COLORS") +
+                              define_if(has_whole_sectors(), "WHOLE_SECTORS") +
+                              define_if(has_own_tiles(), "TILES_IN_SPLAT") +
+                              define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
   if (rows_) {
     return {defines,
             {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "pieces.cl", "tiles.cl",
@@ -420,7 +413,6 @@ ProgramSource Specialization::resolve() const {
                               define_if(extended_, "EXTENDED_NUMBERS") +
                               define_if(is_ordered(), "LIGHT_ORDERED") +
                               define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
-                              define_if(projection_ == Projection::fisheye, "PROJECTION_FISHEYE") +
                               define_if(background_image_, "BACKGROUND_IMAGE");
   return {defines,
           {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl",

@@ -94,7 +94,6 @@ class Specialization {
   bool finds_tiles(ProjectOutput output) const;
   std::string splat_defines() const;
   std::string wide_angle_defines() const;
-  std::string extended_defines() const;
   std::vector<std::string> view_files() const;
   std::vector<std::string> project_files(ProjectOutput output) const;
   std::vector<std::string> composite_files() const;  // of single precision
@@ -117,7 +116,6 @@ class Specialization {
   bool kernel_cut_, pixel_means_;
   bool vector_colors_, ellipses_, copies_, face_of_cube_;
   bool keeps_transmittance_;
-  bool eye_offset_;
   bool clouds_around_;  // may be: they are no splats
   bool stencils_;       // of sums
   bool ten_taps_;       // of a refinement

@@ -7,6 +7,7 @@
 #include "device/frame/float_pair.h"
 #include "device/stages/field_scaling.h"
 #include "scene/particle_rules.h"
+#include "scene/plan/splat_limits.h"
 #include "scene/projection.h"
 
 namespace splotchcl {
@@ -62,7 +63,10 @@ shared::ExtendedParameters make_extended_parameters(const StageContext& context,
   e.center_from_middle_y = pair_of(frame.camera.center_y - static_cast<double>(e.middle_y));
   e.size_factor = pair_of(component.size_factor);
   e.kernel_width = pair_of(frame.kernel.width);
+  e.is_cut = frame.kernel.cut.has_value();
   e.kernel_cut = pair_of(frame.kernel.cut.value_or(0));
+  e.reach_of_mean = takes_pixel_means(frame) ? 0.5f : 0;
+  e.sums_emission = context.plan.light == LightPlan::emission;
   e.min_radius = pair_of(frame.kernel.min_radius_pixels);
   e.weight_scale = pair_of(weight_scale(component, length_scale(frame)));
   e.color = pairs_of(color_scaling(component));

@@ -78,7 +78,8 @@ Resolver::Resolver(const StageContext& context)
   parameters_.crop_y = frame.crop.y;
   parameters_.circle_x = 2 * frame.crop.x - frame.width;
   parameters_.circle_y = 2 * frame.crop.y - frame.height;
-  parameters_.circle_diameter = std::min(frame.width, frame.height);
+  if (frame.projection == Projection::fisheye)
+    parameters_.circle_diameter = std::min(frame.width, frame.height);
   if (context.layout.grids.size() > 1) {
     grids_program_ = context.device.programs.get(context.specialization.coarse_grids());
     if (context.device.traits.rows && context.plan.pyramid.is_blurred())
