@@ -50,7 +50,8 @@ struct RendererOptions {
   // Frames are drawn again until a bound, not an estimate, says that they keep their tolerance:
   // FrameCheck.
   bool certify = false;
-  int slabs = -1;  // PlanOptions, for tests
+  // PlanOptions, for tests. Below 0 the shape for GPUs draws a plan's slabs in order.
+  int slabs = -1;
   // Of the device, for an ordered frame's splats, lists and planes together; columns of particles
   // are counted apart. A frame with more splats than have room is drawn in windows of its depth, to
   // the same bits. 0: three quarters of what a processor's machine has left, half of a GPU's

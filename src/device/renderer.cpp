@@ -164,6 +164,7 @@ struct Renderer::State {
     if (options.memory_bytes > 0) device.limit_memory(options.memory_bytes);
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
+    draws_slabs = device.traits.rows || options.slabs >= 0;
     progress = options.progress;
     device.programs.use_compilers(options.start_compiler);
   }
@@ -193,6 +194,9 @@ struct Renderer::State {
   RenderStats stats;
   double check_seconds = 0;  // of the frame, by the thread that draws
   PlanOptions plan_options;
+  // Every slab is a launch of each stage, too small for a GPU to be busy: it draws as fast in order
+  // (docs/gpu.md).
+  bool draws_slabs = true;
   std::function<void(double)> progress;
   std::shared_ptr<Communicator> ranks;  // null: one process
   RankWork work;                        // this one's, for the frame
@@ -230,7 +234,8 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   stats.check.is_bound = plan.certify;
   work = {};
   const FetchedParticles fetched(frame, plan, device.traits);
-  Image image = draw_until_kept(frame, plan).image;
+  const bool in_order = plan.slabs > 0 && !draws_slabs;
+  Image image = draw_until_kept(frame, in_order ? in_order_plan(frame, plan) : plan).image;
   share(image);
   particles.end_frame();
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();

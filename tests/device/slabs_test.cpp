@@ -38,7 +38,14 @@ class Slabs : public testing::TestWithParam<CompositeShape> {
   const FrameCheck& check() const { return renderer_.stats().check; }
 
  private:
-  Renderer renderer_{{"", GetParam()}};
+  static RendererOptions drawing_slabs() {
+    RendererOptions options;
+    options.shape = GetParam();
+    options.slabs = 1;
+    return options;
+  }
+
+  Renderer renderer_{drawing_slabs()};
 };
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Slabs,
@@ -94,6 +101,16 @@ TEST_P(Slabs, HaveTheOrderOfTheirDepths) {
   frame.tolerance = 0.01;
   const ReferenceImage exact = reference::render(frame);
   EXPECT_LE(largest_error(draw(frame, 3), exact), 0.3 * frame.tolerance);
+}
+
+// Unless they are asked for.
+TEST_P(Slabs, AreForProcessors) {
+  const Frame frame = clouds_of_column(0.02);
+  PlanOptions options;
+  options.slabs = 2;
+  Renderer renderer({"", GetParam()});
+  renderer.render(frame, make_plan(frame, options));
+  EXPECT_EQ(renderer.stats().check.worst.slabs > 0, GetParam() == CompositeShape::rows);
 }
 
 TEST_P(Slabs, AreNotDrawnForSmallTolerances) {

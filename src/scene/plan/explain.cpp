@@ -22,7 +22,8 @@ void explain_light(const FramePlan& plan, const Frame& frame, std::ostream& out)
           << ", nearer layers over farther ones\n";
       if (plan.slabs > 0) {
         out << "  wide splats in " << plan.slabs
-            << " slabs, added up on coarse grids and laid among the narrow ones of their slab\n";
+            << " slabs, added up on coarse grids and laid among the narrow ones of their slab; a "
+               "GPU draws them in order\n";
       }
       break;
   }
