@@ -351,8 +351,8 @@ ProgramSource Specialization::lay_slab() const {
 }
 
 ProgramSource Specialization::list_around() const {
-  std::string defines =
-      define_if(rows_, "LANES_8") + splat_defines() + define_if(double_numbers_, "DOUBLE_NUMBERS");
+  std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS") +
+                        define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
   std::vector<std::string> files = view_files();
   files.push_back("list_around.cl");
