@@ -10,8 +10,8 @@ namespace splotchcl::test {
 bool long_tests();
 
 // The seeds from `first` to `last` of a property test over random scenes: all of them in long
-// tests, else every seventh, which meets what follows from a seed modulo 2, 3 or 5.
-std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last);
+// tests, else every seventh, or thirteenth, which meets what follows from a seed modulo 2, 3 or 5.
+std::vector<std::uint64_t> seeds(std::uint64_t first, std::uint64_t last, std::uint64_t every = 7);
 
 // Of so many rounds with random input: all of them in long tests, else a fifth, or a fiftieth in
 // the sanitizers' build.

@@ -83,7 +83,7 @@ constexpr double single_place = 1e-3;
 
 TEST_F(WideAngleScenes, KeepTheirTolerance) {
   int drawn = 0, lit = 0;
-  for (const std::uint64_t seed : seeds(1, 90)) {
+  for (const std::uint64_t seed : seeds(1, 90, 13)) {
     ++drawn;
     const Frame frame = WideSceneMaker(seed).make();
     const ReferenceImage exact = reference::render(frame);
