@@ -19,11 +19,17 @@ static inline Extended extended_minor(Extended a, Extended b, Extended c, Extend
   return extended_difference(extended_product(a, d), extended_product(b, c));
 }
 
-// Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula). A call:
-// inlined into fisheye projections of work-groups, it crashes LLVM 15 for AVX2
+// A GPU's compiler would put the parameters that a call is handed in memory of each work-item's
+// own. Inlined into fisheye projections of work-groups, the turn crashes LLVM 15 for AVX2
 // (docs/portability.md).
-__attribute__((noinline)) static void extended_turn(Extended* v, Extended sine,
-                                                    const FloatPair* turn_axis) {
+#ifdef CALLS_TURN
+#define TURN __attribute__((noinline)) static
+#else
+#define TURN INLINED
+#endif
+
+// Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
+TURN void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis) {
   const Extended one = extended_of(1.0f);
   const Extended cosine =
       extended_root(extended_product(extended_difference(one, sine), extended_sum(one, sine)));
