@@ -208,8 +208,8 @@ struct ExtendedParameters {
   struct FloatPair size_factor, kernel_width, min_radius;
   int is_cut;
   struct FloatPair kernel_cut;
-  float reach_of_mean;  // in pixels, by which a pixel sees a splat from beside its center
-  int sums_emission;    // else absorption
+  float reach_of_mean;            // in pixels, by which a pixel sees a splat from beside its center
+  int sums_emission;              // else absorption
   struct FloatPair weight_scale;  // as in ProjectParameters
   struct ExtendedFieldScaling color, intensity;
   struct FloatPair brightness, absorption_factor;
