@@ -75,24 +75,21 @@ compute::kernel Program::create_kernel(const std::string& name) const {
 }
 
 Program ProgramCache::get(const ProgramSource& source) {
-  Entry*& entry = asked_for_[key_of(source)];
-  if (entry == nullptr) entry = &entry_of(source);
-  return Program(*this, *entry);
+  std::string key = key_of(source);
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return Program(*this, found->second);
+  return Program(*this, programs_.emplace(std::move(key), entry_of(source)).first->second);
 }
 
-ProgramCache::Entry& ProgramCache::entry_of(const ProgramSource& source) {
+ProgramCache::Entry ProgramCache::entry_of(const ProgramSource& source) const {
   const compute::device device = context_.get_device();
   const bool is_short = is_pocl(device);
-  ProgramText text = is_short ? short_text_of(source, device) : text_of(source, device);
-  std::string key = key_of(device, text);
-  const auto found = programs_.find(key);
-  if (found != programs_.end()) return found->second;
   Entry entry;
-  entry.key = key;
+  entry.text = is_short ? short_text_of(source, device) : text_of(source, device);
+  entry.key = key_of(device, entry.text);
   entry.names = names_of(source);
-  entry.text = std::move(text);
   if (is_short) entry.fallback = text_of(source, device);
-  return programs_.emplace(std::move(key), std::move(entry)).first->second;
+  return entry;
 }
 
 const compute::program& ProgramCache::compiled(Entry& entry) {

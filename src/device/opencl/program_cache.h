@@ -67,7 +67,7 @@ class ProgramCache {
   friend class Program;
   using Entry = Program::Entry;
 
-  Entry& entry_of(const ProgramSource& source);
+  Entry entry_of(const ProgramSource& source) const;
   const compute::program& compiled(Entry& entry);
   bool find_binary(Entry& entry);
   bool restore(Entry& entry);
@@ -77,10 +77,9 @@ class ProgramCache {
 
   compute::context context_;
   BinaryCache binaries_;
-  std::map<std::string, Entry> programs_;
   // By what they were asked for with: a frame asks for dozens, chunk by chunk, and putting a
   // source's files together takes longer than drawing a small chunk.
-  std::map<std::string, Entry*> asked_for_;
+  std::map<std::string, Entry> programs_;
   StartCompiler start_compiler_;
   bool has_built_ = false;  // so that PoCL's library has been read
   double build_seconds_ = 0;
