@@ -2,11 +2,14 @@
 // what does not differ from pixel to pixel is worked out for eight entries at once, and no loop
 // over columns is left. Wider ones wait (waiting.cl).
 #if !defined(LIGHT_ORDERED) && defined(CUT_BY_ROWS) && !defined(SAMPLING_MEAN) && \
-    !defined(ELLIPSES) && !defined(FINE_PLACES) && !defined(ROWS_OF_16) && SUMMED == 3
+    !defined(ELLIPSES) && !defined(FINE_PLACES) && SUMMED == 3
 #define NARROW_DISCS
+// Columns of the smallest, whose axes fit one eight, and rows of most of these.
+#define DOT 4
+#define ROWS_OF_DOT 2
 
 typedef struct NarrowDiscs {
-  int columns[LANES];      // of the window: 8, 16, or 0 of other splats
+  int columns[LANES];      // of the window: DOT, 8, 16, or 0 of other splats
   int x[LANES], y[LANES];  // its first pixel
   int rows[LANES];
   float across[LANES], along[LANES];  // of its center from the splat's
@@ -19,50 +22,126 @@ INLINED void find_narrow_discs(__global const TileSplat* entries, const EntryWin
   const VALUE sigma = OF_ENTRIES(entries, sigma), radius = OF_ENTRIES(entries, radius);
   const INTEGER first_column = vload8(0, windows->first_column);
   const INTEGER first_row = vload8(0, windows->first_row);
+  const INTEGER last_row = vload8(0, windows->last_row);
   const INTEGER width = vload8(0, windows->last_column) - first_column + 1;
-  const INTEGER height = vload8(0, windows->last_row) - first_row + 1;
-  const INTEGER fits = (max(width, height) <= 16) & (sigma > 0.0f);
-  const INTEGER columns = select((INTEGER)(16), (INTEGER)(8), width <= 8);
+  const INTEGER widest = max(width, last_row - first_row + 1);
+  const INTEGER fits = (widest <= 16) & (sigma > 0.0f);
+  const INTEGER is_dot = widest <= DOT;
+  const INTEGER eights = select((INTEGER)(16), (INTEGER)(8), width <= 8);
+  const INTEGER columns = select(eights, (INTEGER)(DOT), is_dot);
   const INTEGER x = min(first_column, TILE_WIDTH - columns);
+  // All rows of a dot are drawn, whether it touches them or not.
+  const INTEGER y = select(first_row, min(first_row, TILE_HEIGHT - DOT), is_dot);
   STORE(columns & fits, discs->columns);
   STORE(x, discs->x);
-  STORE(first_row, discs->y);
-  STORE(height, discs->rows);
+  STORE(y, discs->y);
+  STORE(last_row - y + 1, discs->rows);
   STORE(TO_VALUE(x) + FIRST_X - OF_ENTRIES(entries, x), discs->across);
-  STORE(TO_VALUE(first_row) + FIRST_Y - OF_ENTRIES(entries, y), discs->along);
+  STORE(TO_VALUE(y) + FIRST_Y - OF_ENTRIES(entries, y), discs->along);
   STORE(-1.44269504f / (sigma * sigma), discs->factor);
   STORE(radius * radius, discs->cut2);
 }
 
-// Eight columns of a disc, of which `squares` are the distances from its center.
-INLINED void add_columns(float* pixel, float8 across, float8 squares, const float* along,
-                         const float* limits, int rows, __global const TileSplat* splat) {
+// The rows of a disc: the shape along them, and the largest squares of distances along columns.
+typedef struct DiscRows {
+  float along[16], limits[16];
+} DiscRows;
+
+#define LIGHT_OF(VECTOR)                                                               \
+  const VECTOR light0 = across * splat->summed[0], light1 = across * splat->summed[1], \
+               light2 = across * splat->summed[2]
+
+#define ADD_DOT(c) \
+  vstore4(vload4(0, pixel + c * TILE_PIXELS) + shape * light##c, 0, pixel + c * TILE_PIXELS);
+#define ADD_ROWS_OF_DOT(first, end)                                                       \
+  _Pragma("unroll") for (int k = first; k < end; ++k, pixel += ROW) {                     \
+    const float4 shape = select((float4)(along[k]), (float4)(0.0f), squares > limits[k]); \
+    ADD_DOT(0) ADD_DOT(1) ADD_DOT(2)                                                      \
+  }
+INLINED void add_dot(float* pixel, const NarrowDiscs* discs, int i,
+                     __global const TileSplat* splat) {
+  const float8 first = (float8)((float4)(discs->across[i]), (float4)(discs->along[i]));
+  const float8 distance = first + (float8)(0, 1, 2, 3, 0, 1, 2, 3), square = distance * distance;
+  const float8 shapes = exp2_negative(square * discs->factor[i]);
+  float along[DOT], limits[DOT];
+  vstore4(shapes.hi, 0, along);
+  vstore4(discs->cut2[i] - square.hi, 0, limits);
+  const float4 across = shapes.lo, squares = square.lo;
+  LIGHT_OF(float4);
+  ADD_ROWS_OF_DOT(0, ROWS_OF_DOT)
+  if (discs->rows[i] <= ROWS_OF_DOT) return;
+  ADD_ROWS_OF_DOT(ROWS_OF_DOT, DOT)
+}
+
+// Eight columns of a disc, the first one's center this far from the splat's.
+INLINED void add_eight_columns(float* pixel, float first, float factor, const DiscRows* of_disc,
+                               int rows, __global const TileSplat* splat) {
+  const float8 distance = first + (float8)(0, 1, 2, 3, 4, 5, 6, 7), squares = distance * distance;
+  const float8 across = exp2_negative(squares * factor);
   SUMMED_CHANNELS
   for (int k = 0; k < rows; ++k, pixel += ROW) {
-    const float8 shape = select((float8)(along[k]), (float8)(0.0f), squares > limits[k]);
+    const float8 shape =
+        select((float8)(of_disc->along[k]), (float8)(0.0f), squares > of_disc->limits[k]);
     ADD_CHANNELS
   }
 }
 
-INLINED void add_narrow_disc(float* tile, const NarrowDiscs* discs, int i,
-                             __global const TileSplat* splat) {
+#ifdef ROWS_OF_16
+INLINED void fill_rows_of_disc(float first, float factor, float cut2, int rows, DiscRows* of_disc) {
+  const float16 distance = first + PATCH_LANES, square = distance * distance;
+  store_patch(exp2_negative(square * factor), of_disc->along);
+  store_patch(cut2 - square, of_disc->limits);
+}
+
+#define ADD_SIXTEEN(c)                                                    \
+  {                                                                       \
+    float* const to = pixel + c * TILE_PIXELS;                            \
+    const float16 before = load_patch(to);                                \
+    store_patch(select(before, before + light##c * along, is_drawn), to); \
+  }
+INLINED void add_sixteen_columns(float* pixel, float first, float factor, const DiscRows* of_disc,
+                                 int rows, __global const TileSplat* splat) {
+  const float16 distance = first + PATCH_LANES, squares = distance * distance;
+  const float16 across = exp2_negative(squares * factor);
+  LIGHT_OF(float16);
+  for (int k = 0; k < rows; ++k, pixel += ROW) {
+    const float16 along = of_disc->along[k];
+    const int16 is_drawn = squares <= of_disc->limits[k];
+    ADD_SIXTEEN(0) ADD_SIXTEEN(1) ADD_SIXTEEN(2)
+  }
+}
+#else
+INLINED void fill_rows_of_disc(float first, float factor, float cut2, int rows, DiscRows* of_disc) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float factor = discs->factor[i], cut2 = discs->cut2[i];
-  const int rows = discs->rows[i];
-  float along[16], limits[16];
 #pragma unroll
   for (int k = 0; k < 16; k += 8) {
     if (k >= rows) break;
-    const float8 distance = discs->along[i] + (ramp + (float)k), square = distance * distance;
-    store_eight(exp2_negative(square * factor), along + k);
-    store_eight(cut2 - square, limits + k);
+    const float8 distance = first + (ramp + (float)k), square = distance * distance;
+    store_eight(exp2_negative(square * factor), of_disc->along + k);
+    store_eight(cut2 - square, of_disc->limits + k);
   }
-  float* pixel = tile + discs->y[i] * ROW + discs->x[i];
-#pragma unroll
-  for (int x = 0; x < 16; x += 8) {
-    if (x >= discs->columns[i]) return;
-    const float8 distance = discs->across[i] + (ramp + (float)x), square = distance * distance;
-    add_columns(pixel + x, exp2_negative(square * factor), square, along, limits, rows, splat);
+}
+INLINED void add_sixteen_columns(float* pixel, float first, float factor, const DiscRows* of_disc,
+                                 int rows, __global const TileSplat* splat) {
+  add_eight_columns(pixel, first, factor, of_disc, rows, splat);
+  add_eight_columns(pixel + 8, first + 8.0f, factor, of_disc, rows, splat);
+}
+#endif
+
+INLINED void add_narrow_disc(float* tile, const NarrowDiscs* discs, int i,
+                             __global const TileSplat* splat) {
+  float* const pixel = tile + discs->y[i] * ROW + discs->x[i];
+  const int columns = discs->columns[i], rows = discs->rows[i];
+  if (columns == DOT) {
+    add_dot(pixel, discs, i, splat);
+    return;
   }
+  const float factor = discs->factor[i], across = discs->across[i];
+  DiscRows of_disc;
+  fill_rows_of_disc(discs->along[i], factor, discs->cut2[i], rows, &of_disc);
+  if (columns == 8)
+    add_eight_columns(pixel, across, factor, &of_disc, rows, splat);
+  else
+    add_sixteen_columns(pixel, across, factor, &of_disc, rows, splat);
 }
 #endif

@@ -11,7 +11,7 @@
 #define FIFTEEN 15
 // Of those that are taken at pixels' centers, two eights of these.
 #define SIXTEEN 16
-// Where registers are wider, all beyond seven pixels wait (waiting.cl).
+// Where WIDEST_ALONE is less, all beyond seven pixels wait (waiting.cl).
 #if WIDEST_ALONE == SIXTEEN
 #define MIDDLE_SPLATS
 #endif
@@ -84,15 +84,46 @@ INLINED TwoEights grain_means(float across, float along, float per_sigma) {
   return of_axes;
 }
 
-// Means between seven pixels' edges, the first of which is `first` pixels from the center; the
-// eighth is 0.
+// Means between the edges of seven pixels along both axes, the first of which are so many pixels
+// from the center; the eighths are 0.
+#ifdef ROWS_OF_16
+INLINED TwoEights halves_of(float16 numbers) {
+  TwoEights halves;
+  halves.first = numbers.lo;
+  halves.second = numbers.hi;
+  return halves;
+}
+INLINED TwoEights seven_means_of_axes(float across, float along, float per_sigma) {
+  const float16 first = (float16)((float8)(across), (float8)(along));
+  const float16 edges = first + (float16)(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
+  const float16 within = error_function(edges * per_sigma);
+  return halves_of(within.s123456779abcdeff - within);
+}
+#else
 INLINED float8 seven_means_from(float first, float per_sigma) {
   const float8 within = error_function((first + (float8)(0, 1, 2, 3, 4, 5, 6, 7)) * per_sigma);
   return within.s12345677 - within;
 }
+INLINED TwoEights seven_means_of_axes(float across, float along, float per_sigma) {
+  TwoEights of_axes;
+  of_axes.first = seven_means_from(across, per_sigma);
+  of_axes.second = seven_means_from(along, per_sigma);
+  return of_axes;
+}
+#endif
 
 #ifdef MIDDLE_SPLATS
-// The same between fifteen; the sixteenth is 0.
+// The same between fifteen along one axis, the sixteenth of which is 0, and values at sixteen
+// centers.
+#ifdef ROWS_OF_16
+INLINED TwoEights fifteen_means(float first, float per_sigma) {
+  const float16 within = error_function((first + PATCH_LANES) * per_sigma);
+  return halves_of(within.s123456789abcdeff - within);
+}
+INLINED TwoEights sixteen_values(float first, float inverse) {
+  return halves_of(gaussian(first + PATCH_LANES, inverse));
+}
+#else
 INLINED TwoEights fifteen_means(float first, float per_sigma) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float8 a = error_function((first + ramp) * per_sigma);
@@ -102,7 +133,6 @@ INLINED TwoEights fifteen_means(float first, float per_sigma) {
   means.second = b.s12345677 - b;
   return means;
 }
-
 INLINED TwoEights sixteen_values(float first, float inverse) {
   const float8 ramp = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   TwoEights values;
@@ -110,6 +140,7 @@ INLINED TwoEights sixteen_values(float first, float inverse) {
   values.second = gaussian(first + (ramp + 8.0f), inverse);
   return values;
 }
+#endif
 
 // Both axes of a splat of up to sixteen pixels.
 INLINED void fill_middle(const NarrowSplats* narrow, int i, TwoEights* across, TwoEights* along) {
@@ -145,8 +176,10 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
   }
 #endif
   else {
-    across.first = seven_means_from(narrow->across[i], narrow->per_sigma[i]) * narrow->scale[i];
-    along.first = seven_means_from(narrow->along[i], narrow->per_sigma[i]);
+    const TwoEights axes =
+        seven_means_of_axes(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
+    across.first = axes.first * narrow->scale[i];
+    along.first = axes.second;
   }
   float of_rows[16];
   store_eight(along.first, of_rows);
@@ -190,10 +223,11 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
     add_grain(pixel, narrow, i, splat);
     return;
   }
+  const TwoEights axes =
+      seven_means_of_axes(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
   float of_rows[8];
-  store_eight(seven_means_from(narrow->along[i], narrow->per_sigma[i]), of_rows);
-  const float8 across =
-      seven_means_from(narrow->across[i], narrow->per_sigma[i]) * narrow->scale[i];
+  store_eight(axes.second, of_rows);
+  const float8 across = axes.first * narrow->scale[i];
   // Four rows or seven, without a loop that ends elsewhere for each splat.
   const float* along = of_rows;
   SUMMED_CHANNELS
@@ -207,15 +241,24 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
 }
 
 #ifdef MIDDLE_SPLATS
+#ifdef ROWS_OF_16
+#define MIDDLE_CHANNEL(c) const float16 light##c = sixteen * splat->summed[c]
+#define ADD_MIDDLE(c)                                     \
+  {                                                       \
+    float* const to = pixel + c * TILE_PIXELS;            \
+    store_patch(load_patch(to) + rows[k] * light##c, to); \
+  }
+#else
 #define MIDDLE_CHANNEL(c)                                 \
   const float8 left##c = across.first * splat->summed[c], \
                right##c = across.second * splat->summed[c]
-#define ADD_MIDDLE(c)                                           \
-  {                                                             \
-    float* const to = pixel + c * TILE_PIXELS;                  \
-    store_eight(load_eight(to) + shape * left##c, to);          \
-    store_eight(load_eight(to + 8) + shape * right##c, to + 8); \
+#define ADD_MIDDLE(c)                                             \
+  {                                                               \
+    float* const to = pixel + c * TILE_PIXELS;                    \
+    store_eight(load_eight(to) + rows[k] * left##c, to);          \
+    store_eight(load_eight(to + 8) + rows[k] * right##c, to + 8); \
   }
+#endif
 
 // Of up to sixteen pixels along both axes.
 INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
@@ -225,13 +268,15 @@ INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
   float rows[16];
   store_eight(along.first, rows);
   store_eight(along.second, rows + 8);
+#ifdef ROWS_OF_16
+  const float16 sixteen = (float16)(across.first, across.second);
+#endif
   MIDDLE_CHANNEL(0);
   MIDDLE_CHANNEL(1);
   MIDDLE_CHANNEL(2);
   float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
   const int count = narrow->rows[i];
   for (int k = 0; k < count; ++k, pixel += ROW) {
-    const float8 shape = (float8)(rows[k]);
     ADD_MIDDLE(0) ADD_MIDDLE(1) ADD_MIDDLE(2)
   }
 }

@@ -29,9 +29,11 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
   clear_waiting(waiting);
 }
 
-// Splats up to so many pixels are drawn row by row. Patches of layers, and of narrow registers,
-// have so few pixels that splats which are not cut fill too few of them.
-#if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED))
+// Splats up to so many pixels are drawn row by row, of those whose rows have no loop over columns
+// (narrow_splats.cl): in patches they would fill too few pixels. Discs have their own
+// (narrow_discs.cl).
+#if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED) && \
+                            (defined(ELLIPSES) || defined(FINE_PLACES) || SUMMED == 6))
 #define WIDEST_ALONE 7
 #else
 #define WIDEST_ALONE 16
