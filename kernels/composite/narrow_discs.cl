@@ -20,10 +20,10 @@ typedef struct NarrowDiscs {
 INLINED void find_narrow_discs(__global const TileSplat* entries, const EntryWindows* windows,
                                NarrowDiscs* discs) {
   const VALUE sigma = OF_ENTRIES(entries, sigma), radius = OF_ENTRIES(entries, radius);
-  const INTEGER first_column = vload8(0, windows->first_column);
-  const INTEGER first_row = vload8(0, windows->first_row);
-  const INTEGER last_row = vload8(0, windows->last_row);
-  const INTEGER width = vload8(0, windows->last_column) - first_column + 1;
+  const INTEGER first_column = load_eight_integers(windows->first_column);
+  const INTEGER first_row = load_eight_integers(windows->first_row);
+  const INTEGER last_row = load_eight_integers(windows->last_row);
+  const INTEGER width = load_eight_integers(windows->last_column) - first_column + 1;
   const INTEGER widest = max(width, last_row - first_row + 1);
   const INTEGER fits = (widest <= 16) & (sigma > 0.0f);
   const INTEGER is_dot = widest <= DOT;

@@ -47,10 +47,10 @@ INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
 INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_sigma,
                                 const EntryWindows* windows, NarrowSplats* narrow) {
   const VALUE sigma = OF_ENTRIES(entries, sigma);
-  const INTEGER first_column = vload8(0, windows->first_column);
-  const INTEGER first_row = vload8(0, windows->first_row);
-  const INTEGER last_row = vload8(0, windows->last_row);
-  const INTEGER last_column = vload8(0, windows->last_column);
+  const INTEGER first_column = load_eight_integers(windows->first_column);
+  const INTEGER first_row = load_eight_integers(windows->first_row);
+  const INTEGER last_row = load_eight_integers(windows->last_row);
+  const INTEGER last_column = load_eight_integers(windows->last_column);
   const INTEGER touched = max(last_column - first_column, last_row - first_row) + 1;
   const INTEGER pixels = narrow_windows(sigma, touched, mean_sigma);
   const INTEGER x = min(first_column, TILE_WIDTH - pixels);

@@ -69,7 +69,7 @@ INLINED void add_stencil(float* tile, StencilBatch* batch, int i, __global const
   const StencilOfWidth of_width = stencil_of_width(stencil, batch->width[i], 0);
   const int first_column = batch->column[i], first_row = batch->row[i];
   const float8 weights = stencil_weights(of_width, batch->across[i], batch->across2[i]);
-  const int8 in_tile = vload8(0, batch->in_tile + STENCIL_PIXELS + first_column);
+  const int8 in_tile = load_eight_integers(batch->in_tile + STENCIL_PIXELS + first_column);
   const float8 across = as_float8(as_int8(weights) & in_tile);
   store_eight(stencil_weights(of_width, batch->along[i], batch->along2[i]),
               batch->of_rows + STENCIL_PIXELS);

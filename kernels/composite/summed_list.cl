@@ -38,8 +38,9 @@ INLINED EntryKinds kinds_of(__global const TileSplat* entries, uint count,
                             const EntryWindows* windows, const INTEGER narrow STENCIL_PARAMETER) {
   const INTEGER bits = (INTEGER)(1, 2, 4, 8, 16, 32, 64, 128);
   const INTEGER is_there = NUMBERS_OF_LANES < (INTEGER)((int)min(count, (uint)LANES));
-  INTEGER touches = (vload8(0, windows->first_row) <= vload8(0, windows->last_row)) &
-                    (vload8(0, windows->first_column) <= vload8(0, windows->last_column));
+  INTEGER touches =
+      (load_eight_integers(windows->first_row) <= load_eight_integers(windows->last_row)) &
+      (load_eight_integers(windows->first_column) <= load_eight_integers(windows->last_column));
   INTEGER kinds = bits;
 #ifdef NARROW_SPLATS
   kinds |= (bits << 8) & (narrow > (INTEGER)(0)) & (narrow <= (INTEGER)(SEVEN));
@@ -84,11 +85,11 @@ INLINED EntryKinds find_batch(__global const TileSplat* entries, uint count, flo
   INTEGER narrow = (INTEGER)(0);
 #ifdef NARROW_SPLATS
   find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
-  narrow = vload8(0, batch->narrow.pixels);
+  narrow = load_eight_integers(batch->narrow.pixels);
 #endif
 #ifdef NARROW_DISCS
   find_narrow_discs(entries, &batch->windows, &batch->discs);
-  narrow = vload8(0, batch->discs.columns);
+  narrow = load_eight_integers(batch->discs.columns);
 #endif
   const EntryKinds kinds = kinds_of(entries, count, &batch->windows, narrow STENCIL_ARGUMENT);
 #ifdef STENCILS
