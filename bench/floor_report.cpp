@@ -64,10 +64,15 @@ std::vector<std::string> cells_of(const StageFloor& floor, double measured, doub
           goal};
 }
 
-std::string work_of(const ListWork& work, const char* plan) {
+std::string work_of(const ListWork& work, const char* plan, const PatchSize& patch = {}) {
   if (work.entries == 0) return "";
-  return std::string(plan) + ": " + fixed(1e-6 * work.entries, 2) + " M entries, " +
-         fixed(1e-6 * work.row_parts, 1) + " M row parts\n";
+  std::string text = std::string(plan) + ": " + fixed(1e-6 * work.entries, 2) + " M entries, " +
+                     fixed(1e-6 * work.row_parts, 1) + " M row parts";
+  if (patch.width > 0) {
+    text += "; discs wider than 16 pixels reach into " + fixed(1e-6 * work.patches, 1) +
+            " M patches of " + fixed(patch.width, 0) + "x" + fixed(patch.height, 0) + " pixels";
+  }
+  return text + "\n";
 }
 
 std::string heading_of(const FrameFloors& frame) {
@@ -76,7 +81,8 @@ std::string heading_of(const FrameFloors& frame) {
          (frame.drawings == 1 ? "once" : std::to_string(frame.drawings) + " times") +
          "; memory gives " + fixed(1e-9 * rates.memory_bandwidth, 1) + " GB/s, arrays of " +
          fixed(1e-6 * chunk_bytes(frame.counts), 0) + " MB " +
-         fixed(1e-9 * rates.chunk_bandwidth, 1) + " GB/s\n" + work_of(frame.counts.summed, "sums") +
+         fixed(1e-9 * rates.chunk_bandwidth, 1) + " GB/s\n" +
+         work_of(frame.counts.summed, "sums", frame.counts.patch) +
          work_of(frame.counts.layered, "layers") + fixed(1e-9 * multiply_adds_of(frame.counts), 1) +
          " G multiply-adds, of which registers do " + fixed(1e-9 * rates.multiply_adds, 0) +
          " G/s\n\n";

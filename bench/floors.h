@@ -23,6 +23,12 @@ namespace splotchcl::bench {
 // splats.
 struct ListWork {
   double entries = 0, row_parts = 0;
+  double patches = 0;  // that wide discs reach into
+};
+
+// Pixels of a tile that stay in registers while the wide splats of a sum are added to them.
+struct PatchSize {
+  double width = 0, height = 0;
 };
 
 // What a frame gave its stages to do. Bytes are those of one.
@@ -36,6 +42,7 @@ struct FrameCounts {
   double splat_bytes = 0;
   ListWork layered;  // in order
   ListWork summed;   // of sums, and of the coarse grids of slabs
+  PatchSize patch;   // of sums of a kernel that is cut, on a processor
   double entry_bytes = 0;
   double key_bytes = 0;  // of a splat's key, its end included
   double pixels = 0;

@@ -20,6 +20,20 @@ double pixels_within(double place, double reach, double size) {
   return std::max(0.0, last - first + 1);
 }
 
+// Squares of how near the nearest pixel's center of each of a tile's strips, so many pixels wide,
+// is to a place.
+std::vector<double> nearest_squares(double place, double size, double strip) {
+  std::vector<double> squares;
+  for (double first = 0; first < size; first += strip) {
+    const double low = first + 0.5 - size / 2 - place, high = low + strip - 1;
+    const double nearest = std::max({0.0, low, -high});
+    squares.push_back(nearest * nearest);
+  }
+  return squares;
+}
+
+constexpr double widest_without_patches = 16;
+
 // Makes the lists of a frame one after the other, and looks at what they hold.
 class ListReader {
  public:
@@ -66,7 +80,7 @@ class ListReader {
         ListWork& work = is_layered(tile) ? counts.layered : counts.summed;
         work.entries += counted.lengths[tile];
         for (std::uint32_t i = 0; i < counted.lengths[tile]; ++i, entry += entry_bytes)
-          work.row_parts += row_parts_of(entry);
+          add_entry(entry, counts.patch, work);
       }
     }
   }
@@ -77,12 +91,14 @@ class ListReader {
     return plan_.needs_sort() && (grids.size() == 1 || tile < grids[1].first_tile);
   }
 
-  double row_parts_of(const std::byte* entry) const {
-    if (plan_.is_extended()) return 0;
+  void add_entry(const std::byte* entry, const PatchSize& patch, ListWork& work) const {
+    if (plan_.is_extended()) return;
     float shape[4];  // x, y, sigma, radius (bin.h)
     std::memcpy(shape, entry, sizeof(shape));
-    return bench::row_parts_of({shape[0], shape[1], shape[3]}, specialization().tile_width(),
-                               specialization().tile_height());
+    const Disc disc = {shape[0], shape[1], shape[3]};
+    const double width = specialization().tile_width(), height = specialization().tile_height();
+    work.row_parts += row_parts_of(disc, width, height);
+    if (patch.width > 0) work.patches += patches_of(disc, width, height, patch);
   }
 
   DeviceContext& device_;
@@ -90,6 +106,16 @@ class ListReader {
   ParticleStore store_;
   Pipeline pipeline_;
 };
+
+// As patch.cl has them.
+bool takes_patches(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits) {
+  return traits.rows && frame.kernel.cut && frame.kernel.sampling == Sampling::center &&
+         !plan.needs_sort() && !plan.is_extended();
+}
+PatchSize patch_of(const DeviceTraits& traits) {
+  if (traits.rows_of_16) return {16, 8};
+  return {8, 4};
+}
 
 }  // namespace
 
@@ -106,6 +132,22 @@ double row_parts_of(const Disc& disc, double tile_width, double tile_height) {
     parts += std::ceil(pixels_within(x, across, tile_width) / 8);
   }
   return parts;
+}
+
+double patches_of(const Disc& disc, double tile_width, double tile_height, const PatchSize& patch) {
+  const auto x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
+  const auto radius = static_cast<double>(disc.radius);
+  if (radius < 0) return 0;
+  const double columns = pixels_within(x, radius, tile_width);
+  const double rows = pixels_within(y, radius, tile_height);
+  if (columns <= widest_without_patches && rows <= widest_without_patches) return 0;
+  const std::vector<double> across = nearest_squares(x, tile_width, patch.width);
+  double patches = 0;
+  for (const double along : nearest_squares(y, tile_height, patch.height)) {
+    for (const double square : across)
+      patches += square + along <= radius * radius;
+  }
+  return patches;
 }
 
 FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
@@ -127,6 +169,7 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
   counts.key_bytes = sizeof(std::uint32_t) + (by_depth ? sizeof(std::uint16_t) : 0);
   counts.pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
   counts.planes = specialization.planes();
+  if (takes_patches(frame, plan, device.traits)) counts.patch = patch_of(device.traits);
   ListReader(device, frame, plan).read(counts);
   return counts;
 }

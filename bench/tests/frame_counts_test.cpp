@@ -52,5 +52,24 @@ TEST(RowParts, ADiscBesideTheTileAndASplatThatIsOnlyListedHaveNone) {
   EXPECT_EQ(row_parts_of({0, 0, -5}, 32, 32), 0);
 }
 
+TEST(Patches, AWideDiscHasNoneInTheCornersOfItsSquare) {
+  // Six rows of the two middle columns, four of the outer ones.
+  EXPECT_EQ(patches_of({0, 0, 20}, 64, 64, {16, 8}), 2 * 6 + 2 * 4);
+}
+
+TEST(Patches, ADiscThatCoversTheTileHasAllOfThem) {
+  EXPECT_EQ(patches_of({3, -2, 100}, 64, 32, {8, 4}), 64);
+}
+
+TEST(Patches, ADiscOfSixteenPixelsInTheTileHasNone) {
+  EXPECT_EQ(patches_of({0, 0, 8}, 64, 32, {16, 8}), 0);
+  EXPECT_EQ(patches_of({0, 0, 9}, 64, 32, {16, 8}), 2 * 4);
+}
+
+TEST(Patches, ADiscBesideTheTileAndASplatThatIsOnlyListedHaveNone) {
+  EXPECT_EQ(patches_of({80, 0, 30}, 64, 32, {16, 8}), 0);
+  EXPECT_EQ(patches_of({0, 0, -20}, 64, 32, {16, 8}), 0);
+}
+
 }  // namespace
 }  // namespace splotchcl::bench
