@@ -107,10 +107,11 @@ class ListReader {
   Pipeline pipeline_;
 };
 
-// As patch.cl has them.
-bool takes_patches(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits) {
+// As patch.cl has them for three planes, and narrow_discs.cl leaves discs to them.
+bool takes_patches(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
+                   const DeviceTraits& traits) {
   return traits.rows && frame.kernel.cut && frame.kernel.sampling == Sampling::center &&
-         !plan.needs_sort() && !plan.is_extended();
+         specialization.planes() == 3 && !plan.needs_sort() && !plan.is_extended();
 }
 PatchSize patch_of(const DeviceTraits& traits) {
   if (traits.rows_of_16) return {16, 8};
@@ -169,7 +170,8 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
   counts.key_bytes = sizeof(std::uint32_t) + (by_depth ? sizeof(std::uint16_t) : 0);
   counts.pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
   counts.planes = specialization.planes();
-  if (takes_patches(frame, plan, device.traits)) counts.patch = patch_of(device.traits);
+  if (takes_patches(frame, plan, specialization, device.traits))
+    counts.patch = patch_of(device.traits);
   ListReader(device, frame, plan).read(counts);
   return counts;
 }
