@@ -114,15 +114,18 @@ static inline uint or_of_lanes(INTEGER bits) {
 #ifdef __clang__
 typedef float8 __attribute__((aligned(4))) Eight;
 typedef int8 __attribute__((aligned(4))) EightIntegers;
+typedef float4 __attribute__((aligned(4))) Four;
 #define load_eight(p) (*(const Eight*)(p))
 #define load_eight_integers(p) (*(const EightIntegers*)(p))
 #define store_eight(v, p) (*(Eight*)(p) = (v))
 #define load_global_eight(p) (*(__global const Eight*)(p))
+#define load_global_four(p) (*(__global const Four*)(p))
 #define store_global_eight(v, p) (*(__global Eight*)(p) = (v))
 #else
 #define load_eight(p) vload8(0, p)
 #define load_eight_integers(p) vload8(0, p)
 #define store_eight(v, p) vstore8(v, 0, p)
 #define load_global_eight load_eight
+#define load_global_four(p) vload4(0, p)
 #define store_global_eight store_eight
 #endif

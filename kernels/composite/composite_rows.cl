@@ -14,7 +14,7 @@ __attribute__((noinline)) static void composite_segment(
   float* const tile = memory_of_tile + BEFORE_TILE;
   clear_planes(tile);
   draw_list(tile, segment, &place, grids + number, number, entries, partials,
-            &parameters CLOUDS_ARGUMENTS STENCIL_ARGUMENTS);
+            &parameters CLOUDS_ARGUMENTS STENCIL_ARGUMENTS, lanes);
 }
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,

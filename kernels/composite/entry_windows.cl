@@ -1,8 +1,42 @@
-// The rows and columns of their tile that eight entries of a list touch, all at once: to find those
-// of one takes a processor as long as to draw a small splat, since each step waits for the last.
+// Entries of a list that are looked at before they are drawn: in order eight, in sums as many as
+// are drawn kind by kind (summed_list.cl), and room for eight more.
+#ifdef LIGHT_ORDERED
+#define ROOM_OF_ENTRIES LANES
+#else
+#define ENTRIES_OF_GROUP 64
+#define ROOM_OF_ENTRIES (ENTRIES_OF_GROUP + LANES)
+#endif
+
+// What all entries begin with (bin.h).
+typedef struct EntryLanes {
+  VALUE x, y, sigma, radius;
+} EntryLanes;
+
+INLINED float8 first_fields(__global const TileSplat* a, __global const TileSplat* b) {
+  return (float8)(load_global_four(&a->x), load_global_four(&b->x));
+}
+
+// Entry by entry to field by field: gathered one by one they take twice as many instructions.
+INLINED EntryLanes load_entries(__global const TileSplat* entries) {
+  const float8 a = first_fields(entries, entries + 4), b = first_fields(entries + 1, entries + 5);
+  const float8 c = first_fields(entries + 2, entries + 6),
+               d = first_fields(entries + 3, entries + 7);
+  const float8 xy_ab = first_words(a, b), xy_cd = first_words(c, d);
+  const float8 widths_ab = last_words(a, b), widths_cd = last_words(c, d);
+  EntryLanes lanes;
+  lanes.x = first_pairs(xy_ab, xy_cd);
+  lanes.y = last_pairs(xy_ab, xy_cd);
+  lanes.sigma = first_pairs(widths_ab, widths_cd);
+  lanes.radius = last_pairs(widths_ab, widths_cd);
+  return lanes;
+}
+
+// The rows and columns of their tile that entries touch, found for eight of them at once: to find
+// those of one takes a processor as long as to draw a small splat, since each step waits for the
+// last.
 typedef struct EntryWindows {
-  int first_row[LANES], last_row[LANES];
-  int first_column[LANES], last_column[LANES];
+  int first_row[ROOM_OF_ENTRIES], last_row[ROOM_OF_ENTRIES];
+  int first_column[ROOM_OF_ENTRIES], last_column[ROOM_OF_ENTRIES];
 } EntryWindows;
 
 // pixel_range() of common.cl, of eight.
@@ -18,20 +52,21 @@ INLINED void fill_range(VALUE center, VALUE radius, float first_center, int size
   STORE(truncated_to + (TO_VALUE(truncated_to) > to), last);
 }
 
-INLINED void find_windows(__global const TileSplat* entries, EntryWindows* windows) {
-  const VALUE radius = OF_ENTRIES(entries, radius);
+// Of eight entries, numbers `at` and on.
+INLINED void find_windows(const EntryLanes lanes, __global const TileSplat* entries, uint at,
+                          EntryWindows* windows) {
 #ifdef ELLIPSES
   const VALUE radius_x = OF_ENTRIES(entries, along_x.radius);
 #else
-  const VALUE radius_x = radius;
+  const VALUE radius_x = lanes.radius;
 #endif
-  fill_range(OF_ENTRIES(entries, y), radius, FIRST_Y, TILE_HEIGHT, windows->first_row,
-             windows->last_row);
-  fill_range(OF_ENTRIES(entries, x), radius_x, FIRST_X, TILE_WIDTH, windows->first_column,
-             windows->last_column);
+  fill_range(lanes.y, lanes.radius, FIRST_Y, TILE_HEIGHT, windows->first_row + at,
+             windows->last_row + at);
+  fill_range(lanes.x, radius_x, FIRST_X, TILE_WIDTH, windows->first_column + at,
+             windows->last_column + at);
 }
 
-#define ENTRIES_AHEAD 32
+#define ENTRIES_AHEAD 96
 
 static inline int2 rows_of_entry(const EntryWindows* windows, int i) {
   return (int2)(windows->first_row[i], windows->last_row[i]);

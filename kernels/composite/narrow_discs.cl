@@ -8,22 +8,24 @@
 #define DOT 4
 #define ROWS_OF_DOT 2
 
+#define SMALLEST DOT
+#define SMALL 8
 typedef struct NarrowDiscs {
-  int columns[LANES];      // of the window: DOT, 8, 16, or 0 of other splats
-  int x[LANES], y[LANES];  // its first pixel
-  int rows[LANES];
-  float across[LANES], along[LANES];  // of its center from the splat's
-  float factor[LANES];                // of squares of distances, for an exponent of 2
-  float cut2[LANES];
+  int columns[ROOM_OF_ENTRIES];                // of the window: DOT, 8, 16, or 0 of other splats
+  int x[ROOM_OF_ENTRIES], y[ROOM_OF_ENTRIES];  // its first pixel
+  int rows[ROOM_OF_ENTRIES];
+  float across[ROOM_OF_ENTRIES], along[ROOM_OF_ENTRIES];  // of its center from the splat's
+  float factor[ROOM_OF_ENTRIES];  // of squares of distances, for an exponent of 2
+  float cut2[ROOM_OF_ENTRIES];
 } NarrowDiscs;
 
-INLINED void find_narrow_discs(__global const TileSplat* entries, const EntryWindows* windows,
-                               NarrowDiscs* discs) {
-  const VALUE sigma = OF_ENTRIES(entries, sigma), radius = OF_ENTRIES(entries, radius);
-  const INTEGER first_column = load_eight_integers(windows->first_column);
-  const INTEGER first_row = load_eight_integers(windows->first_row);
-  const INTEGER last_row = load_eight_integers(windows->last_row);
-  const INTEGER width = load_eight_integers(windows->last_column) - first_column + 1;
+INLINED INTEGER find_narrow_discs(const EntryLanes lanes, uint at, const EntryWindows* windows,
+                                  NarrowDiscs* discs) {
+  const VALUE sigma = lanes.sigma, radius = lanes.radius;
+  const INTEGER first_column = load_eight_integers(windows->first_column + at);
+  const INTEGER first_row = load_eight_integers(windows->first_row + at);
+  const INTEGER last_row = load_eight_integers(windows->last_row + at);
+  const INTEGER width = load_eight_integers(windows->last_column + at) - first_column + 1;
   const INTEGER widest = max(width, last_row - first_row + 1);
   const INTEGER fits = (widest <= 16) & (sigma > 0.0f);
   const INTEGER is_dot = widest <= DOT;
@@ -32,20 +34,25 @@ INLINED void find_narrow_discs(__global const TileSplat* entries, const EntryWin
   const INTEGER x = min(first_column, TILE_WIDTH - columns);
   // All rows of a dot are drawn, whether it touches them or not.
   const INTEGER y = select(first_row, min(first_row, TILE_HEIGHT - DOT), is_dot);
-  STORE(columns & fits, discs->columns);
-  STORE(x, discs->x);
-  STORE(y, discs->y);
-  STORE(last_row - y + 1, discs->rows);
-  STORE(TO_VALUE(x) + FIRST_X - OF_ENTRIES(entries, x), discs->across);
-  STORE(TO_VALUE(y) + FIRST_Y - OF_ENTRIES(entries, y), discs->along);
-  STORE(-1.44269504f / (sigma * sigma), discs->factor);
-  STORE(radius * radius, discs->cut2);
+  STORE(columns & fits, discs->columns + at);
+  STORE(x, discs->x + at);
+  STORE(y, discs->y + at);
+  STORE(last_row - y + 1, discs->rows + at);
+  STORE(TO_VALUE(x) + FIRST_X - lanes.x, discs->across + at);
+  STORE(TO_VALUE(y) + FIRST_Y - lanes.y, discs->along + at);
+  STORE(-1.44269504f / (sigma * sigma), discs->factor + at);
+  STORE(radius * radius, discs->cut2 + at);
+  return columns & fits;
 }
 
 // The rows of a disc: the shape along them, and the largest squares of distances along columns.
 typedef struct DiscRows {
   float along[16], limits[16];
 } DiscRows;
+
+INLINED float* first_pixel_of_disc(float* tile, const NarrowDiscs* discs, int i) {
+  return tile + discs->y[i] * ROW + discs->x[i];
+}
 
 #define LIGHT_OF(VECTOR)                                                               \
   const VECTOR light0 = across * splat->summed[0], light1 = across * splat->summed[1], \
@@ -58,8 +65,9 @@ typedef struct DiscRows {
     const float4 shape = select((float4)(along[k]), (float4)(0.0f), squares > limits[k]); \
     ADD_DOT(0) ADD_DOT(1) ADD_DOT(2)                                                      \
   }
-INLINED void add_dot(float* pixel, const NarrowDiscs* discs, int i,
+INLINED void add_dot(float* tile, const NarrowDiscs* discs, int i,
                      __global const TileSplat* splat) {
+  float* pixel = first_pixel_of_disc(tile, discs, i);
   const float8 first = (float8)((float4)(discs->across[i]), (float4)(discs->along[i]));
   const float8 distance = first + (float8)(0, 1, 2, 3, 0, 1, 2, 3), square = distance * distance;
   const float8 shapes = exp2_negative(square * discs->factor[i]);
@@ -128,20 +136,22 @@ INLINED void add_sixteen_columns(float* pixel, float first, float factor, const 
 }
 #endif
 
-INLINED void add_narrow_disc(float* tile, const NarrowDiscs* discs, int i,
-                             __global const TileSplat* splat) {
-  float* const pixel = tile + discs->y[i] * ROW + discs->x[i];
-  const int columns = discs->columns[i], rows = discs->rows[i];
-  if (columns == DOT) {
-    add_dot(pixel, discs, i, splat);
-    return;
-  }
-  const float factor = discs->factor[i], across = discs->across[i];
+INLINED void add_disc_of_eight(float* tile, const NarrowDiscs* discs, int i,
+                               __global const TileSplat* splat) {
+  const float factor = discs->factor[i];
+  const int rows = discs->rows[i];
   DiscRows of_disc;
   fill_rows_of_disc(discs->along[i], factor, discs->cut2[i], rows, &of_disc);
-  if (columns == 8)
-    add_eight_columns(pixel, across, factor, &of_disc, rows, splat);
-  else
-    add_sixteen_columns(pixel, across, factor, &of_disc, rows, splat);
+  add_eight_columns(first_pixel_of_disc(tile, discs, i), discs->across[i], factor, &of_disc, rows,
+                    splat);
+}
+INLINED void add_disc_of_sixteen(float* tile, const NarrowDiscs* discs, int i,
+                                 __global const TileSplat* splat) {
+  const float factor = discs->factor[i];
+  const int rows = discs->rows[i];
+  DiscRows of_disc;
+  fill_rows_of_disc(discs->along[i], factor, discs->cut2[i], rows, &of_disc);
+  add_sixteen_columns(first_pixel_of_disc(tile, discs, i), discs->across[i], factor, &of_disc, rows,
+                      splat);
 }
 #endif

@@ -23,14 +23,16 @@
 #define WHOLE_WINDOW SEVEN
 #endif
 
+#define SMALLEST GRAIN
+#define SMALL SEVEN
 typedef struct NarrowSplats {
-  int pixels[LANES];                // of the window along both axes, or 0
-  int x[LANES], y[LANES];           // its first pixel
-  int columns[LANES], rows[LANES];  // that the splat touches from there on
+  int pixels[ROOM_OF_ENTRIES];                          // of the window along both axes, or 0
+  int x[ROOM_OF_ENTRIES], y[ROOM_OF_ENTRIES];           // its first pixel
+  int columns[ROOM_OF_ENTRIES], rows[ROOM_OF_ENTRIES];  // that the splat touches from there on
   // Its first edges, or centers, from the splat's center, in pixels: widths divide them when an
   // edge may be at the center, which is to stay there.
-  float across[LANES], along[LANES], per_sigma[LANES];
-  float scale[LANES];  // of the product of both axes
+  float across[ROOM_OF_ENTRIES], along[ROOM_OF_ENTRIES], per_sigma[ROOM_OF_ENTRIES];
+  float scale[ROOM_OF_ENTRIES];  // of the product of both axes
 } NarrowSplats;
 
 INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
@@ -44,29 +46,31 @@ INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
 #endif
 }
 
-INLINED void find_narrow_splats(__global const TileSplat* entries, float mean_sigma,
-                                const EntryWindows* windows, NarrowSplats* narrow) {
-  const VALUE sigma = OF_ENTRIES(entries, sigma);
-  const INTEGER first_column = load_eight_integers(windows->first_column);
-  const INTEGER first_row = load_eight_integers(windows->first_row);
-  const INTEGER last_row = load_eight_integers(windows->last_row);
-  const INTEGER last_column = load_eight_integers(windows->last_column);
+// Of eight entries, numbers `at` and on; returns their pixels.
+INLINED INTEGER find_narrow_splats(const EntryLanes lanes, uint at, float mean_sigma,
+                                   const EntryWindows* windows, NarrowSplats* narrow) {
+  const VALUE sigma = lanes.sigma;
+  const INTEGER first_column = load_eight_integers(windows->first_column + at);
+  const INTEGER first_row = load_eight_integers(windows->first_row + at);
+  const INTEGER last_row = load_eight_integers(windows->last_row + at);
+  const INTEGER last_column = load_eight_integers(windows->last_column + at);
   const INTEGER touched = max(last_column - first_column, last_row - first_row) + 1;
   const INTEGER pixels = narrow_windows(sigma, touched, mean_sigma);
   const INTEGER x = min(first_column, TILE_WIDTH - pixels);
   const INTEGER y =
       select(min(first_row, TILE_HEIGHT - pixels), first_row, pixels > (INTEGER)(WHOLE_WINDOW));
-  STORE(pixels, narrow->pixels);
-  STORE(x, narrow->x);
-  STORE(y, narrow->y);
-  STORE(last_column - x + 1, narrow->columns);
-  STORE(last_row - y + 1, narrow->rows);
+  STORE(pixels, narrow->pixels + at);
+  STORE(x, narrow->x + at);
+  STORE(y, narrow->y + at);
+  STORE(last_column - x + 1, narrow->columns + at);
+  STORE(last_row - y + 1, narrow->rows + at);
   const VALUE to_first = choose((VALUE)(-0.5f), (VALUE)(0.0f), pixels == SIXTEEN);
-  STORE(TO_VALUE(x) + FIRST_X + to_first - OF_ENTRIES(entries, x), narrow->across);
-  STORE(TO_VALUE(y) + FIRST_Y + to_first - OF_ENTRIES(entries, y), narrow->along);
-  STORE(1.0f / sigma, narrow->per_sigma);
+  STORE(TO_VALUE(x) + FIRST_X + to_first - lanes.x, narrow->across + at);
+  STORE(TO_VALUE(y) + FIRST_Y + to_first - lanes.y, narrow->along + at);
+  STORE(1.0f / sigma, narrow->per_sigma + at);
   const VALUE of_means = sigma * sigma * (PIXEL_MEAN_SCALE * PIXEL_MEAN_SCALE);
-  STORE(choose(of_means, (VALUE)(1.0f), pixels == SIXTEEN), narrow->scale);
+  STORE(choose(of_means, (VALUE)(1.0f), pixels == SIXTEEN), narrow->scale + at);
+  return pixels;
 }
 
 typedef struct TwoEights {
@@ -202,8 +206,9 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
     ADD_CHANNELS                           \
   }
 
-INLINED void add_grain(float* pixel, const NarrowSplats* narrow, int i,
+INLINED void add_grain(float* tile, const NarrowSplats* narrow, int i,
                        __global const TileSplat* splat) {
+  float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
   const TwoEights axes = grain_means(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
   float of_rows[8];
   store_eight(axes.second, of_rows);
@@ -216,13 +221,9 @@ INLINED void add_grain(float* pixel, const NarrowSplats* narrow, int i,
 }
 
 // Of at most seven pixels along both axes.
-INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
-                              __global const TileSplat* splat) {
+INLINED void add_seven(float* tile, const NarrowSplats* narrow, int i,
+                       __global const TileSplat* splat) {
   float* pixel = tile + narrow->y[i] * ROW + narrow->x[i];
-  if (narrow->pixels[i] == GRAIN) {
-    add_grain(pixel, narrow, i, splat);
-    return;
-  }
   const TwoEights axes =
       seven_means_of_axes(narrow->across[i], narrow->along[i], narrow->per_sigma[i]);
   float of_rows[8];

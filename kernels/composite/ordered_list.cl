@@ -121,9 +121,10 @@ typedef struct LayerBatch {
 } LayerBatch;
 
 INLINED void find_layers(__global const TileSplat* entries, float mean_sigma, LayerBatch* batch) {
-  find_windows(entries, &batch->windows);
+  const EntryLanes lanes = load_entries(entries);
+  find_windows(lanes, entries, 0, &batch->windows);
 #ifdef NARROW_SPLATS
-  find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
+  find_narrow_splats(lanes, 0, mean_sigma, &batch->windows, &batch->narrow);
 #endif
 }
 
@@ -142,7 +143,7 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
   const int2 columns = columns_of_entry(&batch->windows, in_batch);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   const int form = form_of_splat(entry, block.of_tile, block.depth, p);
-  if (let_wait(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form)) return 1;
+  if (let_wait_if_it_does(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form)) return 1;
 #ifdef NARROW_SPLATS
   if (batch->narrow.pixels[in_batch] != 0) {
     add_narrow_splat(block.tile, &batch->narrow, in_batch, entry, form);
@@ -158,7 +159,8 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
 INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* place,
                        __global const Grid* grid, uint grid_number,
                        __global const TileSplat* entries, __global float* partials,
-                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
+                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS,
+                       PATCH lanes) {
   const SplatTile of_tile = splat_tile(*grid, segment.tile, p);
   // Most lists of a large frame's many chunks: they need no front of their own.
   const int is_one_block =

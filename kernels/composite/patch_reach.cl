@@ -9,11 +9,17 @@
 #error "columns of patches and words of splats are taken in eights and whole words"
 #endif
 
-// Bits of 32 splats in each word, words of eight rows together.
+// Bits of 32 splats in each word. Where a register holds a word for each patch, one comparison
+// finds all that a disc reaches into, else words of eight rows are together.
 #define WORDS_OF_SPLATS (MOST_SHAPES / 32)
-#define EIGHTS_OF_ROWS ((PATCH_ROWS + 7) / 8)
+#if defined(ROWS_OF_16) && PATCH_COLUMNS * PATCH_ROWS == 16
+#define REACH_IN_ONE
+#define ROWS_OF_WORDS PATCH_ROWS
+#else
+#define ROWS_OF_WORDS ((PATCH_ROWS + 7) / 8 * 8)
+#endif
 typedef struct PatchReach {
-  uint8 touched[WORDS_OF_SPLATS][PATCH_COLUMNS][EIGHTS_OF_ROWS];
+  uint touched[WORDS_OF_SPLATS][PATCH_COLUMNS][ROWS_OF_WORDS] __attribute__((aligned(64)));
 } PatchReach;
 
 static inline void clear_reach(PatchReach* reach) {
@@ -31,38 +37,52 @@ static inline void clear_reach(PatchReach* reach) {
 
 // How near the nearest of some pixels is to a splat's center, from how far the first and the last
 // of them are.
-INLINED float8 nearest_of(float8 first, float8 last) {
-  return max(max(first, -last) - BESIDE_PIXEL, 0.0f);
-}
+#define NEAREST_OF(first, last) max(max(first, -(last)) - BESIDE_PIXEL, 0.0f)
 
 // Sets the bit of splat `number` of these axes, cut at this radius, squared. Squares of distances
 // are tested as those of pixels are, so that no pixel that is drawn is missed.
+#ifdef REACH_IN_ONE
+INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, const AxisOfSplats* y,
+                       float cut2, float squeeze) {
+  const int16 patch = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const float16 left = convert_float16(patch / PATCH_ROWS * PATCH_WIDTH) + FIRST_X;
+  const float16 top = convert_float16(patch % PATCH_ROWS * PATCH_HEIGHT) + FIRST_Y;
+  const float16 near_x = NEAREST_OF(DISTANCE_ALONG(x, number, left),
+                                    DISTANCE_ALONG(x, number, left + (float)(PATCH_WIDTH - 1)));
+  const float16 near_y = NEAREST_OF(DISTANCE_ALONG(y, number, top),
+                                    DISTANCE_ALONG(y, number, top + (float)(PATCH_HEIGHT - 1)));
+  const int16 reached = SQUEEZED(near_x) * SQUEEZED(near_x) <= cut2 - near_y * near_y;
+  uint16* const words = (uint16*)reach->touched[number / 32];
+  *words |= as_uint16(reached) & (uint16)(1u << number % 32);
+}
+#else
 INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, const AxisOfSplats* y,
                        float cut2, float squeeze) {
   const float8 each = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
   const float8 left = each * (float)PATCH_WIDTH + FIRST_X;
-  const float8 near_x = nearest_of(DISTANCE_ALONG(x, number, left),
+  const float8 near_x = NEAREST_OF(DISTANCE_ALONG(x, number, left),
                                    DISTANCE_ALONG(x, number, left + (float)(PATCH_WIDTH - 1)));
   float squares[8];
   store_eight(SQUEEZED(near_x) * SQUEEZED(near_x), squares);
   const uint word = number / 32;
   const uint8 bit = (uint8)(1u << number % 32);
-  for (int eight = 0; eight < EIGHTS_OF_ROWS; ++eight) {
-    const float8 top = (each + (float)(8 * eight)) * (float)PATCH_HEIGHT + FIRST_Y;
-    const float8 near_y = nearest_of(DISTANCE_ALONG(y, number, top),
+  for (int row = 0; row < ROWS_OF_WORDS; row += 8) {
+    const float8 top = (each + (float)row) * (float)PATCH_HEIGHT + FIRST_Y;
+    const float8 near_y = NEAREST_OF(DISTANCE_ALONG(y, number, top),
                                      DISTANCE_ALONG(y, number, top + (float)(PATCH_HEIGHT - 1)));
     const float8 limits = cut2 - near_y * near_y;
 #pragma unroll
     for (int column = 0; column < PATCH_COLUMNS; ++column)
-      reach->touched[word][column][eight] |= as_uint8(squares[column] <= limits) & bit;
+      *(uint8*)(reach->touched[word][column] + row) |= as_uint8(squares[column] <= limits) & bit;
   }
 }
+#endif
 
 // Those that touch a patch.
 INLINED ShapeBits splats_of_patch(const PatchReach* reach, int column, int row) {
-  ShapeBits splats = ((const uint*)reach->touched[0][column])[row];
+  ShapeBits splats = reach->touched[0][column][row];
 #if WORDS_OF_SPLATS == 2
-  splats |= (ShapeBits)((const uint*)reach->touched[1][column])[row] << 32;
+  splats |= (ShapeBits)reach->touched[1][column][row] << 32;
 #endif
   return splats;
 }

@@ -27,15 +27,16 @@ INLINED INTEGER beside_tile(INTEGER first, int size) {
 
 INLINED void find_stencils(__global const TileSplat* entries, __global const Stencil* stencil,
                            StencilBatch* batch) {
-  const StencilPlaces across = stencil_places(OF_ENTRIES(entries, x), FIRST_X);
-  const StencilPlaces along = stencil_places(OF_ENTRIES(entries, y), FIRST_Y);
+  const EntryLanes lanes = load_entries(entries);
+  const StencilPlaces across = stencil_places(lanes.x, FIRST_X);
+  const StencilPlaces along = stencil_places(lanes.y, FIRST_Y);
   STORE(beside_tile(across.first, TILE_WIDTH), batch->column);
   STORE(beside_tile(along.first, TILE_HEIGHT), batch->row);
   STORE(across.distance, batch->across);
   STORE(along.distance, batch->along);
   STORE(across.distance * across.distance, batch->across2);
   STORE(along.distance * along.distance, batch->along2);
-  STORE(stencil_widths(OF_ENTRIES(entries, sigma), stencil), batch->width);
+  STORE(stencil_widths(lanes.sigma, stencil), batch->width);
 }
 
 // Whether all of LANES entries are stencils.

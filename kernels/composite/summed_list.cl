@@ -1,7 +1,24 @@
-// A sum's list, entry by entry. What they are drawn by is worked out for eight at a time; they are
-// drawn in the order of the list, so that a crop, whose lists have others that do not show, has the
-// bits of the whole picture.
+// A sum's list: its entries group by group (entry_group.cl), those of a group kind by kind, since a
+// processor foresees the branches of each kind's loop, but not which kind comes next.
 #ifndef LIGHT_ORDERED
+
+typedef struct SummedList {
+  float* tile;
+  __global const TileSplat* entries;
+  SplatTile of_tile;
+  float mean_sigma;
+  WaitingSplats waiting;
+  EntryGroup group;
+  GroupKinds kinds;
+#ifdef STENCILS
+  __global const Stencil* stencil;
+  StencilBatch stencils;
+#endif
+#ifdef SPLATS_OF_BLOCK
+  float* front;
+  uint drawn;  // in the tile, which is the block
+#endif
+} SummedList;
 
 #ifdef SPLATS_OF_BLOCK
 // Equal splats err by equal roundings, up to half of one each. Drawn by themselves in blocks of so
@@ -13,179 +30,160 @@ static inline void add_block(float* block, float* front) {
     store_patch((PATCH)(0.0f), block + i);
   }
 }
-#endif
 
-#ifdef STENCILS
-#define STENCIL_PARAMETER , __global const Stencil* stencil
-#define STENCIL_ARGUMENT , stencil
+// Before so many more are drawn.
+INLINED void make_room_in_block(SummedList* list, uint count) {
+  if (list->drawn + count > SPLATS_OF_BLOCK) {
+    add_waiting(list->tile, &list->waiting);
+    add_block(list->tile, list->front);
+    list->drawn = 0;
+  }
+  list->drawn += count;
+}
 #else
-#define STENCIL_PARAMETER
-#define STENCIL_ARGUMENT
-#endif
-#if LANES != 8
-#error "kinds of entries are bits of bytes"
+#define make_room_in_block(list, count)
 #endif
 
-// Bits of LANES entries: those that touch the tile, and of these stencils, narrow splats of at most
-// seven pixels along both axes, those and discs of at most sixteen. Lists have some that do not
-// touch it, too (splat.h), and those of a crop other ones.
-typedef struct EntryKinds {
-  uint touching, stencils, narrow, middle;
-} EntryKinds;
-
-// Of `count` entries, or of the first LANES of them.
-INLINED EntryKinds kinds_of(__global const TileSplat* entries, uint count,
-                            const EntryWindows* windows, const INTEGER narrow STENCIL_PARAMETER) {
-  const INTEGER bits = (INTEGER)(1, 2, 4, 8, 16, 32, 64, 128);
-  const INTEGER is_there = NUMBERS_OF_LANES < (INTEGER)((int)min(count, (uint)LANES));
-  INTEGER touches =
-      (load_eight_integers(windows->first_row) <= load_eight_integers(windows->last_row)) &
-      (load_eight_integers(windows->first_column) <= load_eight_integers(windows->last_column));
-  INTEGER kinds = bits;
-#ifdef NARROW_SPLATS
-  kinds |= (bits << 8) & (narrow > (INTEGER)(0)) & (narrow <= (INTEGER)(SEVEN));
-  kinds |= (bits << 16) & (narrow > (INTEGER)(SEVEN));
-#endif
+// Draws an entry of the group that is no narrow one.
+INLINED void draw_other(SummedList* list, int i, __global const TileSplat* entry) {
+  const int2 rows = rows_of_entry(&list->group.windows, i);
+  const int2 columns = columns_of_entry(&list->group.windows, i);
 #ifdef NARROW_DISCS
-  kinds |= (bits << 16) & (narrow > (INTEGER)(0));
-#endif
-#ifdef STENCILS
-  // Stencils beside the tile add nothing to it.
-  const INTEGER is_stencil = (OF_ENTRIES(entries, sigma) < 0.0f) & (INTEGER)(stencil ? -1 : 0);
-  kinds |= (bits << 24) & is_stencil;
-  touches |= is_stencil;
-#endif
-  const uint all = or_of_lanes(kinds & touches & is_there);
-  EntryKinds found;
-  found.touching = all & 0xffu;
-  found.narrow = all >> 8 & 0xffu;
-  found.middle = all >> 16 & 0xffu;
-  found.stencils = all >> 24;
-  return found;
-}
-
-// What eight entries of a list are drawn by.
-typedef struct EntryBatch {
-  EntryWindows windows;
-#ifdef NARROW_SPLATS
-  NarrowSplats narrow;
-#endif
-#ifdef NARROW_DISCS
-  NarrowDiscs discs;
-#endif
-#ifdef STENCILS
-  StencilBatch stencils;
-#endif
-} EntryBatch;
-
-// Finds it, of `count` entries or the first LANES of them.
-INLINED EntryKinds find_batch(__global const TileSplat* entries, uint count, float mean_sigma,
-                              EntryBatch* batch STENCIL_PARAMETER) {
-  find_windows(entries, &batch->windows);
-  INTEGER narrow = (INTEGER)(0);
-#ifdef NARROW_SPLATS
-  find_narrow_splats(entries, mean_sigma, &batch->windows, &batch->narrow);
-  narrow = load_eight_integers(batch->narrow.pixels);
-#endif
-#ifdef NARROW_DISCS
-  find_narrow_discs(entries, &batch->windows, &batch->discs);
-  narrow = load_eight_integers(batch->discs.columns);
-#endif
-  const EntryKinds kinds = kinds_of(entries, count, &batch->windows, narrow STENCIL_ARGUMENT);
-#ifdef STENCILS
-  if (kinds.stencils != 0) find_stencils(entries, stencil, &batch->stencils);
-#endif
-  return kinds;
-}
-
-// Draws entry `i` of a batch.
-INLINED void draw_summed(float* tile, WaitingSplats* waiting, __global const TileSplat* entry,
-                         int i, EntryBatch* batch, const EntryKinds kinds, const SplatTile* of_tile,
-                         float mean_sigma STENCIL_PARAMETER) {
-#ifdef NARROW_SPLATS
-  if (kinds.narrow >> i & 1u) {
-    add_narrow_splat(tile, &batch->narrow, i, entry);
+  // Discs that are not narrow are wide, and wait.
+  if (entry->sigma > 0.0f) {
+    let_wait(list->tile, &list->waiting, rows, columns, entry, list->mean_sigma, 0);
     return;
   }
+#else
+  if (let_wait_if_it_does(list->tile, &list->waiting, rows, columns, entry, list->mean_sigma, 0))
+    return;
+#endif
+  add_splat(list->tile, entry, rows, columns, &list->of_tile, 0);
+}
+
+#define EACH_ENTRY(chosen, DRAW)                                             \
+  for (ulong left = (chosen); left != 0; left &= left - 1ul) {               \
+    const int i = (int)popcount(~left & (left - 1ul));                       \
+    __global const TileSplat* const entry = list->entries + group->entry[i]; \
+    DRAW                                                                     \
+  }
+
+// Draws the group and leaves none in it. A call whose last argument tells the compiler that it may
+// use registers of sixteen floats (lanes.cl).
+__attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) {
+  const EntryGroup* const group = &list->group;
+  const GroupKinds kinds = list->kinds;
+  float* const tile = list->tile;
+  make_room_in_block(list, kinds.count);
+#ifdef NARROW_SPLATS
+  EACH_ENTRY(kinds.smallest, add_grain(tile, &group->narrow, i, entry);)
+  EACH_ENTRY(kinds.small, add_seven(tile, &group->narrow, i, entry);)
 #ifdef MIDDLE_SPLATS
-  if (kinds.middle >> i & 1u) {
-    add_middle_splat(tile, &batch->narrow, i, entry);
-    return;
-  }
+  EACH_ENTRY(kinds.middle, add_middle_splat(tile, &group->narrow, i, entry);)
 #endif
 #endif
 #ifdef NARROW_DISCS
-  if (kinds.middle >> i & 1u) {
-    add_narrow_disc(tile, &batch->discs, i, entry);
-    return;
-  }
+  EACH_ENTRY(kinds.smallest, add_dot(tile, &group->discs, i, entry);)
+  EACH_ENTRY(kinds.small, add_disc_of_eight(tile, &group->discs, i, entry);)
+  EACH_ENTRY(kinds.middle, add_disc_of_sixteen(tile, &group->discs, i, entry);)
 #endif
-#ifdef STENCILS
-  if (kinds.stencils >> i & 1u) {
-    add_stencil(tile, &batch->stencils, i, entry, stencil);
-    return;
-  }
-#endif
-  const int2 rows = rows_of_entry(&batch->windows, i);
-  const int2 columns = columns_of_entry(&batch->windows, i);
-  if (!let_wait(tile, waiting, rows, columns, entry, mean_sigma, 0))
-    add_splat(tile, entry, rows, columns, of_tile, 0);
+  const ulong all = ~0ul >> (ENTRIES_OF_GROUP - kinds.count);
+  EACH_ENTRY(all & ~(kinds.smallest | kinds.small | kinds.middle), draw_other(list, i, entry);)
+  clear_kinds(&list->kinds);
 }
 
 #ifdef STENCILS
 // Draws LANES entries, if all of them are stencils, as most are on blurred grids; returns whether
 // they are.
-INLINED int draw_stencils(float* tile, __global const TileSplat* entries,
-                          __global const Stencil* stencil, StencilBatch* batch) {
-  if (!stencil || !are_all_stencils(entries)) return 0;
-  find_stencils(entries, stencil, batch);
-  for (int i = 0; i < LANES; ++i)
-    add_stencil(tile, batch, i, entries + i, stencil);
+INLINED int draw_stencils(SummedList* list, uint first, uint count) {
+  __global const TileSplat* const entries = list->entries + first;
+  if (count < LANES || !list->stencil || !are_all_stencils(entries)) return 0;
+  find_stencils(entries, list->stencil, &list->stencils);
+  for (int i = 0; i < LANES; ++i) {
+    make_room_in_block(list, 1u);
+    add_stencil(list->tile, &list->stencils, i, entries + i, list->stencil);
+  }
   return 1;
 }
+
+// Bits of those of LANES entries that are stencils. Beside the tile they add nothing to it.
+INLINED uint find_some_stencils(SummedList* list, uint first, uint count) {
+  if (!list->stencil) return 0;
+  __global const TileSplat* const entries = list->entries + first;
+  const uint stencils = or_of_lanes(bits_of_list(count) & (OF_ENTRIES(entries, sigma) < 0.0f));
+  if (stencils != 0) find_stencils(entries, list->stencil, &list->stencils);
+  return stencils;
+}
 #endif
+
+// Puts those of LANES entries behind `at` others into the group that touch the tile, one by one:
+// stencils are drawn at once.
+INLINED void put_one_by_one(SummedList* list, uint first, uint found, uint stencils, uint at,
+                            PATCH lanes) {
+  for (uint i = 0; i < LANES; ++i) {
+#ifdef STENCILS
+    if (stencils >> i & 1u) {
+      make_room_in_block(list, 1u);
+      add_stencil(list->tile, &list->stencils, i, list->entries + first + i, list->stencil);
+      continue;
+    }
+#endif
+    if (!(found >> i & 1u)) continue;
+    const uint number = list->kinds.count++;
+    move_entry(&list->group, at + i, number);
+    count_kinds(&list->kinds, found >> i, 1u, number);
+    if (list->kinds.count == ENTRIES_OF_GROUP) draw_group(list, lanes);
+  }
+}
+
+// Draws LANES entries, or `count` if there are fewer, or puts them into the group.
+INLINED void put_entries(SummedList* list, uint first, uint count, PATCH lanes) {
+  uint stencils = 0;
+#ifdef STENCILS
+  if (draw_stencils(list, first, count)) return;
+  stencils = find_some_stencils(list, first, count);
+#endif
+  const uint at = list->kinds.count;
+  const uint found = find_entries(list->entries, first, count, at, list->mean_sigma, &list->group);
+  if (TOUCHING(found) != 0xffu || stencils != 0 || at > ENTRIES_OF_GROUP - LANES) {
+    put_one_by_one(list, first, found, stencils, at, lanes);
+    return;
+  }
+  count_kinds(&list->kinds, found, 0xffu, at);
+  list->kinds.count += LANES;
+  if (list->kinds.count == ENTRIES_OF_GROUP) draw_group(list, lanes);
+}
 
 INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* place,
                        __global const Grid* grid, uint grid_number,
                        __global const TileSplat* entries, __global float* partials,
-                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
-  const SplatTile of_tile = splat_tile(*grid, segment.tile, p);
-  const float mean_sigma = grid->mean_sigma;
+                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS,
+                       PATCH lanes) {
+  SummedList list;
+  list.tile = tile;
+  list.entries = entries;
+  list.of_tile = splat_tile(*grid, segment.tile, p);
+  list.mean_sigma = grid->mean_sigma;
 #ifdef SPLATS_OF_BLOCK
   float front[PLANES * TILE_PIXELS];
   clear_planes(front);
-  uint drawn = 0;
+  list.front = front;
+  list.drawn = 0;
 #endif
-  EntryBatch batch;
 #ifdef STENCILS
-  __global const Stencil* const stencil = stencil_of_grid(stencils, grid_number);
-  clear_stencils(&batch.stencils);
+  list.stencil = stencil_of_grid(stencils, grid_number);
+  clear_stencils(&list.stencils);
 #endif
-  WaitingSplats waiting;
-  clear_waiting(&waiting);
+  clear_kinds(&list.kinds);
+  clear_waiting(&list.waiting);
   RowsAhead rows = rows_ahead(segment, place);
   for (uint k = segment.begin; k < segment.end; k += LANES) {
-    __global const TileSplat* first = entries + k;
-    ask_for_entries(first + ENTRIES_AHEAD);
+    ask_for_entries(entries + k + ENTRIES_AHEAD);
     ask_for_rows(&rows, place, LANES);
-#if defined(STENCILS) && !defined(SPLATS_OF_BLOCK)
-    if (segment.end - k >= LANES && draw_stencils(tile, first, stencil, &batch.stencils)) continue;
-#endif
-    const EntryKinds kinds =
-        find_batch(first, segment.end - k, mean_sigma, &batch STENCIL_ARGUMENT);
-    for (uint left = kinds.touching; left != 0; left &= left - 1u) {
-      const int i = (int)popcount(~left & (left - 1u));
-      draw_summed(tile, &waiting, first + i, i, &batch, kinds, &of_tile,
-                  mean_sigma STENCIL_ARGUMENT);
-#ifdef SPLATS_OF_BLOCK
-      if (++drawn % SPLATS_OF_BLOCK == 0u) {
-        add_waiting(tile, &waiting);
-        add_block(tile, front);
-      }
-#endif
-    }
+    put_entries(&list, k, segment.end - k, lanes);
   }
-  add_waiting(tile, &waiting);
+  if (list.kinds.count > 0) draw_group(&list, lanes);
+  add_waiting(tile, &list.waiting);
 #ifdef SPLATS_OF_BLOCK
   add_block(tile, front);
   store_segment(front, segment, place, partials);

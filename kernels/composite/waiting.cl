@@ -6,7 +6,7 @@ typedef struct WaitingSplats {
 } WaitingSplats;
 #define clear_waiting(waiting) ((waiting)->count = 0)
 #define add_waiting(tile, waiting)
-#define let_wait(tile, waiting, rows, columns, splat, mean_sigma, form) 0
+#define let_wait_if_it_does(tile, waiting, rows, columns, splat, mean_sigma, form) 0
 #else
 
 typedef struct WaitingSplats {
@@ -52,16 +52,9 @@ static inline int waits(const WaitingSplats* waiting, int2 rows, int2 columns,
 #endif
 }
 
-// Lets a splat wait if it is one that does, and adds those that wait when there is no room for
-// more, and before one in order that does not wait.
-static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
-                           __global const TileSplat* splat, float mean_sigma, int form) {
-  if (!waits(waiting, rows, columns, splat, form)) {
-#ifdef LIGHT_ORDERED
-    add_waiting(tile, waiting);
-#endif
-    return 0;
-  }
+// Lets a splat wait, and adds those that wait when there is no room for more.
+static inline void let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
+                            __global const TileSplat* splat, float mean_sigma, int form) {
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
 #ifdef LIGHT_ORDERED
@@ -69,6 +62,18 @@ static inline int let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2 
   waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
 #endif
   if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
-  return 1;
+}
+
+// The same of one that does, and, in order, adds those that wait before one that does not.
+static inline int let_wait_if_it_does(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
+                                      __global const TileSplat* splat, float mean_sigma, int form) {
+  if (waits(waiting, rows, columns, splat, form)) {
+    let_wait(tile, waiting, rows, columns, splat, mean_sigma, form);
+    return 1;
+  }
+#ifdef LIGHT_ORDERED
+  add_waiting(tile, waiting);
+#endif
+  return 0;
 }
 #endif

@@ -126,15 +126,15 @@ INLINED INTEGER are_stencils(INTEGER grid, VALUE sigma, VALUE peak, const Projec
 // Wide splats go to the coarsest grid that still shows their shape, bright ones finer. The grids
 // of a level share out an octave of widths, the first ones from coarse_sigma on.
 static inline INTEGER choose_grid(VALUE sigma, VALUE peak, const ProjectParameters p) {
-  VALUE amplified = (VALUE)(p.coarse_sigma);
+  VALUE power = sigma * p.inverse_coarse_sigma;
   if (ANY(peak > 1.0f)) {
     // Beside stencils they are narrower Gaussians: of a grid only those that are wider than its
     // stencils can be (are_stencils()).
     const VALUE least = choose((VALUE)(1.0f), (VALUE)(p.blurs.finer_grid), peak > 1.0f);
-    amplified *= max(sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f))))), least);
+    power /= max(sqrt(sqrt(sqrt(max(peak, (VALUE)(1.0f))))), least);
   }
   // Higher powers of wider ones may be no number, and theirs is the coarsest grid.
-  VALUE power = min(sigma / amplified, (VALUE)(1e9f));
+  power = min(power, (VALUE)(1e9f));
   for (int i = 0; i < p.blurs.shift; ++i)
     power *= power;
   return grid_of_octave(power_of_two(power) + 1 - (p.blurs.first_level << p.blurs.shift), peak, p);

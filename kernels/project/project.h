@@ -131,11 +131,11 @@ struct ProjectParameters {
   // absorption (scene.h), where it is above 0, what the rule leaves of the emission.
   float counted_part, gray_absorption;
 
-  float least_extent;    // sigmas drawn of a faint splat
-  float restored_light;  // part of its weight that such a splat gets back
-  float inverse_edge;    // 1 / (value at which a splat may end)
-  float coarse_sigma;    // smallest sigma in pixels of a coarse grid
-  float coarse_peak;     // brighter splats stay on the picture's own grid
+  float least_extent;          // sigmas drawn of a faint splat
+  float restored_light;        // part of its weight that such a splat gets back
+  float inverse_edge;          // 1 / (value at which a splat may end)
+  float inverse_coarse_sigma;  // 1 / (smallest sigma in pixels of a coarse grid)
+  float coarse_peak;           // brighter splats stay on the picture's own grid
   int grid_count;
   // Of the picture, and its coarser grids' guard bands (Grid), for finding the tiles of lanes.
   int width, height, middle_x, middle_y, guard;

@@ -55,20 +55,6 @@ typedef struct SplatArrays {
 } SplatArrays;
 
 #ifdef SPLATS_OF_EIGHT_WORDS
-// Of two rows of words every other pair, or quad, side by side.
-INLINED float8 first_words(float8 a, float8 b) {
-  return (float8)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5);
-}
-INLINED float8 last_words(float8 a, float8 b) {
-  return (float8)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7);
-}
-INLINED float8 first_pairs(float8 a, float8 b) {
-  return (float8)(a.s01, b.s01, a.s45, b.s45);
-}
-INLINED float8 last_pairs(float8 a, float8 b) {
-  return (float8)(a.s23, b.s23, a.s67, b.s67);
-}
-
 // Word by word of eight splats to splat by splat, in three steps of neighbors.
 INLINED void store_eight_splats(float8 x, float8 y, float8 sigma, float8 radius, float8 weight,
                                 float8 color, float8 grid, float8 touched, Splat* splats) {

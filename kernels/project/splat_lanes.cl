@@ -217,15 +217,22 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
     mean_limit = choose(mean_limit, bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
   }
   s.by_mean = sigma < mean_limit;
-  s.sigma = choose(sqrt(sigma * sigma + p.widening), sigma, s.by_mean);
-  const VALUE narrowing = sigma / s.sigma;
+  s.sigma = sigma;
+  s.weight = weight;
 #ifdef ELLIPSES
   const VALUE sigma_x = DRAWN_SIGMA_X(widths);
   s.by_mean_x = sigma_x < mean_limit;
+  s.sigma_x = sigma_x;
+#endif
+  if (p.widening == 0.0f) return s;
+  const VALUE widened2 = sigma * sigma + p.widening;
+  s.sigma = choose(sqrt(widened2), sigma, s.by_mean);
+#ifdef ELLIPSES
   s.sigma_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, s.by_mean_x);
-  s.weight = weight * (narrowing * (sigma_x / s.sigma_x));
+  s.weight = weight * ((sigma / s.sigma) * (sigma_x / s.sigma_x));
 #else
-  s.weight = weight * (narrowing * narrowing);
+  // The square of the quotient of both widths, which does not wait for the root.
+  s.weight = choose(weight * (1.0f - p.widening / widened2), weight, s.by_mean);
 #endif
   return s;
 }
@@ -234,10 +241,13 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
 INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes widths,
                            const SampledLanes sampled, const BrightnessLanes brightness,
                            VALUE extent, const ProjectParameters p) {
-  // Coarse grids know center values only, and splats of a crowd may be taken as means that are wide
-  // enough for one.
-  s->grid =
-      select(choose_grid(sampled.sigma, brightness.own_peak, p), (INTEGER)(0), sampled.by_mean);
+  s->grid = (INTEGER)(0);
+  if (p.grid_count > 1) {
+    // Coarse grids know center values only, and splats of a crowd may be taken as means that are
+    // wide enough for one.
+    s->grid =
+        select(choose_grid(sampled.sigma, brightness.own_peak, p), (INTEGER)(0), sampled.by_mean);
+  }
   const INTEGER level = level_of(s->grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   s->sigma = sampled.sigma * shrink;

@@ -170,7 +170,7 @@ std::vector<std::string> Specialization::project_files(ProjectOutput output) con
   files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
   if (finds_tiles(output)) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
-  files.insert(files.end(), {"sort_keys.cl", "splat_arrays.cl"});
+  files.insert(files.end(), {"sort_keys.cl", "words.cl", "splat_arrays.cl"});
   if (rows_) {
     files.push_back("project.cl");
   } else {
@@ -283,9 +283,9 @@ std::vector<std::string> Specialization::composite_files() const {
                {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
   if (face_of_cube_) files.push_back("face_shape.cl");
   if (rows_) {
-    files.insert(files.end(), {"rows.cl", "prefetch.cl", "entry_lanes.cl", "entry_windows.cl",
-                               "patch.cl", "patch_reach.cl", "patch_shapes.cl", "patches.cl",
-                               "waiting.cl", "tile_planes.cl"});
+    files.insert(files.end(), {"rows.cl", "prefetch.cl", "words.cl", "entry_lanes.cl",
+                               "entry_windows.cl", "patch.cl", "patch_reach.cl", "patch_shapes.cl",
+                               "patches.cl", "waiting.cl", "tile_planes.cl"});
     if (face_of_cube_) {
       files.push_back("face_rows.cl");
     } else {
@@ -293,7 +293,7 @@ std::vector<std::string> Specialization::composite_files() const {
     }
     files.insert(files.end(),
                  {"stencil_rows.cl", "narrow_splats.cl", "narrow_discs.cl", "ordered_list.cl",
-                  "summed_list.cl", "pieces.cl", "composite_rows.cl"});
+                  "entry_group.cl", "summed_list.cl", "pieces.cl", "composite_rows.cl"});
   } else {
     files.insert(files.end(),
                  {"flags.cl", "tile_batch.cl", "layer_behind.cl", "composite_groups.cl"});

@@ -131,7 +131,7 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.too_sharp_width = plan.places.too_sharp_width;
   p.most_fading = plan.places.most_fading;
   const GridPyramid& pyramid = plan.pyramid;
-  p.coarse_sigma = pyramid.coarse_sigma;
+  p.inverse_coarse_sigma = 1 / pyramid.coarse_sigma;
   p.coarse_peak = pyramid.coarse_peak;
   p.grid_count = static_cast<int>(pyramid.grids.size());
   p.blurs = grid_blurs(pyramid);

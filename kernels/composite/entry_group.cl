@@ -1,0 +1,87 @@
+// Entries of a sum's list, gathered into groups of so many that touch the tile. Which these are is
+// the same for a crop, whose lists have others that do not touch it (splat.h): so it has the bits
+// of the whole picture, in whatever order those of a group are drawn.
+#ifndef LIGHT_ORDERED
+#if LANES != 8 || ENTRIES_OF_GROUP != 64
+#error "kinds of entries are bits of bytes, and of a word"
+#endif
+
+// What entries are drawn by. Numbers of four bytes alone, ROOM_OF_ENTRIES of each.
+typedef struct EntryGroup {
+  int entry[ROOM_OF_ENTRIES];
+  EntryWindows windows;
+#ifdef NARROW_SPLATS
+  NarrowSplats narrow;
+#endif
+#ifdef NARROW_DISCS
+  NarrowDiscs discs;
+#endif
+} EntryGroup;
+
+// How many there are, and a bit for each narrow one, kind by kind.
+typedef struct GroupKinds {
+  uint count;
+  ulong smallest, small, middle;
+} GroupKinds;
+
+static inline void clear_kinds(GroupKinds* kinds) {
+  kinds->count = 0;
+  kinds->smallest = kinds->small = kinds->middle = 0;
+}
+
+// Bits of LANES entries, kind by kind in the bytes of a word: those that touch the tile, and as
+// GroupKinds has them.
+#define TOUCHING(found) ((found)&0xffu)
+#define BITS_OF_LANES ((INTEGER)(1, 2, 4, 8, 16, 32, 64, 128))
+
+// Bits of those of LANES entries that there are.
+INLINED INTEGER bits_of_list(uint count) {
+  return BITS_OF_LANES & (NUMBERS_OF_LANES < (INTEGER)((int)min(count, (uint)LANES)));
+}
+
+INLINED uint kinds_of(uint count, uint at, const EntryWindows* windows, const INTEGER narrow) {
+  const INTEGER touches = (load_eight_integers(windows->first_row + at) <=
+                           load_eight_integers(windows->last_row + at)) &
+                          (load_eight_integers(windows->first_column + at) <=
+                           load_eight_integers(windows->last_column + at));
+  INTEGER kinds = bits_of_list(count) & touches;
+#if defined(NARROW_SPLATS) || defined(NARROW_DISCS)
+  const INTEGER bits = BITS_OF_LANES;
+  kinds |= (bits << 8) & (narrow == (INTEGER)(SMALLEST));
+  kinds |= (bits << 16) & (narrow == (INTEGER)(SMALL));
+  kinds |= (bits << 24) & (narrow > (INTEGER)(SMALL));
+#endif
+  return or_of_lanes(kinds);
+}
+
+// Finds what LANES entries of a list, or `count` if there are fewer, are drawn by, and leaves it
+// behind `at` others.
+INLINED uint find_entries(__global const TileSplat* list, uint first, uint count, uint at,
+                          float mean_sigma, EntryGroup* group) {
+  __global const TileSplat* const entries = list + first;
+  INTEGER narrow = (INTEGER)(0);
+  STORE((INTEGER)((int)first) + NUMBERS_OF_LANES, group->entry + at);
+  const EntryLanes lanes = load_entries(entries);
+  find_windows(lanes, entries, at, &group->windows);
+#ifdef NARROW_SPLATS
+  narrow = find_narrow_splats(lanes, at, mean_sigma, &group->windows, &group->narrow);
+#endif
+#ifdef NARROW_DISCS
+  narrow = find_narrow_discs(lanes, at, &group->windows, &group->discs);
+#endif
+  return kinds_of(count, at, &group->windows, narrow);
+}
+
+// Counts those of a byte of `lanes`, the first of which is number `at`.
+INLINED void count_kinds(GroupKinds* kinds, uint found, uint lanes, uint at) {
+  kinds->smallest |= (ulong)(found >> 8 & lanes) << at;
+  kinds->small |= (ulong)(found >> 16 & lanes) << at;
+  kinds->middle |= (ulong)(found >> 24 & lanes) << at;
+}
+
+INLINED void move_entry(EntryGroup* group, uint from, uint to) {
+  uint* numbers = (uint*)group;
+  for (uint k = 0; k < sizeof(EntryGroup) / sizeof(uint); k += ROOM_OF_ENTRIES)
+    numbers[k + to] = numbers[k + from];
+}
+#endif
