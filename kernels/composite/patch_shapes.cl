@@ -126,14 +126,14 @@ INLINED float factor_of(float sigma, float mean_sigma) {
 }
 
 INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, float sigma,
-                      float mean_sigma, int2 pixels) {
+                      float factor, int is_mean, int2 pixels) {
   axis->place[number] = place;
 #ifdef FINE_PLACES
   axis->low[number] = low;
 #endif
   axis->sigma[number] = sigma;
-  axis->factor[number] = factor_of(sigma, mean_sigma);
-  axis->means |= (ShapeBits)(sigma < mean_sigma) << number;
+  axis->factor[number] = factor;
+  axis->means |= (ShapeBits)is_mean << number;
 #ifndef CUT_BY_ROWS
   axis->first[number] = (float)pixels.x;
   axis->last[number] = (float)pixels.y;
@@ -143,8 +143,17 @@ INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, f
 // The splat of this number, which touches `rows` and `columns` of the tile.
 INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns,
                        __global const TileSplat* splat, float mean_sigma) {
-  put_axis(&shapes->x, number, splat->x, LOW_X(*splat), SIGMA_X(*splat), mean_sigma, columns);
-  put_axis(&shapes->y, number, splat->y, LOW_Y(*splat), splat->sigma, mean_sigma, rows);
+  const float sigma = splat->sigma, factor = factor_of(sigma, mean_sigma);
+  const int is_mean = sigma < mean_sigma;
+#ifdef ELLIPSES
+  const float sigma_x = SIGMA_X(*splat), factor_x = factor_of(sigma_x, mean_sigma);
+  const int is_mean_x = sigma_x < mean_sigma;
+#else
+  const float sigma_x = sigma, factor_x = factor;
+  const int is_mean_x = is_mean;
+#endif
+  put_axis(&shapes->x, number, splat->x, LOW_X(*splat), sigma_x, factor_x, is_mean_x, columns);
+  put_axis(&shapes->y, number, splat->y, LOW_Y(*splat), sigma, factor, is_mean, rows);
 #ifdef CUT_BY_ROWS
   shapes->cut2[number] = cut_radius(splat->radius) * cut_radius(splat->radius);
 #ifdef ELLIPSES
