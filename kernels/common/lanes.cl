@@ -79,19 +79,24 @@ static inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
   return select(if_false, if_true, mask);
 }
 
-// log2 of a positive, finite number, absolute error 3e-7: exponent, and the series of
-// artanh on [sqrt(1/2), sqrt(2)].
+// log2 of a positive, finite number, absolute error 8e-8 and a rounding of the result, relative
+// error near 1 3e-7: exponent, and t p(t) for 1 + t in [sqrt(1/2), sqrt(2)], its even and its odd
+// powers apart. No quotient: processors take as long for one as for ten steps of it.
 static inline VALUE log2_positive(VALUE x) {
   const INTEGER denormal = x < 1.17549435e-38f;
   x = choose(x, x * 16777216.0f, denormal);
   const INTEGER bits = AS_INTEGER(x) - 0x3f3504f3;
   const INTEGER exponent = bits >> 23;
-  const VALUE m = AS_VALUE((bits & 0x007fffff) + 0x3f3504f3);
-  const VALUE t = (m - 1.0f) / (m + 1.0f);
-  const VALUE t2 = t * t;
-  const VALUE series =
-      t * (2.88539008f + t2 * (0.961796694f + t2 * (0.577078016f + t2 * 0.412198583f)));
-  return TO_VALUE(exponent) + series - choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
+  const VALUE t = AS_VALUE((bits & 0x007fffff) + 0x3f3504f3) - 1.0f, t2 = t * t;
+  VALUE even = t2 * 0.12541227f + 0.217379421f;
+  VALUE odd = t2 * -0.210303292f - 0.238519445f;
+  even = even * t2 + 0.287656665f;
+  odd = odd * t2 - 0.360721201f;
+  even = even * t2 + 0.48092252f;
+  odd = odd * t2 - 0.721347153f;
+  even = even * t2 + 1.4426949f;
+  return TO_VALUE(exponent) + t * (odd * t + even) -
+         choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
 }
 
 #if LANES > 1

@@ -143,7 +143,8 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
   const int2 columns = columns_of_entry(&batch->windows, in_batch);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
   const int form = form_of_splat(entry, block.of_tile, block.depth, p);
-  if (let_wait_if_it_does(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form)) return 1;
+  if (let_wait_if_it_does(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form))
+    return 1;
 #ifdef NARROW_SPLATS
   if (batch->narrow.pixels[in_batch] != 0) {
     add_narrow_splat(block.tile, &batch->narrow, in_batch, entry, form);

@@ -33,8 +33,11 @@ INLINED ExtendedValue product_of_extended(ExtendedValue a, ExtendedValue b) {
 INLINED ExtendedValue product_plus(ExtendedValue a, ExtendedValue b, ExtendedValue c) {
   return fma(a, b, c);
 }
+// By the inverse in single precision and one step whose error is the third power of that: to the
+// last bit but one or two, in a fraction of the time of a quotient. Of numbers that floats hold.
 INLINED ExtendedValue quotient_of_extended(ExtendedValue a, ExtendedValue b) {
-  return a / b;
+  const ExtendedValue about = TO_EXTENDED(1.0f / TO_VALUE(b)), error = fma(-about, b, 1.0);
+  return a * fma(about * error, 1.0 + error, about);
 }
 INLINED ExtendedValue not_below(ExtendedValue a, float least) {
   return max(a, (double)least);

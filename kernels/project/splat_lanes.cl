@@ -91,6 +91,11 @@ INLINED ViewLanes place_of_splat(ViewLanes view, const WidthLanes widths) {
 INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widths,
                           const ProjectParameters p) {
   if (p.min_radius > 0.0f) {
+    // The radius cancels out.
+    if (p.weight_model == WEIGHT_CONSTANT) {
+      return raw * (p.weight_scale * (p.kernel_width / p.length_scale)) *
+             (view.scale / widths.sigma);
+    }
     return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma);
   }
   const INTEGER narrow = widths.sigma_true < NARROWEST_SIGMA;
