@@ -15,8 +15,12 @@ INLINED VALUE larger_of(VALUE a, VALUE b) {
   return choose(b, a, a > b);
 }
 
-#define LARGEST_CHANNEL(s, color) \
-  larger_of(OF_ENTRIES(s, color[0]), larger_of(OF_ENTRIES(s, color[1]), OF_ENTRIES(s, color[2])))
+// The largest of three channels of entries, with the number that lies before them.
+#define WORD_OF(s, field) ((uint)((__global const float*)(s)->field - (__global const float*)(s)))
+#define LARGEST_CHANNEL(s, color) largest_channel(load_fields(s, WORD_OF(s, color) - 1u))
+INLINED VALUE largest_channel(const FieldLanes fields) {
+  return larger_of(fields.second, larger_of(fields.third, fields.fourth));
+}
 
 // The brightest channel at the splats' centers.
 INLINED VALUE amplitudes_of(__global const TileSplat* s, float light_behind) {
@@ -137,8 +141,8 @@ typedef struct Measured {
 
 INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParameters* p,
                                const GridOfCells grid, const Reach reach) {
-  const VALUE x = OF_ENTRIES(s, x), y = OF_ENTRIES(s, y), drawn_sigma = OF_ENTRIES(s, sigma);
-  const VALUE sigma = fabs(drawn_sigma);
+  const EntryLanes entry = load_entries(s);
+  const VALUE x = entry.x, y = entry.y, drawn_sigma = entry.sigma, sigma = fabs(drawn_sigma);
 #ifdef ELLIPSES
   const VALUE area = sigma * fabs(OF_ENTRIES(s, along_x.sigma));
 #else

@@ -56,13 +56,11 @@ INLINED uint kinds_of(uint count, uint at, const EntryWindows* windows, const IN
 
 // Finds what LANES entries of a list, or `count` if there are fewer, are drawn by, and leaves it
 // behind `at` others.
-INLINED uint find_entries(__global const TileSplat* list, uint first, uint count, uint at,
-                          float mean_sigma, EntryGroup* group) {
-  __global const TileSplat* const entries = list + first;
+INLINED uint find_entries(const EntryLanes lanes, __global const TileSplat* list, uint first,
+                          uint count, uint at, float mean_sigma, EntryGroup* group) {
   INTEGER narrow = (INTEGER)(0);
   STORE((INTEGER)((int)first) + NUMBERS_OF_LANES, group->entry + at);
-  const EntryLanes lanes = load_entries(entries);
-  find_windows(lanes, entries, at, &group->windows);
+  find_windows(lanes, list + first, at, &group->windows);
 #ifdef NARROW_SPLATS
   narrow = find_narrow_splats(lanes, at, mean_sigma, &group->windows, &group->narrow);
 #endif

@@ -7,30 +7,6 @@
 #define ROOM_OF_ENTRIES (ENTRIES_OF_GROUP + LANES)
 #endif
 
-// What all entries begin with (bin.h).
-typedef struct EntryLanes {
-  VALUE x, y, sigma, radius;
-} EntryLanes;
-
-INLINED float8 first_fields(__global const TileSplat* a, __global const TileSplat* b) {
-  return (float8)(load_global_four(&a->x), load_global_four(&b->x));
-}
-
-// Entry by entry to field by field: gathered one by one they take twice as many instructions.
-INLINED EntryLanes load_entries(__global const TileSplat* entries) {
-  const float8 a = first_fields(entries, entries + 4), b = first_fields(entries + 1, entries + 5);
-  const float8 c = first_fields(entries + 2, entries + 6),
-               d = first_fields(entries + 3, entries + 7);
-  const float8 xy_ab = first_words(a, b), xy_cd = first_words(c, d);
-  const float8 widths_ab = last_words(a, b), widths_cd = last_words(c, d);
-  EntryLanes lanes;
-  lanes.x = first_pairs(xy_ab, xy_cd);
-  lanes.y = last_pairs(xy_ab, xy_cd);
-  lanes.sigma = first_pairs(widths_ab, widths_cd);
-  lanes.radius = last_pairs(widths_ab, widths_cd);
-  return lanes;
-}
-
 // The rows and columns of their tile that entries touch, found for eight of them at once: to find
 // those of one takes a processor as long as to draw a small splat, since each step waits for the
 // last.

@@ -25,9 +25,8 @@ INLINED INTEGER beside_tile(INTEGER first, int size) {
   return min(max(first, (INTEGER)(-STENCIL_PIXELS)), (INTEGER)(size));
 }
 
-INLINED void find_stencils(__global const TileSplat* entries, __global const Stencil* stencil,
+INLINED void find_stencils(const EntryLanes lanes, __global const Stencil* stencil,
                            StencilBatch* batch) {
-  const EntryLanes lanes = load_entries(entries);
   const StencilPlaces across = stencil_places(lanes.x, FIRST_X);
   const StencilPlaces along = stencil_places(lanes.y, FIRST_Y);
   STORE(beside_tile(across.first, TILE_WIDTH), batch->column);
@@ -37,11 +36,6 @@ INLINED void find_stencils(__global const TileSplat* entries, __global const Ste
   STORE(across.distance * across.distance, batch->across2);
   STORE(along.distance * along.distance, batch->along2);
   STORE(stencil_widths(lanes.sigma, stencil), batch->width);
-}
-
-// Whether all of LANES entries are stencils.
-INLINED int are_all_stencils(__global const TileSplat* entries) {
-  return !ANY(OF_ENTRIES(entries, sigma) >= 0.0f);
 }
 
 // From the first pixel on, and their reflection from the last one back. In one vector, since a

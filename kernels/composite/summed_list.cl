@@ -93,26 +93,19 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
 }
 
 #ifdef STENCILS
-// Draws LANES entries, if all of them are stencils, as most are on blurred grids; returns whether
-// they are.
-INLINED int draw_stencils(SummedList* list, uint first, uint count) {
-  __global const TileSplat* const entries = list->entries + first;
-  if (count < LANES || !list->stencil || !are_all_stencils(entries)) return 0;
-  find_stencils(entries, list->stencil, &list->stencils);
-  for (int i = 0; i < LANES; ++i) {
-    make_room_in_block(list, 1u);
-    add_stencil(list->tile, &list->stencils, i, entries + i, list->stencil);
-  }
-  return 1;
+INLINED void draw_stencil(SummedList* list, uint first, int i) {
+  make_room_in_block(list, 1u);
+  add_stencil(list->tile, &list->stencils, i, list->entries + first + i, list->stencil);
 }
 
-// Bits of those of LANES entries that are stencils. Beside the tile they add nothing to it.
-INLINED uint find_some_stencils(SummedList* list, uint first, uint count) {
+// Finds those of LANES entries that are stencils, and returns their bits. Beside the tile they add
+// nothing to it.
+INLINED uint find_some_stencils(SummedList* list, const EntryLanes lanes, uint count) {
   if (!list->stencil) return 0;
-  __global const TileSplat* const entries = list->entries + first;
-  const uint stencils = or_of_lanes(bits_of_list(count) & (OF_ENTRIES(entries, sigma) < 0.0f));
-  if (stencils != 0) find_stencils(entries, list->stencil, &list->stencils);
-  return stencils;
+  const INTEGER are_stencils = lanes.sigma < 0.0f;
+  if (!ANY(are_stencils)) return 0;
+  find_stencils(lanes, list->stencil, &list->stencils);
+  return or_of_lanes(bits_of_list(count) & are_stencils);
 }
 #endif
 
@@ -123,8 +116,7 @@ INLINED void put_one_by_one(SummedList* list, uint first, uint found, uint stenc
   for (uint i = 0; i < LANES; ++i) {
 #ifdef STENCILS
     if (stencils >> i & 1u) {
-      make_room_in_block(list, 1u);
-      add_stencil(list->tile, &list->stencils, i, list->entries + first + i, list->stencil);
+      draw_stencil(list, first, (int)i);
       continue;
     }
 #endif
@@ -138,13 +130,20 @@ INLINED void put_one_by_one(SummedList* list, uint first, uint found, uint stenc
 
 // Draws LANES entries, or `count` if there are fewer, or puts them into the group.
 INLINED void put_entries(SummedList* list, uint first, uint count, PATCH lanes) {
+  const EntryLanes entries = load_entries(list->entries + first);
   uint stencils = 0;
 #ifdef STENCILS
-  if (draw_stencils(list, first, count)) return;
-  stencils = find_some_stencils(list, first, count);
+  stencils = find_some_stencils(list, entries, count);
+  if (stencils == 0xffu) {
+    // As most are on blurred grids.
+    for (int i = 0; i < LANES; ++i)
+      draw_stencil(list, first, i);
+    return;
+  }
 #endif
   const uint at = list->kinds.count;
-  const uint found = find_entries(list->entries, first, count, at, list->mean_sigma, &list->group);
+  const uint found =
+      find_entries(entries, list->entries, first, count, at, list->mean_sigma, &list->group);
   if (TOUCHING(found) != 0xffu || stencils != 0 || at > ENTRIES_OF_GROUP - LANES) {
     put_one_by_one(list, first, found, stencils, at, lanes);
     return;

@@ -381,7 +381,7 @@ ProgramSource Specialization::certify() const {
   if (rows_) {
     return {defines,
             {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "prefetch.cl", "pieces.cl",
-             "entry_lanes.cl", "collected.cl", "collect.cl"}};
+             "words.cl", "entry_lanes.cl", "collected.cl", "collect.cl"}};
   }
   return {defines,
           {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "lanes.cl",
