@@ -8,6 +8,7 @@
 #define DOT 4
 #define ROWS_OF_DOT 2
 
+// Kinds of a group (entry_group.cl), by their columns.
 #define SMALLEST DOT
 #define SMALL 8
 typedef struct NarrowDiscs {
@@ -19,6 +20,7 @@ typedef struct NarrowDiscs {
   float cut2[ROOM_OF_ENTRIES];
 } NarrowDiscs;
 
+// Of eight entries, numbers `at` and on; returns their columns.
 INLINED INTEGER find_narrow_discs(const EntryLanes lanes, uint at, const EntryWindows* windows,
                                   NarrowDiscs* discs) {
   const VALUE sigma = lanes.sigma, radius = lanes.radius;
@@ -136,22 +138,17 @@ INLINED void add_sixteen_columns(float* pixel, float first, float factor, const 
 }
 #endif
 
-INLINED void add_disc_of_eight(float* tile, const NarrowDiscs* discs, int i,
-                               __global const TileSplat* splat) {
-  const float factor = discs->factor[i];
+// Of eight columns, or sixteen.
+INLINED void add_disc(float* tile, const NarrowDiscs* discs, int i, int columns,
+                      __global const TileSplat* splat) {
+  float* const pixel = first_pixel_of_disc(tile, discs, i);
+  const float factor = discs->factor[i], across = discs->across[i];
   const int rows = discs->rows[i];
   DiscRows of_disc;
   fill_rows_of_disc(discs->along[i], factor, discs->cut2[i], rows, &of_disc);
-  add_eight_columns(first_pixel_of_disc(tile, discs, i), discs->across[i], factor, &of_disc, rows,
-                    splat);
-}
-INLINED void add_disc_of_sixteen(float* tile, const NarrowDiscs* discs, int i,
-                                 __global const TileSplat* splat) {
-  const float factor = discs->factor[i];
-  const int rows = discs->rows[i];
-  DiscRows of_disc;
-  fill_rows_of_disc(discs->along[i], factor, discs->cut2[i], rows, &of_disc);
-  add_sixteen_columns(first_pixel_of_disc(tile, discs, i), discs->across[i], factor, &of_disc, rows,
-                      splat);
+  if (columns == 8)
+    add_eight_columns(pixel, across, factor, &of_disc, rows, splat);
+  else
+    add_sixteen_columns(pixel, across, factor, &of_disc, rows, splat);
 }
 #endif

@@ -23,6 +23,7 @@
 #define WHOLE_WINDOW SEVEN
 #endif
 
+// Kinds of a group (entry_group.cl), by their pixels.
 #define SMALLEST GRAIN
 #define SMALL SEVEN
 typedef struct NarrowSplats {

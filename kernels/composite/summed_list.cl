@@ -84,8 +84,8 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
 #endif
 #ifdef NARROW_DISCS
   EACH_ENTRY(kinds.smallest, add_dot(tile, &group->discs, i, entry);)
-  EACH_ENTRY(kinds.small, add_disc_of_eight(tile, &group->discs, i, entry);)
-  EACH_ENTRY(kinds.middle, add_disc_of_sixteen(tile, &group->discs, i, entry);)
+  EACH_ENTRY(kinds.small, add_disc(tile, &group->discs, i, 8, entry);)
+  EACH_ENTRY(kinds.middle, add_disc(tile, &group->discs, i, 16, entry);)
 #endif
   const ulong all = ~0ul >> (ENTRIES_OF_GROUP - kinds.count);
   EACH_ENTRY(all & ~(kinds.smallest | kinds.small | kinds.middle), draw_other(list, i, entry);)
