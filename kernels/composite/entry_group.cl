@@ -70,7 +70,7 @@ INLINED uint find_entries(const EntryLanes lanes, __global const TileSplat* list
   return kinds_of(count, at, &group->windows, narrow);
 }
 
-// Counts those of a byte of `lanes`, the first of which is number `at`.
+// Counts kinds of those entries of kinds_of() that are bits of `lanes`, the first as number `at`.
 INLINED void count_kinds(GroupKinds* kinds, uint found, uint lanes, uint at) {
   kinds->smallest |= (ulong)(found >> 8 & lanes) << at;
   kinds->small |= (ulong)(found >> 16 & lanes) << at;

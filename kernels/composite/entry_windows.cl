@@ -42,6 +42,7 @@ INLINED void find_windows(const EntryLanes lanes, __global const TileSplat* entr
              windows->last_column + at);
 }
 
+// More than a group: while one is drawn, the next comes.
 #define ENTRIES_AHEAD 96
 
 static inline int2 rows_of_entry(const EntryWindows* windows, int i) {

@@ -1,11 +1,12 @@
-// The functions of kernels/composite/gaussian.cl and shape.cl keep the errors that their comments
-// name.
+// The functions of kernels/composite/gaussian.cl and shape.cl, and log2_positive() of
+// kernels/common/lanes.cl, keep the errors that their comments name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/evenly_spread.h"
@@ -156,6 +157,23 @@ TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
   const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };
   EXPECT_LE(largest(x, evaluate("exp2_negative", "", x), error), 2.7e-6);
   EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
+}
+
+TEST_P(ShapeFunctions, LogarithmsErrByARoundingAndTheirPolynomial) {
+  const auto beyond_rounding = [](double found, double at) {
+    const double exact = std::log2(at);
+    return std::max(std::abs(found - exact) - 0x1p-24 * std::abs(exact), 0.0);
+  };
+  for (const auto& [first, last] : {std::pair{0.6, 1.6}, {1e-3, 1e3}, {1e-30, 1e30}}) {
+    const std::vector<float> x = evenly_spread(first, last, 1 << 16);
+    EXPECT_LE(largest(x, evaluate("log2_positive", "", x), beyond_rounding), 8e-8) << first;
+  }
+}
+
+TEST_P(ShapeFunctions, LogarithmsOfNumbersNearOneErrByPartsOfThemselves) {
+  const std::vector<float> x = evenly_spread(1.00001, 1.01, 1 << 16);
+  const auto part = [](double found, double at) { return found / std::log2(at) - 1; };
+  EXPECT_LE(largest(x, evaluate("log2_positive", "", x), part), 3e-7);
 }
 
 // Of kernels/extended/double_lanes.cl.
