@@ -205,7 +205,10 @@ struct FramePlan {
   // not their order.
   std::vector<std::uint64_t> sampled_keys;
   SplatLimits splats;
-  double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
+  double mean_error = 0;   // of pixel means by erf, as a part of a peak for each sigma
+  double shape_error = 0;  // of values at pixel centers by exp, as a part of themselves
+  // Kernels that are cut take a shorter polynomial for exp.
+  bool has_short_exponential = false;
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   PlaceLimits places;
   WideSplats wide_splats;  // guessed of sums

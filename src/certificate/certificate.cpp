@@ -40,10 +40,9 @@ struct Part {
 // and the roundings of sums. These have either sign: 6.5 standard deviations are passed once in
 // 1e10 (docs/accuracy.md).
 double part_of_all_splats(const CollectedSplats& splats, const FramePlan& plan) {
-  const double of_exp = plan.precision == Precision::fast ? 2.7e-6 : 7.5e-8;
   const double rounding = 0x1p-24, deviations = 6.5;
   const double of_sums = deviations * rounding * std::sqrt((splats.longest_list + 1) / 3);
-  return of_exp + plan.shares.pixel_mean + 8 * rounding + of_sums;
+  return plan.shape_error + plan.shares.pixel_mean + 8 * rounding + of_sums;
 }
 
 // What pixels err by whatever splats lie there. Series of phi make layers err by parts of

@@ -44,6 +44,7 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       extended_(plan.is_extended()),
       double_numbers_(traits.double_numbers),
       full_precision_(plan.precision != Precision::fast),
+      short_exponential_(plan.has_short_exponential),
       fine_places_(plan.has_fine_places && !extended_),
       small_blocks_(plan.adds_small_blocks),
       kernel_cut_(frame.kernel.cut.has_value()),
@@ -250,6 +251,7 @@ ProgramSource Specialization::bin() const {
 
 ProgramSource Specialization::composite() const {
   std::string defines = tile_defines() + define_if(kernel_cut_, "KERNEL_CUT") +
+                        define_if(short_exponential_, "SHORT_EXPONENTIAL") +
                         define_if(pixel_means_, "SAMPLING_MEAN");
   if (extended_) {
     defines += define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS");

@@ -112,7 +112,7 @@ class Specialization {
   bool rows_of_16_;      // of a patch, and sixteen lanes of a projection
   bool extended_;        // numbers of 45 bits
   bool double_numbers_;  // as doubles, else pairs of floats
-  bool full_precision_, fine_places_, small_blocks_;
+  bool full_precision_, short_exponential_, fine_places_, small_blocks_;
   bool kernel_cut_, pixel_means_;
   bool vector_colors_, ellipses_, copies_, face_of_cube_;
   bool keeps_transmittance_;

@@ -148,8 +148,12 @@ void set_limits(const Frame& frame, FramePlan& plan) {
     const double of_places = plan.precision == Precision::full ? unchecked : response;
     plan.places = choose_place_limits(frame, plan, of_places);
   }
+  const double of_layers = response_to_layers(frame, plan, unchecked);
+  plan.has_short_exponential =
+      suffices_short_exponential(frame, plan, plan.needs_sort() ? of_layers : response);
+  plan.shape_error = error_of_shapes(plan.precision, plan.has_short_exponential);
   plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source),
-                                    response_to_layers(frame, plan, unchecked));
+                                    of_layers, plan.has_short_exponential ? plan.shape_error : 0);
 }
 
 // Bounds are several times larger than estimates.

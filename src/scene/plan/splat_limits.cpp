@@ -37,6 +37,24 @@ double error_of_means(Precision precision) {
   return precision == Precision::fast ? 3e-6 : 2 * 1.8 * 2.3e-7;
 }
 
+// Of the polynomials of exp (kernels/composite/gaussian.cl), along both axes.
+double error_of_shapes(Precision precision, bool has_short_exponential) {
+  if (has_short_exponential) return 2 * 2.9e-5;
+  return 2 * (precision == Precision::fast ? 2.7e-6 : 7.5e-8);
+}
+
+// Splats on coarse grids may be narrower than what they are cut by, and those on the faces of a
+// cube are no products along two axes.
+bool suffices_short_exponential(const Frame& frame, const FramePlan& plan, double response) {
+  constexpr double widest_cut = 1.82;  // gaussian.cl
+  constexpr double of_layers = 0.1;    // the rest is for the series of phi
+  const bool is_possible = plan.precision == Precision::fast && !takes_pixel_means(frame) &&
+                           !plan.is_face_of_cube && plan.pyramid.grids.size() == 1 &&
+                           frame.kernel.cut.value_or(2 * widest_cut) <= widest_cut;
+  const double share = (plan.needs_sort() ? of_layers : 1) * plan.shares.phi;
+  return is_possible && error_of_shapes(plan.precision, true) * response <= share;
+}
+
 // The kernels work it out in single precision.
 double widest_bright_mean(const SplatLimits& limits, double light) {
   constexpr double less = 0.999;
@@ -132,12 +150,12 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
 constexpr double phi_of_thin_layers = 1.3;
 
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind, double response) {
+                                double brightest_behind, double response, double of_shapes) {
   LayerLimits limits;
   // One term of the series errs by y / 2 of phi, two by y^2 / 6, three by y^3 / 24, four by
   // y^4 / 120.
-  const double phi = shares.phi / (phi_of_thin_layers * response);
-  limits.part = phi * phi_of_thin_layers;
+  limits.part = shares.phi / response;
+  const double phi = (limits.part - of_shapes) / phi_of_thin_layers;
   limits.phi_first = static_cast<float>(std::min(0.5, 2 * phi));
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
   limits.phi_third = static_cast<float>(std::min(0.5, std::cbrt(24 * phi)));
