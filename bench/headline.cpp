@@ -300,7 +300,8 @@ class Report {
                   fixed(measured.render.median().wall_seconds, 2),
                   fixed(measured.render.minimum().wall_seconds, 2), fixed(now.small.additive_ns, 2),
                   fixed(now.large.additive_ns, 2), fixed(now.small.ordered_ns, 2),
-                  fixed(now.large.ordered_ns, 2)});
+                  fixed(now.large.ordered_ns, 2), fixed(now.small.layers_ns, 2),
+                  fixed(now.large.layers_ns, 2)});
   }
 
   void add_stages(const std::string& name, const Measured& measured) {
@@ -342,7 +343,8 @@ class Report {
                 "render", "render min", "render CPU"}};
   Table targets_{{"scene", "factor", "original total", "goal total", "ours, total", "least total",
                   "original inner", "goal inner", "ours, render", "least render",
-                  "yardstick + 5 px", "+ 20 px", "ordered 5 px", "ordered 20 px"}};
+                  "yardstick + 5 px", "+ 20 px", "ordered 5 px", "ordered 20 px", "six planes 5 px",
+                  "six planes 20 px"}};
   Table stages_{{"scene", "project", "sort", "bin", "certify", "composite", "resolve", "particles",
                  "drawn", "tile entries", "device B/particle", "heap B/particle"}};
   FloorReport floors_;

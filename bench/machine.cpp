@@ -31,6 +31,8 @@ Machine describe_machine(const std::string& part_of_device_name) {
   machine.device.is_gpu = (chosen.type() & CL_DEVICE_TYPE_GPU) != 0;
   machine.device.compute_units = static_cast<int>(chosen.compute_units());
   machine.device.memory_bytes = chosen.global_memory_size();
+  machine.vector_floats =
+      static_cast<int>(chosen.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT));
   double loads[1] = {0};
   if (getloadavg(loads, 1) == 1) machine.load = loads[0];
   return machine;
@@ -39,7 +41,8 @@ Machine describe_machine(const std::string& part_of_device_name) {
 std::string describe(const Machine& machine) {
   const DeviceInfo& device = machine.device;
   return "device " + device.name + " (" + device.platform + ", driver " + device.driver + ", " +
-         std::to_string(device.compute_units) + " compute units), processor " + machine.processor +
+         std::to_string(device.compute_units) + " compute units, vectors of " +
+         std::to_string(machine.vector_floats) + " floats), processor " + machine.processor +
          ", load " + fixed(machine.load, 1);
 }
 

@@ -10,7 +10,8 @@ namespace splotchcl::bench {
 struct Machine {
   std::string processor;
   DeviceInfo device;
-  double load = 0;  // processes that wanted to run, mean of the last minute
+  int vector_floats = 0;  // of the vectors that kernels are compiled for
+  double load = 0;        // processes that wanted to run, mean of the last minute
   int threads() const { return device.compute_units; }
 };
 

@@ -43,7 +43,7 @@ Floats exp_negative(Floats x) {
 
 struct Disc {
   float x, y, radius, inverse_sigma2;
-  float absorption[3];
+  float absorption[3], emission[3];
   float source;
 };
 
@@ -85,9 +85,11 @@ std::vector<Disc> random_discs(float mean_radius, int count) {
     disc.inverse_sigma2 = 1 / (sigma * sigma);
     disc.x = uniform(engine) * image_width;
     disc.y = uniform(engine) * image_height;
-    for (float& absorption : disc.absorption)
-      absorption = 0.05f * uniform(engine);
     disc.source = 1;
+    for (int c = 0; c < 3; ++c) {
+      disc.absorption[c] = 0.05f * uniform(engine);
+      disc.emission[c] = disc.source * disc.absorption[c];
+    }
   }
   return discs;
 }
@@ -101,8 +103,34 @@ double updates_of(const std::vector<Disc>& discs) {
   return updates;
 }
 
-// A tile's three channels, the channels of eight pixels side by side.
-using Tile = std::array<Floats, tile_height * blocks * 3>;
+constexpr std::size_t planes_of(YardstickPlan plan) {
+  return plan == YardstickPlan::layers ? 6 : 3;
+}
+
+// The planes of eight pixels side by side.
+template <YardstickPlan plan>
+using Tile = std::array<Floats, tile_height * blocks * planes_of(plan)>;
+
+// Over the depth: (1 - exp(-depth)) / depth.
+Floats phi(Floats depth) {
+  return 1.0f - depth * (0.5f - depth * (0.16666667f - depth * 0.041666667f));
+}
+
+// Channel c of eight pixels.
+template <YardstickPlan plan>
+void add_channel(Floats* pixels, int c, Floats shape, const Disc& disc) {
+  if constexpr (plan == YardstickPlan::sums) {
+    pixels[c] += shape * disc.absorption[c];
+  } else if constexpr (plan == YardstickPlan::ordered) {
+    const Floats depth = shape * disc.absorption[c];
+    pixels[c] += depth * phi(depth) * (disc.source - pixels[c]);
+  } else {
+    Floats& opacity = pixels[c + 3];
+    const Floats covered = (1.0f - opacity) * shape * phi(shape * disc.absorption[c]);
+    pixels[c] += covered * disc.emission[c];
+    opacity += covered * disc.absorption[c];
+  }
+}
 
 struct Corner {
   float x, y;
@@ -113,8 +141,8 @@ Corner corner_of(std::size_t tile) {
           static_cast<float>(static_cast<int>(tile) / tiles_x * tile_height)};
 }
 
-template <bool ordered>
-void add_disc(Tile& tile, const Disc& disc, Corner corner) {
+template <YardstickPlan plan>
+void add_disc(Tile<plan>& tile, const Disc& disc, Corner corner) {
   const float x = disc.x - corner.x, y = disc.y - corner.y;
   const Range columns = pixels_within(x, disc.radius, tile_width);
   const Range rows = pixels_within(y, disc.radius, tile_height);
@@ -129,18 +157,11 @@ void add_disc(Tile& tile, const Disc& disc, Corner corner) {
     const Floats dx = ramp + (static_cast<float>(block * lanes) + 0.5f - x);
     const Floats along_x = exp_negative(dx * dx * scale);
     for (int row = rows.first; row <= rows.last; ++row) {
-      Floats* pixels = tile.data() + (row * blocks + block) * 3;
+      Floats* pixels =
+          tile.data() + static_cast<std::size_t>(row * blocks + block) * planes_of(plan);
       const Floats shape = along_x * along_y[row - rows.first];
-      for (int c = 0; c < 3; ++c) {
-        const Floats depth = shape * disc.absorption[c];
-        if constexpr (ordered) {
-          const Floats opacity =
-              depth * (1.0f - depth * (0.5f - depth * (0.16666667f - depth * 0.041666667f)));
-          pixels[c] += opacity * (disc.source - pixels[c]);
-        } else {
-          pixels[c] += depth;
-        }
-      }
+      for (int c = 0; c < 3; ++c)
+        add_channel<plan>(pixels, c, shape, disc);
     }
   }
 }
@@ -155,18 +176,18 @@ struct YardstickScene::Lists {
 
   explicit Lists(const std::vector<Disc>& all_discs);
 
-  template <bool ordered>
+  template <YardstickPlan plan>
   void draw_tile(std::size_t index) {
-    Tile tile;
+    Tile<plan> tile;
     tile.fill(Floats{});
     const Corner corner = corner_of(index);
     for (std::uint32_t i = starts[index]; i < starts[index + 1]; ++i)
-      add_disc<ordered>(tile, discs[i], corner);
+      add_disc<plan>(tile, discs[i], corner);
     std::memcpy(image.data() + index * tile.size() * lanes, tile.data(), sizeof(tile));
   }
 
   // Threads take the next four tiles until none is left.
-  template <bool ordered>
+  template <YardstickPlan plan>
   void draw(int thread_count) {
     constexpr std::size_t at_once = 4;
     std::atomic<std::size_t> next{0};
@@ -174,7 +195,7 @@ struct YardstickScene::Lists {
       for (std::size_t first; (first = next.fetch_add(at_once)) < tile_count;) {
         const std::size_t end = std::min<std::size_t>(first + at_once, tile_count);
         for (std::size_t tile = first; tile < end; ++tile)
-          draw_tile<ordered>(tile);
+          draw_tile<plan>(tile);
       }
     };
     std::vector<std::thread> others;
@@ -187,7 +208,8 @@ struct YardstickScene::Lists {
 };
 
 YardstickScene::Lists::Lists(const std::vector<Disc>& all_discs)
-    : starts(tile_count + 1, 0), image(3ul * image_width * image_height) {
+    : starts(tile_count + 1, 0),
+      image(planes_of(YardstickPlan::layers) * image_width * image_height) {
   for (const Disc& disc : all_discs)
     for_each_tile(disc, [&](std::size_t tile) { ++starts[tile + 1]; });
   for (std::size_t t = 0; t < tile_count; ++t)
@@ -208,22 +230,25 @@ double YardstickScene::updates() const {
   return lists_->updates;
 }
 
-void YardstickScene::draw(bool ordered, int threads) {
-  if (ordered) {
-    lists_->draw<true>(threads);
-  } else {
-    lists_->draw<false>(threads);
+void YardstickScene::draw(YardstickPlan plan, int threads) {
+  switch (plan) {
+    case YardstickPlan::sums:
+      return lists_->draw<YardstickPlan::sums>(threads);
+    case YardstickPlan::ordered:
+      return lists_->draw<YardstickPlan::ordered>(threads);
+    case YardstickPlan::layers:
+      return lists_->draw<YardstickPlan::layers>(threads);
   }
 }
 
 namespace {
 
-double best_seconds(YardstickScene& scene, bool ordered, int threads) {
+double best_seconds(YardstickScene& scene, YardstickPlan plan, int threads) {
   constexpr int runs = 5;
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < runs; ++i) {
     const Stopwatch stopwatch;
-    scene.draw(ordered, threads);
+    scene.draw(plan, threads);
     best = std::min(best, stopwatch.elapsed().wall_seconds);
   }
   return best;
@@ -231,8 +256,10 @@ double best_seconds(YardstickScene& scene, bool ordered, int threads) {
 
 YardstickCost measure_size(float radius_pixels, int splat_count, int threads) {
   YardstickScene scene(radius_pixels, splat_count);
-  return {1e9 * best_seconds(scene, false, threads) / scene.updates(),
-          1e9 * best_seconds(scene, true, threads) / scene.updates()};
+  const auto cost = [&](YardstickPlan plan) {
+    return 1e9 * best_seconds(scene, plan, threads) / scene.updates();
+  };
+  return {cost(YardstickPlan::sums), cost(YardstickPlan::ordered), cost(YardstickPlan::layers)};
 }
 
 }  // namespace
@@ -245,13 +272,18 @@ double Yardstick::ordered_ns() const {
   return std::sqrt(small.ordered_ns * large.ordered_ns);
 }
 
+double Yardstick::layers_ns() const {
+  return std::sqrt(small.layers_ns * large.layers_ns);
+}
+
 Yardstick measure_yardstick(int threads) {
   return {measure_size(5, 1000000, threads), measure_size(20, 200000, threads), threads};
 }
 
 Yardstick mean_of(const Yardstick& first, const Yardstick& second) {
   const auto mean = [](const YardstickCost& a, const YardstickCost& b) -> YardstickCost {
-    return {0.5 * (a.additive_ns + b.additive_ns), 0.5 * (a.ordered_ns + b.ordered_ns)};
+    return {0.5 * (a.additive_ns + b.additive_ns), 0.5 * (a.ordered_ns + b.ordered_ns),
+            0.5 * (a.layers_ns + b.layers_ns)};
   };
   return {mean(first.small, second.small), mean(first.large, second.large), first.threads};
 }
@@ -260,9 +292,10 @@ std::string describe(const Yardstick& yardstick) {
   char text[200];
   std::snprintf(text, sizeof(text),
                 "yardstick, ns per pixel update, %d threads: additive %.3f (5 px) %.3f (20 px), "
-                "ordered %.3f (5 px) %.3f (20 px)",
+                "ordered %.3f (5 px) %.3f (20 px), in six planes %.3f (5 px) %.3f (20 px)",
                 yardstick.threads, yardstick.small.additive_ns, yardstick.large.additive_ns,
-                yardstick.small.ordered_ns, yardstick.large.ordered_ns);
+                yardstick.small.ordered_ns, yardstick.large.ordered_ns, yardstick.small.layers_ns,
+                yardstick.large.layers_ns);
   return text;
 }
 

@@ -5,6 +5,11 @@
 
 namespace splotchcl::bench {
 
+// What is done to a pixel, of three channels each: sums add to three planes. Ordered ones put
+// opacity of one source before the light of three planes, as in the hour in which the original was
+// measured. Layers have light and opacity, six planes, as the renderer has them.
+enum class YardstickPlan { sums, ordered, layers };
+
 // How fast this machine can add splats into image tiles right now, done by hand with the
 // compiler's vectors of eight floats. Not a renderer: its splats lie in the lists of their
 // tiles before the clock starts, and its exponential has a relative error of 2e-6. What a
@@ -17,7 +22,7 @@ class YardstickScene {
   YardstickScene(YardstickScene&&) noexcept;
 
   double updates() const;  // pixels inside the splats' discs, three channels each
-  void draw(bool ordered, int threads);
+  void draw(YardstickPlan plan, int threads);
 
  private:
   struct Lists;
@@ -27,15 +32,17 @@ class YardstickScene {
 struct YardstickCost {
   double additive_ns = 0;  // per pixel update, the best of several runs
   double ordered_ns = 0;
+  double layers_ns = 0;
 };
 
 // One number for the machine of the moment: the costs of the two sizes that matter most in
-// large snapshots, and their geometric mean.
+// large snapshots, and their geometric means.
 struct Yardstick {
   YardstickCost small, large;  // 5 and 20 pixels
   int threads = 1;
   double additive_ns() const;
   double ordered_ns() const;
+  double layers_ns() const;
 };
 Yardstick measure_yardstick(int threads);
 Yardstick mean_of(const Yardstick& first, const Yardstick& second);

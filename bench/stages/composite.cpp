@@ -2,6 +2,7 @@
 // pixel inside 1.8 sigma, where the original cuts its Gaussian, whether the model that is
 // drawn cuts there or not, and however many pixels are touched to draw it.
 #include <cmath>
+#include <utility>
 
 #include "stages/stage_rig.h"
 #include "stages/timed.h"
@@ -94,11 +95,11 @@ void composite(benchmark::State& state, DeviceContext& device, const Frame& fram
   timer.count("entries", static_cast<double>(rig.lists().entry_count));
 }
 
-void yardstick(benchmark::State& state, const SizeClass& size, bool ordered, int threads) {
+void yardstick(benchmark::State& state, const SizeClass& size, YardstickPlan plan, int threads) {
   YardstickScene scene(static_cast<float>(size.radius_pixels), static_cast<int>(size.count));
   PieceTimer timer(state);
   for (auto _ : state)
-    timer.time([&] { scene.draw(ordered, threads); });
+    timer.time([&] { scene.draw(plan, threads); });
   timer.count_nanoseconds("update", scene.updates());
   timer.count_nanoseconds("splat", static_cast<double>(size.count));
 }
@@ -123,13 +124,15 @@ void add_composite_benchmarks(const Setting& setting) {
 }
 
 void add_yardstick_benchmarks(const Setting& setting) {
+  const std::pair<YardstickPlan, const char*> plans[] = {{YardstickPlan::sums, "additive"},
+                                                         {YardstickPlan::ordered, "ordered"},
+                                                         {YardstickPlan::layers, "layers"}};
   for (const SizeClass& size : size_classes) {
-    for (const bool ordered : {false, true}) {
-      add_benchmark(
-          std::string("yardstick/") + (ordered ? "ordered/" : "additive/") + in_pixels(size),
-          [size, ordered, threads = setting.threads](benchmark::State& state) {
-            yardstick(state, size, ordered, threads);
-          });
+    for (const auto& [plan, name] : plans) {
+      add_benchmark(std::string("yardstick/") + name + "/" + in_pixels(size),
+                    [size, plan = plan, threads = setting.threads](benchmark::State& state) {
+                      yardstick(state, size, plan, threads);
+                    });
     }
   }
 }

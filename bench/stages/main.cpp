@@ -21,6 +21,7 @@ void run(const Arguments& arguments) {
   benchmark::AddCustomContext("device", machine.device.name);
   benchmark::AddCustomContext("driver", machine.device.platform + " " + machine.device.driver);
   benchmark::AddCustomContext("threads", std::to_string(machine.threads()));
+  benchmark::AddCustomContext("vector_floats", std::to_string(machine.vector_floats));
   benchmark::AddCustomContext("processor", machine.processor);
 
   std::vector<std::string> words = {
