@@ -19,12 +19,11 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 #define SLOTS_AHEAD 32
 
 #ifndef BLOCKS_OF_PROJECTION
-// counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
-// fetched once, here, and kept in order for the scatter.
-__kernel void bin_count(const BinParameters p, __global const Grid* grids,
-                        __global const Splat* splats, __global const uint* order,
-                        __global uint* counts, __global uint* tiles, __global Splat* in_order) {
-  const uint block = get_global_id(0);
+KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* grids,
+                             __global const Splat* splats, __global const uint* order,
+                             __global uint* counts, __global uint* tiles, __global Splat* in_order,
+                             uint block) {
+  const BinParameters p = *of_band;
   __global uint* count = counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
@@ -49,18 +48,24 @@ __kernel void bin_count(const BinParameters p, __global const Grid* grids,
   }
   count_waiting(&waiting, count);
 }
+
+// counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
+// fetched once, here, and kept in order for the scatter.
+__kernel void bin_count(const BinParameters p, __global const Grid* grids,
+                        __global const Splat* splats, __global const uint* order,
+                        __global uint* counts, __global uint* tiles, __global Splat* in_order) {
+  count_block(&p, grids, splats, order, counts, tiles, in_order, (uint)get_global_id(0));
+}
 #endif
 
-// Per tile, an exclusive scan over the blocks, in place, and the list's length. A work-item takes
-// as many tiles as a vector holds: what they count lies side by side.
-__kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
-                              __global uint* lengths) {
-  const uint first = get_global_id(0) * TILES_OF_SCAN;
-  if (first >= p.tile_count) return;
-  if (p.tile_count - first >= TILES_OF_SCAN) {
+// Scans the counts of the tiles from `first` on.
+KERNEL_BODY void scan_blocks_of_tiles(uint tile_count, uint block_count, __global uint* counts,
+                                      __global uint* lengths, uint first) {
+  if (first >= tile_count) return;
+  if (tile_count - first >= TILES_OF_SCAN) {
     uint8 running = (uint8)(0u);
-    for (uint b = 0; b < p.block_count; ++b) {
-      __global uint* of_block = counts + (size_t)b * p.tile_count + first;
+    for (uint b = 0; b < block_count; ++b) {
+      __global uint* of_block = counts + (size_t)b * tile_count + first;
       const uint8 count = vload8(0, of_block);
       vstore8(running, 0, of_block);
       running += count;
@@ -68,10 +73,10 @@ __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
     vstore8(running, 0, lengths + first);
     return;
   }
-  for (uint tile = first; tile < p.tile_count; ++tile) {
+  for (uint tile = first; tile < tile_count; ++tile) {
     uint running = 0;
-    for (uint b = 0; b < p.block_count; ++b) {
-      const size_t place = (size_t)b * p.tile_count + tile;
+    for (uint b = 0; b < block_count; ++b) {
+      const size_t place = (size_t)b * tile_count + tile;
       const uint count = counts[place];
       counts[place] = running;
       running += count;
@@ -80,10 +85,17 @@ __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
   }
 }
 
-// Starts of the lists of a band of tiles, and the segments that long ones are cut into.
-__kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths,
-                             __global uint* starts, __global Segment* segments) {
-  if (get_global_id(0) != 0) return;
+// Per tile, an exclusive scan over the blocks, in place, and the list's length. A work-item takes
+// as many tiles as a vector holds: what they count lies side by side.
+__kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
+                              __global uint* lengths) {
+  scan_blocks_of_tiles(p.tile_count, p.block_count, counts, lengths,
+                       get_global_id(0) * TILES_OF_SCAN);
+}
+
+KERNEL_BODY void scan_tiles(const BinParameters* of_band, __global const uint* lengths,
+                            __global uint* starts, __global Segment* segments) {
+  const BinParameters p = *of_band;
   uint running = 0, segment_count = 0, partial_count = 0;
   for (uint t = p.first_tile; t < p.end_tile; ++t) {
     const uint length = lengths[t];
@@ -99,6 +111,12 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
     }
     running += length;
   }
+}
+
+// Starts of the lists of a band of tiles, and the segments that long ones are cut into.
+__kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths,
+                             __global uint* starts, __global Segment* segments) {
+  if (get_global_id(0) == 0) scan_tiles(&p, lengths, starts, segments);
 }
 
 // Where entries of a band's lists go.
@@ -191,15 +209,15 @@ INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global
 }
 #endif
 
-__kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
-                          __global const Splat* splats, __global const uint* order,
-                          __global const BlockCounts* blocks, __global uint* counts,
-                          __global const uint* tiles, __global const Splat* in_order,
-                          __global const uint* starts,
-                          __global const ComponentColors* component_colors,
-                          __global const float* knots, __global TileSplat* entries) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid* grids,
+                               __global const Splat* splats, __global const uint* order,
+                               __global const BlockCounts* blocks, __global uint* counts,
+                               __global const uint* tiles, __global const Splat* in_order,
+                               __global const uint* starts,
+                               __global const ComponentColors* component_colors,
+                               __global const float* knots, __global TileSplat* entries,
+                               uint block) {
+  const BinParameters p = *of_band;
   const uint end = slots_end(p, blocks, block);
   ListedBand band;
   band.first_tile = p.first_tile;
@@ -231,4 +249,17 @@ __kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
     }
 #endif
   }
+}
+
+__kernel void bin_scatter(const BinParameters p, __global const Grid* grids,
+                          __global const Splat* splats, __global const uint* order,
+                          __global const BlockCounts* blocks, __global uint* counts,
+                          __global const uint* tiles, __global const Splat* in_order,
+                          __global const uint* starts,
+                          __global const ComponentColors* component_colors,
+                          __global const float* knots, __global TileSplat* entries) {
+  const uint block = piece_of_item(p.block_count);
+  if (block == NO_PIECE) return;
+  scatter_block(&p, grids, splats, order, blocks, counts, tiles, in_order, starts, component_colors,
+                knots, entries, block);
 }

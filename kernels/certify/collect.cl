@@ -81,14 +81,12 @@ INLINED void collect_batch(__global const TileSplat* entries, int count, const T
     add(contribution_of_drawn(one_of(&batch, i), INFINITY, p), tile->cells);
 }
 
-// The cells of each tile one after the other.
-__kernel void collect(const CertifyParameters p, __global const Grid* grids,
-                      __global const Segment* segments, __global const TileSplat* entries,
-                      __global float* cells) {
-  const uint id = piece_of_item(p.segment_count);
-  if (id == NO_PIECE) return;
+// The entries of a tile whose first segment is `id`.
+KERNEL_BODY void collect_tile(const CertifyParameters* of_frame, __global const Grid* grids,
+                              __global const Segment* segments, __global const TileSplat* entries,
+                              __global float* cells, uint id) {
+  const CertifyParameters p = *of_frame;
   const uint number = segments[id].tile;
-  if (id > 0 && segments[id - 1].tile == number) return;
   const uint g = grid_of_tile(grids, p.grid_count, number);
   const Grid grid = grids[g];
   const uint in_grid = number - grid.first_tile;
@@ -109,4 +107,14 @@ __kernel void collect(const CertifyParameters p, __global const Grid* grids,
       collect_batch(entries + k, end - k < LANES ? (int)(end - k) : LANES, &tile, &p);
     }
   }
+}
+
+// The cells of each tile one after the other.
+__kernel void collect(const CertifyParameters p, __global const Grid* grids,
+                      __global const Segment* segments, __global const TileSplat* entries,
+                      __global float* cells) {
+  const uint id = piece_of_item(p.segment_count);
+  if (id == NO_PIECE) return;
+  if (id > 0 && segments[id - 1].tile == segments[id].tile) return;
+  collect_tile(&p, grids, segments, entries, cells, id);
 }

@@ -18,6 +18,15 @@
 #define SELDOM_CALLED INLINED
 #endif
 
+// What a kernel does for a work-item, whose numbers it is handed. Of a kernel PoCL makes three
+// copies for processors, and puts into them whatever asks for such a number itself: with a call in
+// it, it is compiled in half the time. Elsewhere a call would cost.
+#ifdef CALLS_BODIES
+#define KERNEL_BODY __attribute__((noinline)) static
+#else
+#define KERNEL_BODY INLINED
+#endif
+
 // Of functions that there are for eight numbers and for sixteen.
 #ifdef ROWS_OF_16
 #define OVERLOADED __attribute__((overloadable))

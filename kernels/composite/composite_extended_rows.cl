@@ -120,13 +120,11 @@ static inline Pixels give_pixels(const double* tile) {
   return pixels;
 }
 
-__kernel void composite(const CompositeParameters p, __global const Grid* grids,
-                        __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials,
-                        __global const ExtendedSplat* splats) {
-  const uint piece = piece_of_item(p.end_segment - p.first_segment);
-  if (piece == NO_PIECE) return;
-  const Segment segment = segments[p.first_segment + piece];
+KERNEL_BODY void composite_segment(const Segment segment, const CompositeParameters* of_frame,
+                                   __global const Grid* grids, __global const TileSplat* entries,
+                                   __global float* planes, __global float* partials,
+                                   __global const ExtendedSplat* splats) {
+  const CompositeParameters p = *of_frame;
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, segment.tile)];
   const uint in_grid = segment.tile - grid.first_tile;
   const uint column = in_grid % (uint)grid.tiles_x, row = in_grid / (uint)grid.tiles_x;
@@ -154,4 +152,14 @@ __kernel void composite(const CompositeParameters p, __global const Grid* grids,
       store_pixels(pixels, own_planes(planes, grid, segment.tile, item), grid.plane_size);
     }
   }
+}
+
+__kernel void composite(const CompositeParameters p, __global const Grid* grids,
+                        __global const Segment* segments, __global const TileSplat* entries,
+                        __global float* planes, __global float* partials,
+                        __global const ExtendedSplat* splats) {
+  const uint piece = piece_of_item(p.end_segment - p.first_segment);
+  if (piece == NO_PIECE) return;
+  composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes, partials,
+                    splats);
 }

@@ -1,16 +1,10 @@
 // Which particles are around the camera, and how deep.
 
-// Work-item: one of the blocks of particles that `blocks` numbers. `listed[0]` counts them, and
-// three words each from listed[3] on take a particle and the low and the high word of its depth's
-// key, in any order.
-__kernel void list_around(const ProjectParameters p, __global const float* positions,
-                          __global const float* smoothing_lengths, __global const float* weights,
-                          __global const float* colors, __global const float* intensities,
-                          __global const float* sort_fields, __global const uint* blocks,
-                          __global uint* listed, const uint capacity OWN_COLORS_PARAMETER) {
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields OWN_COLORS_ARGUMENT);
-  const uint begin = p.first_particle + blocks[get_global_id(0)] * p.block_particles;
+KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of_particles,
+                            uint block, __global uint* listed, uint capacity) {
+  const ProjectParameters p = *of_frame;
+  const Columns columns = *of_particles;
+  const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
   for (uint i = begin; i < end; i += LANES) {
     const ParticleLanes particles = load_particles(columns, i, end, p);
@@ -32,4 +26,17 @@ __kernel void list_around(const ProjectParameters p, __global const float* posit
       listed[3 * place + 2] = (uint)(key >> 32);
     }
   }
+}
+
+// Work-item: one of the blocks of particles that `blocks` numbers. `listed[0]` counts them, and
+// three words each from listed[3] on take a particle and the low and the high word of its depth's
+// key, in any order.
+__kernel void list_around(const ProjectParameters p, __global const float* positions,
+                          __global const float* smoothing_lengths, __global const float* weights,
+                          __global const float* colors, __global const float* intensities,
+                          __global const float* sort_fields, __global const uint* blocks,
+                          __global uint* listed, const uint capacity OWN_COLORS_PARAMETER) {
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields OWN_COLORS_ARGUMENT);
+  list_block(&p, &columns, blocks[get_global_id(0)], listed, capacity);
 }

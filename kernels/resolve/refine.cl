@@ -1,4 +1,5 @@
-// A grid interpolated to half its pixel size, axis by axis.
+// A grid interpolated to half its pixel size, axis by axis. A work-item takes EIGHTS_OF_ITEM times
+// eight pixels of a row.
 
 // Pixels on either side that one is made from; weights beyond them are 0.
 #ifdef TEN_TAPS
@@ -49,23 +50,36 @@ INLINED Pair between(__global const float* center, size_t stride, const float* w
   return pair;
 }
 
-// Work-item (eight coarse pixels, y of the temporary, plane): sixteen pixels of a row,
+// Stores sixteen pixels of a row.
+INLINED void store_pair(const Pair sums, __global float* target) {
+  const float8 even = sums.even, odd = sums.odd;
+  vstore8((float8)(even.s0, odd.s0, even.s1, odd.s1, even.s2, odd.s2, even.s3, odd.s3), 0, target);
+  vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
+}
+
+// Item `number` of row y of the temporary.
+KERNEL_BODY void refine_along_x(const RefineParameters* refined, __global const Grid* grids,
+                                __global const float* planes, __global float* temporary, int number,
+                                int y, uint c) {
+  const RefineParameters p = *refined;
+  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
+  const int rows = coarse_rows(p.part, fine, coarse);
+  if (y >= rows) return;
+  const int left = number * 2 * PIXELS_OF_ITEM, x = first_column(p.part) + left;
+  __global const float* row = planes + pixel_at(coarse, c, coarse_place(x, fine, coarse),
+                                                first_coarse_row(p.part, fine, coarse) + y);
+  __global float* target = temporary + ((size_t)c * rows + y) * temporary_columns(p.part) + left;
+  const int count = min(PIXELS_OF_ITEM, (p.part.right_end - x + 1) / 2);
+  for (int k = 0; k < count; k += 8)
+    store_pair(between(row + k, 1, p.weights), target + 2 * k);
+}
+
+// Work-item (coarse pixels, y of the temporary, plane): twice as many pixels of a row,
 // interpolated along x.
 __kernel void refine_columns(const RefineParameters p, __global const Grid* grids,
                              __global const float* planes, __global float* temporary) {
-  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
-  const int x = first_column(p.part) + (int)get_global_id(0) * 2 * 8, y = (int)get_global_id(1);
-  const uint c = (uint)get_global_id(2);
-  const int rows = coarse_rows(p.part, fine, coarse);
-  if (x >= p.part.right_end || y >= rows) return;
-  __global const float* row = planes + pixel_at(coarse, c, coarse_place(x, fine, coarse),
-                                                first_coarse_row(p.part, fine, coarse) + y);
-  const Pair sums = between(row, 1, p.weights);
-  const float8 even = sums.even, odd = sums.odd;
-  __global float* target =
-      temporary + ((size_t)c * rows + y) * temporary_columns(p.part) + (x - first_column(p.part));
-  vstore8((float8)(even.s0, odd.s0, even.s1, odd.s1, even.s2, odd.s2, even.s3, odd.s3), 0, target);
-  vstore8((float8)(even.s4, odd.s4, even.s5, odd.s5, even.s6, odd.s6, even.s7, odd.s7), 1, target);
+  refine_along_x(&p, grids, planes, temporary, (int)get_global_id(0), (int)get_global_id(1),
+                 (uint)get_global_id(2));
 }
 
 // The first row of the pair that a work-item takes: the part may begin or end within a pair.
@@ -82,24 +96,36 @@ static inline __global const float* column_of(__global const float* temporary, c
          (x - first_column(part));
 }
 
-// Work-item (eight pixels, pair of rows, plane) of the part: interpolated along y and added to
+// Item `number` of a pair of rows.
+KERNEL_BODY void refine_along_y(const RefineParameters* refined, __global const Grid* grids,
+                                __global float* planes, __global const float* temporary, int number,
+                                int pair, uint c) {
+  const RefineParameters p = *refined;
+  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
+  const int first = first_of_pair(p.part, pair);
+  if (first >= p.part.bottom) return;
+  const size_t stride = temporary_columns(p.part);
+  const int left = p.part.left + number * PIXELS_OF_ITEM;
+  const int right_end = min(left + PIXELS_OF_ITEM, p.part.right_end);
+  for (int x = left; x < right_end; x += 8) {
+    __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
+    ask_for(column + (PIXELS_BESIDE + 1) * stride);
+    __global float* below = planes + pixel_at(fine, c, x, first + 2);
+    ask_to_write(below);
+    ask_to_write(below + fine.stride);
+    const Pair sums = between(column, stride, p.weights);
+    for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
+      __global float* target = planes + pixel_at(fine, c, x, y);
+      const float8 sum = y == first ? sums.even : sums.odd;
+      store_first(p.add ? vload8(0, target) + sum : sum, p.part.right_end - x, target);
+    }
+  }
+}
+
+// Work-item (pixels, pair of rows, plane) of the part: interpolated along y and added to
 // what the finer grid holds, if it does hold something.
 __kernel void refine_rows(const RefineParameters p, __global const Grid* grids,
                           __global float* planes, __global const float* temporary) {
-  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
-  const int x = p.part.left + (int)get_global_id(0) * 8;
-  const int first = first_of_pair(p.part, (int)get_global_id(1));
-  const uint c = (uint)get_global_id(2);
-  if (x >= p.part.right_end || first >= p.part.bottom) return;
-  __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
-  ask_for(column + (PIXELS_BESIDE + 1) * temporary_columns(p.part));
-  __global float* below = planes + pixel_at(fine, c, x, first + 2);
-  ask_to_write(below);
-  ask_to_write(below + fine.stride);
-  const Pair sums = between(column, temporary_columns(p.part), p.weights);
-  for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {
-    __global float* target = planes + pixel_at(fine, c, x, y);
-    const float8 sum = y == first ? sums.even : sums.odd;
-    store_first(p.add ? vload8(0, target) + sum : sum, p.part.right_end - x, target);
-  }
+  refine_along_y(&p, grids, planes, temporary, (int)get_global_id(0), (int)get_global_id(1),
+                 (uint)get_global_id(2));
 }

@@ -1,25 +1,26 @@
-// The sums of all grids, or the layers, to the light that they are.
+// The sums of all grids, or the layers, to the light that they are. A work-item takes
+// EIGHTS_OF_ITEM times eight pixels of a row.
 
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
 // that are padded to whole eights.
 #ifdef BACKGROUND_IMAGE
-#define BACKGROUND_ARGUMENT __global const float *background,
+#define BACKGROUND_PARAMETER __global const float *background,
+#define BACKGROUND_ARGUMENT background,
 #define BACKGROUND(c, x, y) \
   vload8(0, background + ((size_t)(c)*p.height + (y)) * p.background_stride + (x))
 #else
+#define BACKGROUND_PARAMETER
 #define BACKGROUND_ARGUMENT
 #define BACKGROUND(c, x, y) p.background[c]
 #endif
 
-// Work-item (eight pixels, y): linear red, green, blue and alpha.
-__kernel void resolve(const ResolveParameters p, __global const Grid* grids,
-                      __global const float* planes, BACKGROUND_ARGUMENT __global float* image) {
-  const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
-  if (x >= p.width) return;
-  const Grid grid = grids[0];
+// Eight pixels of a row, from x on.
+INLINED void resolve_eight(const ResolveParameters p, const Grid grid, __global const float* planes,
+                           BACKGROUND_PARAMETER __global float* image, int x, int y) {
   __global const float* pixels = planes + pixel_at(grid, 0, p.crop_x + x, p.crop_y + y);
   float light[4][8];
   float8 transmitted = (float8)(0.0f);
+#pragma unroll
   for (int c = 0; c < 3; ++c) {
 #ifdef EXTENDED_NUMBERS
     // The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
@@ -72,4 +73,22 @@ __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
     }
     vstore4((float4)(light[0][i], light[1][i], light[2][i], light[3][i]), i, out);
   }
+}
+
+// Item `number` of row y.
+KERNEL_BODY void resolve_pixels(const ResolveParameters* of_frame, __global const Grid* grids,
+                                __global const float* planes,
+                                BACKGROUND_PARAMETER __global float* image, int number, int y) {
+  const ResolveParameters p = *of_frame;
+  const Grid grid = grids[0];
+  const int left = number * PIXELS_OF_ITEM, right_end = min(left + PIXELS_OF_ITEM, p.width);
+  for (int x = left; x < right_end; x += 8)
+    resolve_eight(p, grid, planes, BACKGROUND_ARGUMENT image, x, y);
+}
+
+// Work-item (pixels, y): linear red, green, blue and alpha.
+__kernel void resolve(const ResolveParameters p, __global const Grid* grids,
+                      __global const float* planes, BACKGROUND_PARAMETER __global float* image) {
+  resolve_pixels(&p, grids, planes, BACKGROUND_ARGUMENT image, (int)get_global_id(0),
+                 (int)get_global_id(1));
 }

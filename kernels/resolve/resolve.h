@@ -59,6 +59,9 @@ struct ResolveParameters {
   int circle_x, circle_y, circle_diameter;
 };
 
+// Of a row, that a work-item takes.
+#define PIXELS_OF_ITEM (8 * EIGHTS_OF_ITEM)
+
 #ifdef __OPENCL_VERSION__
 typedef struct GridPart GridPart;
 typedef struct BlurParameters BlurParameters;

@@ -63,17 +63,10 @@ static inline void ask_for_pixels(__global float* planes, __global const float* 
   }
 }
 
-// Work-item (eight pixels, pair of rows) of the part: sums interpolated along y from `columns`
-// (refine_columns), then laid. `before` has the planes as they were before the slab, and takes what
-// they are after it; `errors` the most that any order of the slab's splats could change of eight
-// pixels (docs/accuracy.md, "Slabs").
-__kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __global float* planes,
-                       __global const float* columns, __global float* before,
-                       __global float* errors) {
-  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
-  const int x = p.part.left + (int)get_global_id(0) * 8;
-  const int first = first_of_pair(p.part, (int)get_global_id(1));
-  if (x >= p.part.right_end || first >= p.part.bottom) return;
+// Eight pixels of two rows, from x on.
+INLINED void lay_eight(const RefineParameters p, const Grid coarse, const Grid fine,
+                       __global float* planes, __global const float* columns,
+                       __global float* before, __global float* errors, int x, int first) {
   const int count = p.part.right_end - x;
   const size_t stride = temporary_columns(p.part);
   ask_for_pixels(planes, columns, before, p, coarse, fine, x, first);
@@ -98,7 +91,32 @@ __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __g
   for (int r = 0; r < 2; ++r) {
     const int y = first + r;
     if (y < p.part.top || y >= p.part.bottom) continue;
-    const size_t strip = (size_t)(y - p.part.top) * strips + get_global_id(0);
+    const size_t strip = (size_t)(y - p.part.top) * strips + (size_t)((x - p.part.left) / 8);
     errors[strip] += largest_of_first(largest[r], count);
   }
+}
+
+// Item `number` of a pair of rows.
+KERNEL_BODY void lay_pixels(const RefineParameters* refined, __global const Grid* grids,
+                            __global float* planes, __global const float* columns,
+                            __global float* before, __global float* errors, int number, int pair) {
+  const RefineParameters p = *refined;
+  const Grid coarse = grids[p.coarse], fine = grids[p.fine];
+  const int first = first_of_pair(p.part, pair);
+  if (first >= p.part.bottom) return;
+  const int left = p.part.left + number * PIXELS_OF_ITEM;
+  const int right_end = min(left + PIXELS_OF_ITEM, p.part.right_end);
+  for (int x = left; x < right_end; x += 8)
+    lay_eight(p, coarse, fine, planes, columns, before, errors, x, first);
+}
+
+// Work-item (pixels, pair of rows) of the part: sums interpolated along y from `columns`
+// (refine_columns), then laid. `before` has the planes as they were before the slab, and takes what
+// they are after it; `errors` the most that any order of the slab's splats could change of eight
+// pixels (docs/accuracy.md, "Slabs").
+__kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __global float* planes,
+                       __global const float* columns, __global float* before,
+                       __global float* errors) {
+  lay_pixels(&p, grids, planes, columns, before, errors, (int)get_global_id(0),
+             (int)get_global_id(1));
 }

@@ -3,10 +3,8 @@
 // waits for another, so no forward progress is assumed.
 // Also, per block, the bits that are set in some keys and in all of them: a digit that is the
 // same for all needs no pass.
-__kernel void sort_histogram(const SortParameters p, __global const uint* keys,
-                             __global uint* histograms, __global KeyBits* bits) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void histogram_of_block(const SortParameters p, __global const uint* keys,
+                                    __global uint* histograms, __global KeyBits* bits, uint block) {
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint histogram[SORT_DIGITS];
@@ -28,27 +26,33 @@ __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
   bits[block].some = some;
   bits[block].all = all;
 }
+__kernel void sort_histogram(const SortParameters p, __global const uint* keys,
+                             __global uint* histograms, __global KeyBits* bits) {
+  const uint block = piece_of_item(p.block_count);
+  if (block != NO_PIECE) histogram_of_block(p, keys, histograms, bits, block);
+}
 
 // Exclusive scan over all digits and blocks, in place: where each block's first pair of a
 // digit goes. 256 numbers per block: one work-item.
-__kernel void sort_scan(const SortParameters p, __global uint* histograms) {
-  if (get_global_id(0) != 0) return;
+KERNEL_BODY void scan_histograms(__global uint* histograms, uint count) {
   uint running = 0;
-  for (uint i = 0; i < SORT_DIGITS * p.block_count; ++i) {
-    const uint count = histograms[i];
+  for (uint i = 0; i < count; ++i) {
+    const uint here = histograms[i];
     histograms[i] = running;
-    running += count;
+    running += here;
   }
+}
+__kernel void sort_scan(const SortParameters p, __global uint* histograms) {
+  if (get_global_id(0) == 0) scan_histograms(histograms, SORT_DIGITS * p.block_count);
 }
 
 // Pairs of a digit lie side by side, those of different digits all over memory.
 #define PAIRS_AHEAD 16
 
-__kernel void sort_scatter(const SortParameters p, __global const uint* keys,
-                           __global const uint* values, __global const uint* histograms,
-                           __global uint* sorted_keys, __global uint* sorted_values) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void scatter_block(const SortParameters p, __global const uint* keys,
+                               __global const uint* values, __global const uint* histograms,
+                               __global uint* sorted_keys, __global uint* sorted_values,
+                               uint block) {
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint next[SORT_DIGITS];
@@ -68,14 +72,20 @@ __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
     }
   }
 }
+__kernel void sort_scatter(const SortParameters p, __global const uint* keys,
+                           __global const uint* values, __global const uint* histograms,
+                           __global uint* sorted_keys, __global uint* sorted_values) {
+  const uint block = piece_of_item(p.block_count);
+  if (block != NO_PIECE)
+    scatter_block(p, keys, values, histograms, sorted_keys, sorted_values, block);
+}
 
 // Keys of 48 bits come as 32 upper bits, which are sorted as above, and as ends: the 16 bits below
 // them, of which most keys need none. ends[v] belongs to value v, wherever that is.
 
 // The bits that are set in some and in all of a block's keys.
-__kernel void sort_bits(const SortParameters p, __global const uint* keys, __global KeyBits* bits) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void bits_of_block(const SortParameters p, __global const uint* keys,
+                               __global KeyBits* bits, uint block) {
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   uint some = 0, all = ~0u;
@@ -86,13 +96,16 @@ __kernel void sort_bits(const SortParameters p, __global const uint* keys, __glo
   bits[block].some = some;
   bits[block].all = all;
 }
+__kernel void sort_bits(const SortParameters p, __global const uint* keys, __global KeyBits* bits) {
+  const uint block = piece_of_item(p.block_count);
+  if (block != NO_PIECE) bits_of_block(p, keys, bits, block);
+}
 
 // Where all keys share their upper bits, as many of their ends' take their place: all but the
 // lowest `shift`.
-__kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
-                                __global const uint* values, __global uint* keys) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void take_in_ends_of_block(const SortParameters p, __global const ushort* ends,
+                                       __global const uint* values, __global uint* keys,
+                                       uint block) {
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i) {
@@ -101,6 +114,11 @@ __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* e
     ask_to_write(keys + i + NUMBERS_AHEAD);
     keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[values[i]] >> p.shift);
   }
+}
+__kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
+                                __global const uint* values, __global uint* keys) {
+  const uint block = piece_of_item(p.block_count);
+  if (block != NO_PIECE) take_in_ends_of_block(p, ends, values, keys, block);
 }
 
 static inline int run_is_in_order(__global const ushort* ends, __global const uint* values,
@@ -144,13 +162,9 @@ static inline void ask_for_ends(__global const uint* keys, __global const uint* 
     ask_for(ends + values[i + k]);
 }
 
-// Puts each run of equal sorted keys into the order of their ends. The block in which a run begins
-// has all of it. `scratch` is as long as `values`.
-__kernel void sort_runs(const SortParameters p, __global const uint* keys,
-                        __global const ushort* ends, __global uint* values,
-                        __global uint* scratch) {
-  const uint block = piece_of_item(p.block_count);
-  if (block == NO_PIECE) return;
+KERNEL_BODY void sort_runs_of_block(const SortParameters p, __global const uint* keys,
+                                    __global const ushort* ends, __global uint* values,
+                                    __global uint* scratch, uint block) {
   const uint begin = block * p.block_length;
   const uint end = min(begin + p.block_length, p.count);
   for (uint i = begin; i < end; ++i) {
@@ -174,4 +188,13 @@ __kernel void sort_runs(const SortParameters p, __global const uint* keys,
       sort_run_by_digit(ends, scratch + i, values + i, length, SORT_DIGIT_BITS);
     }
   }
+}
+
+// Puts each run of equal sorted keys into the order of their ends. The block in which a run begins
+// has all of it. `scratch` is as long as `values`.
+__kernel void sort_runs(const SortParameters p, __global const uint* keys,
+                        __global const ushort* ends, __global uint* values,
+                        __global uint* scratch) {
+  const uint block = piece_of_item(p.block_count);
+  if (block != NO_PIECE) sort_runs_of_block(p, keys, ends, values, scratch, block);
 }

@@ -217,7 +217,9 @@ ProgramSource Specialization::sort_parts() {
 }
 
 ProgramSource Specialization::sort() {
-  return {"", {"prefetch.cl", "pieces.cl", "group.h", "sort.h", "short_run.cl", "sort.cl"}};
+  return {"",
+          {"group.h", "splat.h", "sort.h", "common.cl", "prefetch.cl", "pieces.cl", "short_run.cl",
+           "sort.cl"}};
 }
 
 ProgramSource Specialization::carry() {
@@ -347,7 +349,7 @@ ProgramSource Specialization::join_slab() const {
 }
 
 ProgramSource Specialization::lay_slab() const {
-  return {define("LANES_8") + define_if(ten_taps_, "TEN_TAPS"),
+  return {define("LANES_8") + define_if(ten_taps_, "TEN_TAPS") + item_defines(),
           {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl",
            "prefetch.cl", "refine.cl", "slab.cl"}};
 }
@@ -390,11 +392,15 @@ ProgramSource Specialization::certify() const {
            "entry_lanes.cl", "collected.cl", "collect_groups.cl"}};
 }
 
+std::string Specialization::item_defines() const {
+  return define("EIGHTS_OF_ITEM " + std::to_string(eights_of_item()));
+}
+
 ProgramSource Specialization::coarse_grids() const {
   std::vector<std::string> files = {"splat.h", "resolve.h", "common.cl", "prefetch.cl"};
   if (!rows_) files.push_back("blur.cl");
   files.push_back("refine.cl");
-  return {define_if(ten_taps_, "TEN_TAPS"), files};
+  return {define_if(ten_taps_, "TEN_TAPS") + item_defines(), files};
 }
 
 ProgramSource Specialization::blur_strips() const {
@@ -415,7 +421,7 @@ ProgramSource Specialization::resolve() const {
                               define_if(extended_, "EXTENDED_NUMBERS") +
                               define_if(is_ordered(), "LIGHT_ORDERED") +
                               define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
-                              define_if(background_image_, "BACKGROUND_IMAGE");
+                              define_if(background_image_, "BACKGROUND_IMAGE") + item_defines();
   return {defines,
           {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl",
            "precise.cl", "resolve.cl"}};

@@ -72,6 +72,9 @@ class Specialization {
   ProgramSource list_around() const;
   ProgramSource behind() const;
   int pixels_behind() const;  // of a work-item of that
+  // Times eight pixels that a work-item takes which refines grids, lays slabs or makes a picture of
+  // them: on a processor it is a call (common.cl, KERNEL_BODY).
+  std::size_t eights_of_item() const { return rows_ ? 8 : 1; }
   ProgramSource resolve() const;
   // These are the same for all frames; rows as the device has them.
   static ProgramSource interpolate(bool rows);
@@ -105,6 +108,7 @@ class Specialization {
   bool takes_rows_of_16() const { return rows_ && rows_of_16_ && !face_of_cube_; }
   std::string number_defines() const;
   std::string block_defines() const;
+  std::string item_defines() const;
 
   LightPlan light_;
   Projection projection_;

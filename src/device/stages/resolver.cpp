@@ -250,6 +250,11 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
   return parameters;
 }
 
+// Work-items for so many times eight pixels.
+std::size_t Resolver::items_of(std::size_t eights) const {
+  return ceil_divide(eights, context_.specialization.eights_of_item());
+}
+
 // The first axis.
 void Resolver::refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                               const Buffer<float>& columns) const {
@@ -258,7 +263,7 @@ void Resolver::refine_columns(const LevelLight& coarse, const shared::RefinePara
       .arg(context_.grids)
       .arg(*coarse.memory)
       .arg(columns)
-      .run_grid(refined_strips(parameters.part), refined_rows(parameters.part),
+      .run_grid(items_of(refined_strips(parameters.part)), refined_rows(parameters.part),
                 context_.specialization.planes());
 }
 
@@ -273,7 +278,7 @@ void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
       .arg(context_.grids)
       .arg(*fine.memory)
       .arg(columns)
-      .run_grid(strips_of_eight(part), row_pairs(part), context_.specialization.planes());
+      .run_grid(items_of(strips_of_eight(part)), row_pairs(part), context_.specialization.planes());
 }
 
 SlabLight Resolver::start_slabs() const {
@@ -307,7 +312,7 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
       .arg(slab.room.columns)
       .arg(slab.before)
       .arg(slab.errors)
-      .run_grid(strips_of_eight(part), row_pairs(part), 1);
+      .run_grid(items_of(strips_of_eight(part)), row_pairs(part), 1);
   planes.used_grids = picture;
   return planes;
 }
@@ -400,7 +405,8 @@ void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels)
   Launch launch(device, "resolve", program_.create_kernel("resolve"));
   launch.value(parameters).arg(context_.grids).arg(planes.light);
   if (context_.specialization.has_background_image()) launch.arg(background);
-  launch.arg(pixels).run_grid(width_strips, static_cast<std::size_t>(parameters_.height), 1);
+  launch.arg(pixels).run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height),
+                              1);
 }
 
 }  // namespace splotchcl
