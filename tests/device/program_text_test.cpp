@@ -76,8 +76,7 @@ class ShortTexts : public StageTest {
       // Optimizing takes most of the time, and warns of nothing that is looked for.
       ProgramText text = short_text_of(program, device().device);
       text.options += " -cl-opt-disable";
-      EXPECT_NO_THROW(
-          expect_no_warnings(build_program(device().context, text, names_of(program))));
+      EXPECT_NO_THROW(expect_no_warnings(build_program(device().context, text, names_of(program))));
     }
   }
   // What PoCL has compiled before comes from its cache, without what it said of it. A loop that it
