@@ -34,8 +34,9 @@ INLINED float with_batch(float sum, __local Contributions* batch, uint kind, uin
   return sum;
 }
 
-INLINED Contribution contribution_of(__global const TileSplat* splat, const CertifyParameters* p,
-                                     __global const Grid* grids, uint g, uint tile) {
+KERNEL_BODY Contribution contribution_of(__global const TileSplat* splat,
+                                         const CertifyParameters* p, __global const Grid* grids,
+                                         uint g, uint tile) {
   const Grid grid = grids[g];
   const uint in_grid = tile - grid.first_tile;
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);

@@ -12,17 +12,17 @@ INLINED SplatLanes no_splat(void) {
 }
 
 // Particle i, with what its depth key decides.
-INLINED SplatLanes project_particle(uint i, const ProjectParameters p,
-                                    __global const WidthNeeds* width_needs,
-                                    const ExtendedParameters e, const Columns columns) {
-  SplatLanes lanes = project_lanes(i, p.end_particle, p, width_needs, e, columns);
-  const int unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
+KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
+                                  __global const WidthNeeds* width_needs,
+                                  const ExtendedParameters* e, const Columns* columns,
+                                  SplatLanes* lanes) {
+  *lanes = project_lanes(i, p->end_particle, *p, width_needs, *e, *columns);
+  const int unclear = (lanes->visible | lanes->too_sharp) & lanes->unclear;
   if (unclear) {
-    const int within = are_within_limits(i, p.end_particle, unclear, columns, p);
-    lanes.visible &= within;
-    lanes.too_sharp &= within;
+    const int within = are_within_limits(i, p->end_particle, unclear, *columns, *p);
+    lanes->visible &= within;
+    lanes->too_sharp &= within;
   }
-  return lanes;
 }
 
 // As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
@@ -56,7 +56,7 @@ __kernel OF_GROUPS void project(
   const uint i = p.first_particle + get_global_id(0);
   SplatLanes lanes = no_splat();
   if (i < p.end_particle && bad_and_one == 0)
-    lanes = project_particle(i, p, width_needs, e, columns);
+    project_particle(i, &p, width_needs, &e, &columns, &lanes);
   uint count = lanes.visible != 0;
 #ifdef SORT_KEYS
   ulong key = 0;
