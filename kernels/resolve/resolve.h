@@ -59,10 +59,10 @@ struct ResolveParameters {
   int circle_x, circle_y, circle_diameter;
 };
 
+#ifdef __OPENCL_VERSION__
 // Of a row, that a work-item takes.
 #define PIXELS_OF_ITEM (8 * EIGHTS_OF_ITEM)
 
-#ifdef __OPENCL_VERSION__
 typedef struct GridPart GridPart;
 typedef struct BlurParameters BlurParameters;
 typedef struct BlurWeights BlurWeights;

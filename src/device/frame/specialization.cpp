@@ -168,7 +168,8 @@ std::vector<std::string> Specialization::view_files() const {
 std::vector<std::string> Specialization::project_files(ProjectOutput output) const {
   std::vector<std::string> files = view_files();
   if (!extended_) files.insert(files.end(), {"extended_value.cl", "sharp_places.cl"});
-  files.insert(files.end(), {"splat_place.cl", "splat_lanes.cl"});
+  files.insert(files.end(), {"splat_place.cl", "splat_widths.cl", "splat_brightness.cl",
+                             "splat_sampling.cl", "splat_reach.cl", "splat_lanes.cl"});
   if (extended_) files.push_back("project_extended.cl");
   if (finds_tiles(output)) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
   files.insert(files.end(), {"sort_keys.cl", "words.cl", "splat_arrays.cl"});

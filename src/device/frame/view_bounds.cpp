@@ -37,7 +37,7 @@ void ViewBounds::add(const Vec3& normal, double of_sigma, double constant) {
   planes_.push_back({{normal.a[0], normal.a[1], normal.a[2]}, of_sigma, constant});
 }
 
-// may_be_seen() in kernels/project/splat_lanes.cl, times the depth: a splat at x pixels from the
+// may_be_seen() in kernels/project/splat_widths.cl, times the depth: a splat at x pixels from the
 // picture's middle, which are f X / Z, is not looked at where x + reach < left.
 void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& p) {
   using namespace boost::qvm;

@@ -1,0 +1,72 @@
+// How bright LANES splats are: what decides how exactly they are drawn.
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef struct BrightnessLanes {
+  VALUE own_peak;    // the largest of E and A in a pixel
+  VALUE crowd_peak;  // or that of all the splats that it lies upon
+  VALUE farther;     // added to the square of its extent
+  INTEGER bright;
+} BrightnessLanes;
+
+// Few octaves need anything.
+static inline VALUE value_of_octave(__global const float* values, int count, INTEGER octave) {
+  VALUE found = (VALUE)(0.0f);
+  for (int k = 0; k < count; ++k)
+    found = choose(found, (VALUE)(values[k]), octave == k);
+  return found;
+}
+
+// The largest of E and A at weight 1.
+INLINED VALUE brightest_color(const ParticleLanes particles, const ProjectParameters p) {
+  VALUE brightest = p.peak_color;
+#ifdef VECTOR_COLORS
+  const Vectors own = particles.own_color;
+  brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
+#endif
+  return brightest;
+}
+
+// Of an amplitude at its peak: emission counts as it is, absorption times the light behind.
+INLINED VALUE counted_part(VALUE amplitude, const ProjectParameters p) {
+  VALUE part = (VALUE)(p.counted_part);
+  if (p.gray_absorption > 0.0f) part = max(part, amplitude / (amplitude + p.gray_absorption));
+  return part;
+}
+
+// The flux, not the peak, limits what a splat below a pixel can do to a pixel.
+INLINED VALUE share_of_peak(const WidthLanes widths) {
+#ifdef ELLIPSES
+  const VALUE area = DRAWN_SIGMA(widths) * DRAWN_SIGMA_X(widths);
+#else
+  const VALUE area = widths.sigma * widths.sigma;
+#endif
+  return min((VALUE)(1.0f), 3.2f * area);
+}
+
+// `own_peak` is the splat's, without those that it lies upon.
+INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
+                                        __global const WidthNeeds* needs,
+                                        const ProjectParameters p) {
+  const VALUE sigma = DRAWN_SIGMA(widths);
+  BrightnessLanes b;
+  b.own_peak = own_peak;
+  b.crowd_peak = b.own_peak;
+  b.farther = (VALUE)(0.0f);
+  b.bright = b.own_peak > p.bright_peak;
+  if (p.octaves_in_need == 0) return b;
+#ifdef ELLIPSES
+  const VALUE width2 = sigma * max(sigma, DRAWN_SIGMA_X(widths)) + p.widening;
+#else
+  const VALUE width2 = sigma * sigma + p.widening;
+#endif
+  const INTEGER octave =
+      clamp((power_of_two(width2) >> 1) + 1, (INTEGER)(0), (INTEGER)(WIDTH_OCTAVES - 1));
+  b.farther = value_of_octave(needs->farther, p.octaves_in_need, octave);
+  if (p.has_bright_octaves) {
+    const VALUE light = value_of_octave(needs->light, p.octaves_in_need, octave);
+    b.crowd_peak = max(b.own_peak, light);
+    // All of the octave, the ones that are brighter still as well: the check takes it for granted.
+    b.bright |= light > 0.0f;
+  }
+  return b;
+}
