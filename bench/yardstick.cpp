@@ -272,10 +272,6 @@ double Yardstick::ordered_ns() const {
   return std::sqrt(small.ordered_ns * large.ordered_ns);
 }
 
-double Yardstick::layers_ns() const {
-  return std::sqrt(small.layers_ns * large.layers_ns);
-}
-
 Yardstick measure_yardstick(int threads) {
   return {measure_size(5, 1000000, threads), measure_size(20, 200000, threads), threads};
 }

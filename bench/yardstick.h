@@ -36,13 +36,12 @@ struct YardstickCost {
 };
 
 // One number for the machine of the moment: the costs of the two sizes that matter most in
-// large snapshots, and their geometric means.
+// large snapshots, and their geometric mean in sums and in order.
 struct Yardstick {
   YardstickCost small, large;  // 5 and 20 pixels
   int threads = 1;
   double additive_ns() const;
   double ordered_ns() const;
-  double layers_ns() const;
 };
 Yardstick measure_yardstick(int threads);
 Yardstick mean_of(const Yardstick& first, const Yardstick& second);
