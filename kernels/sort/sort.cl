@@ -26,6 +26,7 @@ KERNEL_BODY void histogram_of_block(const SortParameters p, __global const uint*
   bits[block].some = some;
   bits[block].all = all;
 }
+
 __kernel void sort_histogram(const SortParameters p, __global const uint* keys,
                              __global uint* histograms, __global KeyBits* bits) {
   const uint block = piece_of_item(p.block_count);
@@ -42,6 +43,7 @@ KERNEL_BODY void scan_histograms(__global uint* histograms, uint count) {
     running += here;
   }
 }
+
 __kernel void sort_scan(const SortParameters p, __global uint* histograms) {
   if (get_global_id(0) == 0) scan_histograms(histograms, SORT_DIGITS * p.block_count);
 }
@@ -72,6 +74,7 @@ KERNEL_BODY void scatter_block(const SortParameters p, __global const uint* keys
     }
   }
 }
+
 __kernel void sort_scatter(const SortParameters p, __global const uint* keys,
                            __global const uint* values, __global const uint* histograms,
                            __global uint* sorted_keys, __global uint* sorted_values) {
@@ -96,6 +99,7 @@ KERNEL_BODY void bits_of_block(const SortParameters p, __global const uint* keys
   bits[block].some = some;
   bits[block].all = all;
 }
+
 __kernel void sort_bits(const SortParameters p, __global const uint* keys, __global KeyBits* bits) {
   const uint block = piece_of_item(p.block_count);
   if (block != NO_PIECE) bits_of_block(p, keys, bits, block);
@@ -115,6 +119,7 @@ KERNEL_BODY void take_in_ends_of_block(const SortParameters p, __global const us
     keys[i] = (keys[i] << (16 - p.shift)) | ((uint)ends[values[i]] >> p.shift);
   }
 }
+
 __kernel void sort_take_in_ends(const SortParameters p, __global const ushort* ends,
                                 __global const uint* values, __global uint* keys) {
   const uint block = piece_of_item(p.block_count);

@@ -72,8 +72,8 @@ class Specialization {
   ProgramSource list_around() const;
   ProgramSource behind() const;
   int pixels_behind() const;  // of a work-item of that
-  // Times eight pixels that a work-item takes which refines grids, lays slabs or makes a picture of
-  // them: on a processor it is a call (common.cl, KERNEL_BODY).
+  // A work-item that refines grids, lays slabs or makes the picture takes so many times eight
+  // pixels: several on a processor, where it may be a call (common.cl, KERNEL_BODY).
   std::size_t eights_of_item() const { return rows_ ? 8 : 1; }
   ProgramSource resolve() const;
   // These are the same for all frames; rows as the device has them.

@@ -21,7 +21,7 @@ constexpr char without_declarations[] = "-D_OPENCL_H_";
 // refuses its builtin for prefetching; a GPU has other work while it waits.
 constexpr char with_prefetch[] = "-DHAS_PREFETCH";
 constexpr char with_ballot[] = "-DHAS_BALLOT";
-// How often PoCL compiles a kernel (common.cl).
+// PoCL compiles a kernel three times, and what it calls once (common.cl).
 constexpr char with_bodies[] = "-DCALLS_BODIES";
 // What compilers for processors cannot inline (wide_angle_extended.cl).
 constexpr char with_calls[] = "-DCALLS_TURN";
@@ -32,9 +32,8 @@ std::string joined(const std::string& a, const std::string& b) {
 
 std::string extras_of(const compute::device& device) {
   if (is_nvidia(device)) return with_ballot;
-  const bool is_processor = (device.type() & CL_DEVICE_TYPE_CPU) != 0;
-  const std::string of_pocl = joined(with_prefetch, with_bodies);
-  return joined(is_pocl_processor(device) ? of_pocl : "", is_processor ? with_calls : "");
+  if (is_pocl_processor(device)) return joined(joined(with_prefetch, with_bodies), with_calls);
+  return (device.type() & CL_DEVICE_TYPE_CPU) != 0 ? with_calls : "";
 }
 
 }  // namespace
