@@ -13,8 +13,9 @@ DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits
 
 DeviceContext::DeviceContext(const compute::device& chosen)
     : device(chosen),
-      context(chosen),
-      queue(context, chosen, compute::command_queue::enable_profiling),
+      opened(open_queue(chosen)),
+      context(opened->context),
+      queue(opened->queue),
       traits(traits_of(chosen)),
       memory(memory_of(chosen, traits)),
       programs(context),

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "device/opencl/buffer_pool.h"
+#include "device/opencl/device_queue.h"
 #include "device/opencl/device_traits.h"
 #include "device/opencl/launch_record.h"
 #include "device/opencl/opencl.h"
@@ -37,6 +39,7 @@ struct DeviceContext {
   void limit_memory(std::uint64_t bytes);
 
   compute::device device;
+  std::shared_ptr<DeviceQueue> opened;
   compute::context context;
   compute::command_queue queue;  // in order
   DeviceTraits traits;
