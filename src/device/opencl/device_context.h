@@ -39,7 +39,7 @@ struct DeviceContext {
   void limit_memory(std::uint64_t bytes);
 
   compute::device device;
-  std::shared_ptr<DeviceQueue> opened;
+  std::shared_ptr<DeviceQueue> opened;  // keeps a queue that is shared, of which these are copies
   compute::context context;
   compute::command_queue queue;  // in order
   DeviceTraits traits;
