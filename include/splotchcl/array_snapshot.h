@@ -46,10 +46,13 @@ class ArraySnapshot : public Snapshot {
   // 0 to 31.
   void clear(int type);
 
-  // The side of a periodic box, in the unit of positions; 0: there is none. Throws UsageError for
-  // what is no finite number >= 0.
-  void set_box_size(double size);
+  // The sides of a periodic box, in the unit of positions; all 0: there is none. Throws UsageError
+  // for what is no finite number >= 0, and for some sides of 0.
+  void set_box_size(const BoxSides& sides);
   void set_time(double time);  // in the simulation's unit, for texts in pictures
+  // What `a` stands for in the units of fields: comoving lengths of "Mpc a" are a times as long in
+  // Mpc. Throws UsageError for what is no finite number > 0.
+  void set_scale_factor(double scale_factor);
   // What positions are relative to, in their unit: floats are taken as offsets from it, doubles
   // as positions from which it is subtracted. Throws UsageError when double positions are set
   // already.

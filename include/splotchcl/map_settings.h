@@ -42,7 +42,9 @@ struct MapSettings {
   std::optional<Vec3> center;
   MapCenter center_at = MapCenter::box;  // where there is no center
   std::optional<double> width, depth;    // unset: all of the box, or of the particles
-  std::optional<bool> periodic;          // unset: where the snapshot has a periodic box
+  std::optional<bool> periodic;          // unset: where the particles lie in the snapshot's box
+  // Smoothing lengths are multiplied by it, > 0. The components' size factors are for pictures.
+  double size_factor = 1;
 
   std::string unit;  // of the map; empty: what the snapshot's units give
   // The snapshot's, where it does not say them.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "splotchcl/particles.h"
+#include "splotchcl/periodic.h"
 
 namespace splotchcl {
 
@@ -50,7 +51,9 @@ struct SnapshotInfo {
   std::vector<std::filesystem::path> files_beside;
   double time = 0;
   std::optional<double> redshift;
-  std::optional<double> box_size;  // side of the periodic box; none: not periodic, or unknown
+  // Of the periodic box, as the file says, whether or not its particles lie in it; none: not
+  // periodic, or unknown.
+  std::optional<BoxSides> box_size;
   std::optional<double> hubble_parameter;  // h: H0 in units of 100 km/s/Mpc
   std::optional<Cosmology> cosmology;      // none: velocities are dx/dt, with t the time above
   // Why velocities cannot be taken for changes of the positions in time; empty: they can.

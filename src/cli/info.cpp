@@ -59,7 +59,7 @@ std::string header_text(const SnapshotInfo& info) {
   }
   text += fmt::format("time      {}\n", info.time);
   if (info.redshift) text += fmt::format("redshift  {}\n", *info.redshift);
-  if (info.box_size) text += fmt::format("box       {}\n", *info.box_size);
+  if (info.box_size) text += fmt::format("box       {}\n", info.box_size->text());
   if (info.hubble_parameter) text += fmt::format("h         {}\n", *info.hubble_parameter);
   return text;
 }
@@ -159,6 +159,11 @@ Json type_json(const Snapshot& snapshot, const ParticleTypeInfo& type, bool head
   return json;
 }
 
+// A number for a cube, else three.
+Json json_of(const BoxSides& box) {
+  return box.is_cube() ? Json(box[0]) : Json({box[0], box[1], box[2]});
+}
+
 // Empty, and a note, where nothing can be drawn.
 std::string suggested_scene(const Snapshot& snapshot, Console& console) {
   try {
@@ -175,7 +180,7 @@ Json to_json(const Snapshot& snapshot, bool header_only, Console& console) {
   for (const auto& file : info.files)
     json["files"].push_back(file.string());
   if (info.redshift) json["redshift"] = *info.redshift;
-  if (info.box_size) json["box_size"] = *info.box_size;
+  if (info.box_size) json["box_size"] = json_of(*info.box_size);
   if (info.hubble_parameter) json["hubble_parameter"] = *info.hubble_parameter;
   json["notes"] = info.notes;
   json["types"] = Json::array();

@@ -17,7 +17,7 @@ constexpr std::uint64_t least_gas = 1000;
 
 std::vector<float> smoothing_lengths(const GeneratedParticles& particles, double box_size) {
   const Column position(nullptr, particles.position.data(), particles.position.size());
-  const std::optional<double> period = box_size > 0 ? std::optional(box_size) : std::nullopt;
+  const std::optional<BoxSides> period = box_of({box_size});
   const Column lengths = find_smoothing_lengths(position, particles.count(), period);
   return {lengths.data(), lengths.data() + lengths.size()};
 }

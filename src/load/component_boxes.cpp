@@ -166,18 +166,19 @@ std::shared_ptr<const ParticleBoxes> component_boxes(const Component& component,
 }
 
 std::shared_ptr<const ParticleBoxes> wrapped_boxes(const ParticleBoxes& boxes, const Vec3& shift,
-                                                   double periodic_box) {
+                                                   const BoxSides& periodic_box) {
   ParticleBoxes wrapped = boxes;
   for (ParticleBox& box : wrapped.boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double side = periodic_box[axis];
       const double lower = static_cast<double>(box.lower[axis]) + shift.a[axis];
       const double upper = static_cast<double>(box.upper[axis]) + shift.a[axis];
-      const double turns = std::nearbyint(lower / periodic_box);
-      const bool is_torn = !(turns == std::nearbyint(upper / periodic_box));
+      const double turns = std::nearbyint(lower / side);
+      const bool is_torn = !(turns == std::nearbyint(upper / side));
       if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
-      const double half = periodic_box / 2;
-      box.lower[axis] = static_cast<float>(is_torn ? -half : lower - turns * periodic_box);
-      box.upper[axis] = static_cast<float>(is_torn ? half : upper - turns * periodic_box);
+      const double half = side / 2;
+      box.lower[axis] = static_cast<float>(is_torn ? -half : lower - turns * side);
+      box.upper[axis] = static_cast<float>(is_torn ? half : upper - turns * side);
     }
   }
   return std::make_shared<const ParticleBoxes>(std::move(wrapped));

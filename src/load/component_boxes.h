@@ -22,6 +22,6 @@ std::shared_ptr<const ParticleBoxes> component_boxes(const Component& component,
 
 // The same boxes of positions that were wrapped around a center, `shift` having been added before.
 std::shared_ptr<const ParticleBoxes> wrapped_boxes(const ParticleBoxes& boxes, const Vec3& shift,
-                                                   double periodic_box);
+                                                   const BoxSides& periodic_box);
 
 }  // namespace splotchcl

@@ -65,7 +65,8 @@ std::string number_and_name(int type) {
 
 ComponentFields::ComponentFields(const Component& component, std::size_t number,
                                  const Snapshot& snapshot, const MissingSizes& sizes,
-                                 std::vector<std::string>& notes, double periodic_box)
+                                 std::vector<std::string>& notes,
+                                 const std::optional<BoxSides>& periodic_box)
     : component_(component),
       number_(number),
       snapshot_(snapshot),

@@ -21,11 +21,11 @@ class ComponentFields {
   // `snapshot` is the component's own or the scene's. Throws UsageError when it has none of
   // the component's types. Reads nothing yet. Where particles are spread over ranks, each derives
   // and selects of its own; what is asked for here is of all ranks.
-  // `periodic_box` is the side of the box across whose faces it selects; 0: none.
+  // `periodic_box` is the box across whose faces it selects.
   // `number` is the component's in the scene, from 0.
   ComponentFields(const Component& component, std::size_t number, const Snapshot& snapshot,
                   const MissingSizes& sizes, std::vector<std::string>& notes,
-                  double periodic_box = 0);
+                  const std::optional<BoxSides>& periodic_box = std::nullopt);
   ComponentFields(const ComponentFields&) = delete;
   ComponentFields& operator=(const ComponentFields&) = delete;
 
@@ -86,7 +86,7 @@ class ComponentFields {
   std::size_t number_;
   const Snapshot& snapshot_;
   std::vector<std::string>& notes_;
-  double periodic_box_;
+  std::optional<BoxSides> periodic_box_;
   std::vector<TypeFields> types_;
   std::vector<std::shared_ptr<const ParticleIndices>> selected_;  // null: all of the type
   std::shared_ptr<SpreadParticles> spread_;                       // null: all particles are here

@@ -101,8 +101,8 @@ Frame FrameLoader::frame_of(const Camera& camera) const {
 const DrawnComponent& FrameLoader::read(Part& part, WeightModel weight, const Vec3& look_at) {
   if (part.drawn) return *part.drawn;
   DrawnComponent drawn = part.reader.drawn(weight);
-  if (periodic_box_ > 0 && is_in_the_box(part.reader.component())) {
-    wrap_around(look_at, periodic_box_, drawn.particles, has_shared_passes(snapshot_));
+  if (periodic_box_ && is_in_the_box(part.reader.component())) {
+    wrap_around(look_at, *periodic_box_, drawn.particles, has_shared_passes(snapshot_));
   }
   if (drawn.particles.boxes) {
     for (const Column* const column : drawn.particles.columns())

@@ -45,7 +45,7 @@ class FrameLoader {
   const Scene& scene_;
   const Snapshot& snapshot_;
   std::vector<std::string>& notes_;
-  double periodic_box_ = 0;  // 0: particles stay where they are
+  std::optional<BoxSides> periodic_box_;  // unset: particles stay where they are
   std::optional<OpenComponents> components_;
   std::list<Part> parts_;  // in the order of the scene's components
   std::shared_ptr<const Image> background_;

@@ -15,7 +15,7 @@
 namespace splotchcl {
 namespace {
 
-Column search(int type, const Column& position, std::optional<double> periodic_box,
+Column search(int type, const Column& position, const std::optional<BoxSides>& periodic_box,
               const MissingSizes& how, Communicator* ranks) {
   Progress progress;
   if (how.progress) {
@@ -32,7 +32,7 @@ bool is_first(const Communicator* ranks) {
 
 // Of several ranks the first reads the positions that the key stands for.
 SmoothingLengthCache cache_of(const SnapshotInfo& info, int type, const Column& position,
-                              std::optional<double> periodic_box, int neighbors,
+                              const std::optional<BoxSides>& periodic_box, int neighbors,
                               Communicator* ranks) {
   std::uint64_t key = 0;
   if (is_first(ranks)) key = SmoothingLengthCache::key_of(position, periodic_box, neighbors);
@@ -79,7 +79,7 @@ SearchShare search_share(Communicator* ranks) {
 }
 
 Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column& position,
-                               std::optional<double> periodic_box, const MissingSizes& how,
+                               const std::optional<BoxSides>& periodic_box, const MissingSizes& how,
                                const std::function<void(const std::string&)>& say) {
   const SnapshotInfo& info = snapshot.info();
   Communicator* const ranks = snapshot.memory().ranks().get();

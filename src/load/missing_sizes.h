@@ -28,7 +28,7 @@ SearchShare search_share(Communicator* ranks);
 // an earlier search has left them. Collective, where ranks share the snapshot. `say` takes what the
 // user should know.
 Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column& position,
-                               std::optional<double> periodic_box, const MissingSizes& how,
+                               const std::optional<BoxSides>& periodic_box, const MissingSizes& how,
                                const std::function<void(const std::string&)>& say);
 
 }  // namespace splotchcl

@@ -63,7 +63,7 @@ std::shared_ptr<const Snapshot> open_companion(const std::string& path, ReadSett
 
 OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
                                const MissingSizes& sizes, std::vector<std::string>& notes,
-                               double periodic_box) {
+                               const std::optional<BoxSides>& periodic_box) {
   for (const Component& component : scene.components) {
     const Snapshot* source = &snapshot;
     if (!component.snapshot.empty()) {
@@ -75,7 +75,7 @@ OpenComponents::OpenComponents(const Scene& scene, const Snapshot& snapshot,
     }
     sources_.insert(source);
     fields_.emplace_back(component, fields_.size(), *source, sizes, notes,
-                         is_in_the_box(component) ? periodic_box : 0);
+                         is_in_the_box(component) ? periodic_box : std::nullopt);
   }
   auto fields = fields_.begin();
   for (const Component& component : scene.components)

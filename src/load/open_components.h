@@ -18,9 +18,10 @@ namespace splotchcl {
 class OpenComponents {
  public:
   // Throws UsageError, or DataError for snapshots of components that cannot be opened.
-  // `periodic_box` is the side of the box that particles are wrapped into; 0: none.
+  // `periodic_box` is the box that particles are wrapped into.
   OpenComponents(const Scene& scene, const Snapshot& snapshot, const MissingSizes& sizes,
-                 std::vector<std::string>& notes, double periodic_box = 0);
+                 std::vector<std::string>& notes,
+                 const std::optional<BoxSides>& periodic_box = std::nullopt);
 
   // A frame is loaded from now on: what the snapshots remember and frames no longer ask for is
   // forgotten.

@@ -1,6 +1,5 @@
 #include "load/periodic_wrap.h"
 
-#include <cmath>
 #include <vector>
 
 #include "load/component_boxes.h"
@@ -10,9 +9,9 @@
 
 namespace splotchcl {
 
-double periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot) {
-  const double box = settings.box.value_or(snapshot.box_size.value_or(0));
-  if (box > 0 && std::isfinite(box)) return box;
+BoxSides periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot) {
+  if (settings.box) return *settings.box;
+  if (snapshot.box_size) return *snapshot.box_size;
   throw UsageError("key periodic.wrap: found true, but " +
                    (snapshot.files.empty() ? "the snapshot" : snapshot.files.front().string()) +
                    " does not say the size of a box, expected one; set periodic.box");
@@ -22,7 +21,7 @@ bool is_in_the_box(const Component& component) {
   return component.snapshot.empty() && !component.placement.moves();
 }
 
-void wrap_around(const Vec3& center, double box, Particles& particles, bool streams) {
+void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles, bool streams) {
   const Column& position = particles.position;
   if (!position.is_array()) return;
   const Vec3 shift = particles.origin - center;  // from stored positions to distances from it
@@ -30,7 +29,7 @@ void wrap_around(const Vec3& center, double box, Particles& particles, bool stre
     const ColumnStretch stretch(position, begin, end);
     for (std::size_t i = begin; i < end; ++i) {
       const double distance = static_cast<double>(stretch[i]) + shift.a[i % 3];
-      *out++ = static_cast<float>(distance - box * std::nearbyint(distance / box));
+      *out++ = static_cast<float>(nearest_image(distance, box[i % 3]));
     }
   };
   if (streams || is_streamed(position)) {

@@ -59,8 +59,8 @@ std::optional<std::filesystem::path> catalog_of(const ParticleSet& set, const st
 // after the other.
 class Membership {
  public:
-  Membership(const TypeFields& fields, const Snapshot& snapshot, double periodic_box,
-             const ParticleRun& run)
+  Membership(const TypeFields& fields, const Snapshot& snapshot,
+             const std::optional<BoxSides>& periodic_box, const ParticleRun& run)
       : fields_(fields),
         snapshot_(snapshot),
         periodic_box_(periodic_box),
@@ -124,7 +124,7 @@ class Membership {
       double d[3];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         d[axis] = x.a[axis] - center.a[axis];
-        if (periodic_box_ > 0) d[axis] -= periodic_box_ * std::nearbyint(d[axis] / periodic_box_);
+        if (periodic_box_) d[axis] = nearest_image(d[axis], (*periodic_box_)[axis]);
       }
       return std::hypot(d[0], d[1], d[2]) <= radius;
     });
@@ -185,13 +185,14 @@ class Membership {
 
   const TypeFields& fields_;
   const Snapshot& snapshot_;
-  double periodic_box_;
+  std::optional<BoxSides> periodic_box_;
   ParticleRun run_;
   std::vector<bool> is_member_;
 };
 
 void find_indices(const Component& component, const TypeFields& fields, const Snapshot& snapshot,
-                  double periodic_box, const ParticleRun& run, ParticleIndices& indices) {
+                  const std::optional<BoxSides>& periodic_box, const ParticleRun& run,
+                  ParticleIndices& indices) {
   Membership selected(fields, snapshot, periodic_box, run);
   selected.keep(component.select, "select");
   Membership excluded(fields, snapshot, periodic_box, run);
@@ -246,10 +247,9 @@ void check_set(const ParticleSet& set, const std::string& key, const TypeFields&
 
 }  // namespace
 
-std::shared_ptr<const ParticleIndices> select_particles(const Component& component,
-                                                        const TypeFields& fields,
-                                                        const Snapshot& snapshot,
-                                                        double periodic_box) {
+std::shared_ptr<const ParticleIndices> select_particles(
+    const Component& component, const TypeFields& fields, const Snapshot& snapshot,
+    const std::optional<BoxSides>& periodic_box) {
   if (!component.select.is_given() && !component.exclude.is_given()) return nullptr;
   using Selected = std::shared_ptr<const ParticleIndices>;
   return snapshot.memory().get<Selected>(
@@ -279,11 +279,11 @@ std::string tell_found_catalog(const Component& component, const TypeFields& fie
   return {};
 }
 
-std::string selection_key(const Component& component, double periodic_box) {
+std::string selection_key(const Component& component, const std::optional<BoxSides>& periodic_box) {
   const auto& center = component.center.a;
   return fmt::format("center {} {} {} select {} exclude {} in box {}", center[0], center[1],
                      center[2], text_of(component.select), text_of(component.exclude),
-                     periodic_box);
+                     periodic_box ? periodic_box->text() : "none");
 }
 
 Column gather(const Column& column, const std::shared_ptr<const ParticleIndices>& selected,

@@ -18,10 +18,9 @@ using ParticleIndices = std::vector<std::size_t>;
 // the component has neither, and all are drawn. Spheres reach across the faces of a periodic box,
 // unless its side is 0. Found once per snapshot. Throws UsageError for a field that the type does
 // not have, DataError for ids and catalogs that cannot be read.
-std::shared_ptr<const ParticleIndices> select_particles(const Component& component,
-                                                        const TypeFields& fields,
-                                                        const Snapshot& snapshot,
-                                                        double periodic_box = 0);
+std::shared_ptr<const ParticleIndices> select_particles(
+    const Component& component, const TypeFields& fields, const Snapshot& snapshot,
+    const std::optional<BoxSides>& periodic_box = std::nullopt);
 
 // Refuses, before anything is read, what select_particles() would.
 void check_selection(const Component& component, const TypeFields& fields,
@@ -32,7 +31,7 @@ std::string tell_found_catalog(const Component& component, const TypeFields& fie
                                const Snapshot& snapshot);
 
 // The text that stands for the component's selection where it is remembered.
-std::string selection_key(const Component& component, double periodic_box);
+std::string selection_key(const Component& component, const std::optional<BoxSides>& periodic_box);
 
 // What is selected of a column with `width` values per particle, held in memory or made as it is
 // wanted; the column itself where `selected` is null or it is the same for all.

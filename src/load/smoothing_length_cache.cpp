@@ -27,10 +27,12 @@ SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type, s
 }
 
 std::uint64_t SmoothingLengthCache::key_of(const Column& position,
-                                           std::optional<double> periodic_box, int neighbors) {
+                                           const std::optional<BoxSides>& periodic_box,
+                                           int neighbors) {
   WordHash hash;
   hash.add(static_cast<std::uint64_t>(neighbors));
-  hash.add(periodic_box.value_or(0));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    hash.add(periodic_box ? (*periodic_box)[axis] : 0);
   hash.add(std::uint64_t{position.size() / 3});
   for (std::size_t i = 0; i < position.size(); ++i) {
     std::uint32_t bits = 0;

@@ -16,7 +16,7 @@ class SmoothingLengthCache {
  public:
   // `key` stands for all that lengths of `count` particles follow from.
   SmoothingLengthCache(const SnapshotInfo& info, int type, std::size_t count, std::uint64_t key);
-  static std::uint64_t key_of(const Column& position, std::optional<double> periodic_box,
+  static std::uint64_t key_of(const Column& position, const std::optional<BoxSides>& periodic_box,
                               int neighbors);
 
   const std::filesystem::path& path() const { return path_; }

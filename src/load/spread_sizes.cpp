@@ -26,7 +26,7 @@ Column held(const Column& column) {
 
 Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_position,
                          std::uint64_t first, const MissingSizes& how,
-                         std::optional<double> periodic_box) {
+                         const std::optional<BoxSides>& periodic_box) {
   const std::size_t own_count = own_position.size() / 3;
   const Column of_all = spread.spread(own_position, own_count, 3);
   const std::size_t count = of_all.size() / 3;

@@ -17,6 +17,6 @@ constexpr std::uint64_t most_spread_neighbors = std::uint64_t{1} << 24;
 // more than most_spread_neighbors.
 Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_position,
                          std::uint64_t first, const MissingSizes& how,
-                         std::optional<double> periodic_box);
+                         const std::optional<BoxSides>& periodic_box);
 
 }  // namespace splotchcl

@@ -127,14 +127,15 @@ Vec3 cube_middle(bool is_at_zero, double side) {
 
 constexpr double few_outside = 0.01;  // of the particles, out of a box on either side
 
-// The box of the header, where the particles are spread over it.
+// The box of the header, where it is a cube that the particles are spread over.
 std::optional<Target> find_periodic_box(Sample sample, const SnapshotInfo& info) {
-  if (!info.box_size || !(*info.box_size > 0)) return std::nullopt;
-  const double side = *info.box_size;
+  if (!info.box_size || !info.box_size->is_cube()) return std::nullopt;
+  const double side = info.box_size->longest();
   bool reaches_below_zero = false;
   for (std::vector<double>& values : sample) {
     const ValueRange most = extent(values, few_outside);
-    if (most.maximum - most.minimum < 0.7 * side) return std::nullopt;
+    const double span = most.maximum - most.minimum;
+    if (span < 0.7 * side || span > side) return std::nullopt;
     reaches_below_zero = reaches_below_zero || is_around_zero(most, side);
   }
   return box_target(cube_middle(reaches_below_zero, side), side);
@@ -274,25 +275,6 @@ Target find_target(const Snapshot& snapshot, const std::vector<int>& types, doub
   Target target = long_axis ? bar_target(*long_axis) : object_target();
   fit_to_picture(target, sample, aspect);
   return target;
-}
-
-Vec3 middle_of_box(const Snapshot& snapshot, const std::vector<int>& types, double side) {
-  for (const int type : types) {
-    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
-    if (info == nullptr) continue;
-    Sample sample;
-    sample_type(snapshot, type,
-                sample_stride(static_cast<std::size_t>(info->count), position_limit), sample);
-    bool reaches_beyond_half = false;
-    for (std::vector<double>& values : sample) {
-      if (values.empty()) continue;
-      const ValueRange most = extent(values, few_outside);
-      if (is_around_zero(most, side)) return cube_middle(true, side);
-      reaches_beyond_half = reaches_beyond_half || most.maximum > 0.6 * side;
-    }
-    if (reaches_beyond_half) break;
-  }
-  return cube_middle(false, side);
 }
 
 }  // namespace splotchcl

@@ -25,9 +25,4 @@ struct Target {
 // position.
 Target find_target(const Snapshot& snapshot, const std::vector<int>& types, double aspect);
 
-// The middle of a periodic box: half of its side along each axis, or the origin where particles
-// reach far below 0, as some programs have it. Looks at a sample of all particles of the types, in
-// this order, until one tells.
-Vec3 middle_of_box(const Snapshot& snapshot, const std::vector<int>& types, double side);
-
 }  // namespace splotchcl

@@ -10,6 +10,7 @@
 #include "common/nearest_name.h"
 #include "load/derived_fields.h"
 #include "load/passes.h"
+#include "load/periodic_region.h"
 #include "load/spread_sizes.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_rules.h"
@@ -34,40 +35,6 @@ bool all_are_sizes(const Column& column, const ParticlePass& pass) {
     });
   };
   return pass.collect<std::size_t>(find_others).empty();
-}
-
-struct Extent {
-  float lowest[3], highest[3];
-};
-
-// Of positions that are finite.
-Extent extent_of(const Column& position, const ParticleRun& run) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  Extent extent = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for_stretches(run, [&](std::size_t begin, std::size_t end) {
-    const ColumnStretch stretch(position, 3 * begin, 3 * end);
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-      if (!std::isfinite(stretch[i])) continue;
-      extent.lowest[i % 3] = std::min(extent.lowest[i % 3], stretch[i]);
-      extent.highest[i % 3] = std::max(extent.highest[i % 3], stretch[i]);
-    }
-  });
-  return extent;
-}
-
-Extent extent_of(const Column& position, const ParticlePass& pass) {
-  const std::vector<Extent> extents =
-      pass.collect<Extent>([&](const ParticleRun& run, std::vector<Extent>& found) {
-        found.push_back(extent_of(position, run));
-      });
-  Extent all = extents.front();
-  for (const Extent& extent : extents) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all.lowest[axis] = std::min(all.lowest[axis], extent.lowest[axis]);
-      all.highest[axis] = std::max(all.highest[axis], extent.highest[axis]);
-    }
-  }
-  return all;
 }
 
 }  // namespace
@@ -280,16 +247,14 @@ Column TypeFields::find_lengths() const {
 }
 
 // The box of the header, unless particles lie outside of one period of it.
-std::optional<double> TypeFields::periodic_box(const Column& position) const {
-  const std::optional<double> box = snapshot_->info().box_size;
-  if (!box || !(*box > 0)) return std::nullopt;
-  const Extent extent = extent_of(position, pass_over(*snapshot_, type_->type));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double side =
-        static_cast<double>(extent.highest[axis]) - static_cast<double>(extent.lowest[axis]);
-    if (side > *box) return std::nullopt;
-  }
-  return box;
+std::optional<BoxSides> TypeFields::periodic_box(const Column& position) const {
+  const std::optional<BoxSides>& box = snapshot_->info().box_size;
+  if (!box) return std::nullopt;
+  const PositionExtent extent =
+      extent_of(position, snapshot_->position_origin(), pass_over(*snapshot_, type_->type));
+  if (lies_in_one_period(extent, *box)) return box;
+  say(tell_box_is_not_used(*box, extent));
+  return std::nullopt;
 }
 
 // Of what ranks share each makes what it asks for.

@@ -63,7 +63,9 @@ bool has_densities(const Component& component, const SnapshotInfo& info) {
   });
 }
 
-MapMatter read_matter(const Component& component, MapCenter center, const ComponentFields& fields) {
+MapMatter read_matter(const Component& component, const MapSettings& settings,
+                      const ComponentFields& fields) {
+  const double size_factor = settings.size_factor;
   MapMatter matter;
   matter.count = fields.count();
   matter.before_selecting = fields.count_before_selecting();
@@ -71,11 +73,12 @@ MapMatter read_matter(const Component& component, MapCenter center, const Compon
   matter.position = fields.positions();
   matter.smoothing_length = fields.smoothing_lengths();
   if (fields.masses_are_known()) matter.mass = fields.with_factors(fields.masses());
-  if (center == MapCenter::densest && has_densities(component, fields.snapshot_info())) {
+  if (settings.center_at == MapCenter::densest &&
+      has_densities(component, fields.snapshot_info())) {
     matter.density = fields.scalars("density", "map.center_at");
   }
-  matter.size_factor = component.size_fixed ? component.size_factor
-                                            : component.size_factor * component.placement.scale;
+  // What makes a picture sharper or softer has no place among numbers.
+  matter.size_factor = component.size_fixed ? size_factor : size_factor * component.placement.scale;
   return matter;
 }
 
@@ -171,12 +174,12 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   check_quantity(settings);
   const Scene one = scene_of_map(scene);
   const Component& component = one.components.front();
-  const double box = side_of_box(one, component, snapshot.info());
-  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, box);
+  const PeriodicRegion region = find_region(one, component, snapshot, notes);
+  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, region.box);
   ComponentFields& fields = open.fields().front();
   fields.select();
-  const MapMatter matter = read_matter(component, settings.center_at, fields);
-  const MapGeometry geometry = decide_geometry(one, snapshot, matter, box);
+  const MapMatter matter = read_matter(component, settings, fields);
+  const MapGeometry geometry = decide_geometry(one, matter, region);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   refuse_all_bad(matter, quantity, fields);
   const MapUnits units =
@@ -205,6 +208,13 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   if (settings.noise) {
     map.effective_particles =
         draw_effective_particles(placed, weighted, picture, settings.floor, draw);
+  }
+  if (component.size_factor != 1 && settings.size_factor == 1) {
+    notes.push_back(
+        fmt::format("component \"{}\": size.factor {} is for pictures; the map has smoothing "
+                    "lengths as they are "
+                    "(map.size_factor)",
+                    component.name, component.size_factor));
   }
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "load/periodic_region.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
@@ -34,16 +35,18 @@ struct MapGeometry {
   Vec3 center;
   Vec3 right, up, forward;      // unit vectors
   std::optional<double> depth;  // no limit where unset
-  double box = 0;               // 0: not periodic
+  std::optional<BoxSides> box;  // unset: not periodic
 };
 
-// The side of the periodic box that the map's component lies in; 0: none. Throws UsageError where
-// there has to be one and is none.
-double side_of_box(const Scene& scene, const Component& component, const SnapshotInfo& snapshot);
+// The periodic box that the map's component lies in. A box that the header alone says is believed
+// where all particles lie in one period of it; a note says where they do not. Throws UsageError
+// where there has to be one and is none.
+PeriodicRegion find_region(const Scene& scene, const Component& component, const Snapshot& snapshot,
+                           std::vector<std::string>& notes);
 
-// `box` as side_of_box() has it. Throws UsageError for what cannot be: a camera that is missing, a
-// center or a width that does not follow.
-MapGeometry decide_geometry(const Scene& scene, const Snapshot& snapshot, const MapMatter& matter,
-                            double box);
+// Throws UsageError for what cannot be: a camera that is missing, a center or a width that does not
+// follow.
+MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter,
+                            const PeriodicRegion& region);
 
 }  // namespace splotchcl

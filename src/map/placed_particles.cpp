@@ -47,18 +47,20 @@ class Placer {
  private:
   // Each box that a kernel reaches has an image of it.
   void check_reach() const {
-    if (geometry_.box == 0) return;
+    if (!geometry_.box) return;
     double largest = 0;
     for (std::size_t i = 0; i < matter_.count; ++i) {
       if (matter_.is_good(i)) largest = std::max(largest, matter_.size_of(i));
     }
-    const double boxes = 2 * reach_sigmas * sigma_ * largest / geometry_.box;
+    const BoxSides& box = *geometry_.box;
+    const double shortest = std::min({box[0], box[1], box[2]});
+    const double boxes = 2 * reach_sigmas * sigma_ * largest / shortest;
     if (boxes <= most_boxes) return;
     throw UsageError(fmt::format(
-        "key map.periodic: found a smoothing length of {:.6g} in a box of {:.6g}, so that a cloud "
+        "key map.periodic: found a smoothing length of {:.6g} in a box of {}, so that a cloud "
         "reaches over {:.6g} boxes, expected at most {:.0f}; check size.fixed, size.factor and the "
         "lengths' unit, or set map.periodic to false",
-        largest, geometry_.box, boxes, most_boxes));
+        largest, box.text(), boxes, most_boxes));
   }
 
   // Of a particle from the map's middle; of one that is very far away, of its image in the box
@@ -66,9 +68,10 @@ class Placer {
   Vec3 offset_of(std::uint32_t i) const {
     constexpr double farthest = 1 << 30;
     Vec3 offset = matter_.position_of(i) - geometry_.center;
-    for (double& along : offset.a) {
-      if (geometry_.box > 0 && std::abs(along) > farthest * geometry_.box)
-        along = std::remainder(along, geometry_.box);
+    for (std::size_t axis = 0; axis < 3 && geometry_.box; ++axis) {
+      const double side = (*geometry_.box)[axis];
+      if (std::abs(offset.a[axis]) > farthest * side)
+        offset.a[axis] = std::remainder(offset.a[axis], side);
     }
     return offset;
   }
@@ -86,10 +89,11 @@ class Placer {
     const double h = matter_.size_of(i);
     const std::array<double, 3> half = half_extents(reach_sigmas * sigma_ * h);
     const Vec3 offset = offset_of(i);
-    if (geometry_.box == 0) {
+    if (!geometry_.box) {
       place_one(i, h, offset, half);
       return;
     }
+    const BoxSides& box = *geometry_.box;
     std::array<int, 3> first{}, last{};
     for (std::size_t k = 0; k < 3; ++k) {
       const double reach = std::abs(geometry_.right.a[k]) * half[0] +
@@ -97,13 +101,13 @@ class Placer {
                            std::abs(geometry_.forward.a[k]) * half[2];
       // A little more on each side, so that rounding loses none: place_one decides.
       constexpr double slack = 1e-6;
-      first[k] = static_cast<int>(std::ceil((-reach - offset.a[k]) / geometry_.box - slack));
-      last[k] = static_cast<int>(std::floor((reach - offset.a[k]) / geometry_.box + slack));
+      first[k] = static_cast<int>(std::ceil((-reach - offset.a[k]) / box[k] - slack));
+      last[k] = static_cast<int>(std::floor((reach - offset.a[k]) / box[k] + slack));
     }
     for (int x = first[0]; x <= last[0]; ++x) {
       for (int y = first[1]; y <= last[1]; ++y) {
         for (int z = first[2]; z <= last[2]; ++z) {
-          const Vec3 shift = {{x * geometry_.box, y * geometry_.box, z * geometry_.box}};
+          const Vec3 shift = {{x * box[0], y * box[1], z * box[2]}};
           place_one(i, h, offset + shift, half);
         }
       }

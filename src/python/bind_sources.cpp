@@ -102,6 +102,13 @@ py::dict describe(const ParticleTypeInfo& type) {
   return text;
 }
 
+// A number for a cube, else three.
+py::object describe(const std::optional<BoxSides>& box) {
+  if (!box) return py::none();
+  if (box->is_cube()) return py::float_((*box)[0]);
+  return py::make_tuple((*box)[0], (*box)[1], (*box)[2]);
+}
+
 py::dict describe(const Source& source) {
   const SnapshotInfo& info = source.snapshot().info();
   py::dict types;
@@ -112,7 +119,7 @@ py::dict describe(const Source& source) {
   text["files"] = info.files;
   text["time"] = info.time;
   text["redshift"] = info.redshift;
-  text["box_size"] = info.box_size;
+  text["box_size"] = describe(info.box_size);
   text["hubble_parameter"] = info.hubble_parameter;
   text["notes"] = info.notes;
   text["types"] = types;
@@ -152,8 +159,12 @@ void bind_particles(py::module_& module) {
       .def("set_field", &ParticleArrays::set_field)
       .def("set_mass", &ParticleArrays::set_mass)
       .def("clear", &ParticleArrays::clear)
-      .def("set_box_size", &ParticleArrays::set_box_size)
+      .def("set_box_size",
+           [](ParticleArrays& particles, const std::array<double, 3>& sides) {
+             particles.set_box_size(vector_of(sides));
+           })
       .def("set_time", &ParticleArrays::set_time)
+      .def("set_scale_factor", &ParticleArrays::set_scale_factor)
       .def("set_origin", [](ParticleArrays& particles, const std::array<double, 3>& origin) {
         particles.set_origin(vector_of(origin));
       });

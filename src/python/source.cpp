@@ -94,12 +94,16 @@ void ParticleArrays::clear(int type) {
   change(turn(), [&] { arrays_->clear(type); });
 }
 
-void ParticleArrays::set_box_size(double size) {
-  change(turn(), [&] { arrays_->set_box_size(size); });
+void ParticleArrays::set_box_size(const Vec3& sides) {
+  change(turn(), [&] { arrays_->set_box_size(BoxSides(sides)); });
 }
 
 void ParticleArrays::set_time(double time) {
   change(turn(), [&] { arrays_->set_time(time); });
+}
+
+void ParticleArrays::set_scale_factor(double scale_factor) {
+  change(turn(), [&] { arrays_->set_scale_factor(scale_factor); });
 }
 
 void ParticleArrays::set_origin(const Vec3& origin) {

@@ -50,8 +50,9 @@ class ParticleArrays : public Source {
                  const std::string& unit);
   void set_mass(int type, double mass);
   void clear(int type);
-  void set_box_size(double size);
+  void set_box_size(const Vec3& sides);
   void set_time(double time);
+  void set_scale_factor(double scale_factor);
   void set_origin(const Vec3& origin);
   // The arrays may hold other values than when they were drawn last.
   void refresh() const override { arrays_->changed(); }

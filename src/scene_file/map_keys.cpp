@@ -94,7 +94,11 @@ Keys view_keys() {
            "length", "one side of a periodic box; otherwise no limit"}),
       key("map.periodic", boolean(), &MapSettings::periodic,
           {"Whether every image of a particle in the periodic box is drawn that the map shows.", "",
-           "whether the snapshot has a box"}),
+           "whether the snapshot has a box that its particles lie in"}),
+      key("map.size_factor", number(more_than(0)), &MapSettings::size_factor,
+          {"Smoothing lengths are multiplied by it. `component.size.factor` is for pictures and "
+           "does "
+           "not count in maps."}),
   };
 }
 

@@ -92,9 +92,10 @@ const TypePath& SnapshotPair::path(int type) const {
   TypePath path;
   path.first = path_end(*first, type, motion ? motion->first_rate : 0);
   path.second = path_end(*second, type, motion ? motion->second_rate : 0);
-  const std::optional<double> box = first->info().box_size;
-  if (box && *box > 0 && box == second->info().box_size) {
-    path.period = find_periodic_range(*box, path.first, path.second);
+  // Paths have one period for all axes.
+  const std::optional<BoxSides>& box = first->info().box_size;
+  if (box && box->is_cube() && box == second->info().box_size) {
+    path.period = find_periodic_range(box->longest(), path.first, path.second);
   }
   return paths_[type] = std::move(path);
 }

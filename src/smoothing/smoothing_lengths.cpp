@@ -123,11 +123,11 @@ class NearestDistances {
   std::vector<double> distances_;
 };
 
-std::vector<Shift> image_shifts(double box) {
+std::vector<Shift> image_shifts(const BoxSides& box) {
   std::vector<Shift> shifts;
-  for (const double x : {-box, 0.0, box}) {
-    for (const double y : {-box, 0.0, box}) {
-      for (const double z : {-box, 0.0, box}) {
+  for (const double x : {-box[0], 0.0, box[0]}) {
+    for (const double y : {-box[1], 0.0, box[1]}) {
+      for (const double z : {-box[2], 0.0, box[2]}) {
         if (x != 0 || y != 0 || z != 0) shifts.push_back({x, y, z});
       }
     }
@@ -137,7 +137,7 @@ std::vector<Shift> image_shifts(double box) {
 
 class NeighborSearch {
  public:
-  NeighborSearch(const Cloud& cloud, std::optional<double> box)
+  NeighborSearch(const Cloud& cloud, const std::optional<BoxSides>& box)
       : cloud_(cloud), tree_(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
     if (box) shifts_ = image_shifts(*box);
   }
@@ -275,7 +275,7 @@ void check(const Column& position, std::size_t count, int neighbors) {
 }  // namespace
 
 Column find_smoothing_lengths(const Column& position, std::size_t count,
-                              std::optional<double> periodic_box, int neighbors,
+                              const std::optional<BoxSides>& periodic_box, int neighbors,
                               const Progress& progress, const SearchShare& share) {
   check(position, count, neighbors);
   const Cloud cloud(position.data(), count);
@@ -302,7 +302,7 @@ Column find_smoothing_lengths(const Column& position, std::size_t count,
   if (share.join) share.join(in_order, begins);
   for (std::size_t i = 0; i < points; ++i)
     lengths[cloud.particle(search.point_in_order(i))] = in_order[i];
-  const double extent = std::max(search.extent(), periodic_box.value_or(0));
+  const double extent = std::max(search.extent(), periodic_box ? periodic_box->longest() : 0);
   replace_zeros(lengths, extent > 0 ? fallback_fraction * extent : 1);
   return Column::owning(std::move(lengths));
 }

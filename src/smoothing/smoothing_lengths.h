@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "splotchcl/particles.h"
+#include "splotchcl/periodic.h"
 
 namespace splotchcl {
 
@@ -36,7 +37,7 @@ struct SearchShare {
 // neighbour at all), a thousandth of the particles' extent or of the box; where that is
 // zero too, 1.
 Column find_smoothing_lengths(const Column& position, std::size_t count,
-                              std::optional<double> periodic_box = std::nullopt,
+                              const std::optional<BoxSides>& periodic_box = std::nullopt,
                               int neighbors = particles_in_sphere, const Progress& progress = {},
                               const SearchShare& share = {});
 

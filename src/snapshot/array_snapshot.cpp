@@ -174,18 +174,30 @@ void ArraySnapshot::clear(int type) {
     column = column->first.first == type ? columns_.erase(column) : std::next(column);
 }
 
-void ArraySnapshot::set_box_size(double size) {
-  if (!std::isfinite(size) || size < 0) {
+void ArraySnapshot::set_box_size(const BoxSides& sides) {
+  const bool is_none = sides == BoxSides(0);
+  if (!is_none && !sides.are_lengths()) {
     throw UsageError(
-        fmt::format("the box size: {}, expected the side of a periodic box, or 0 for none", size));
+        fmt::format("the box size: {}, expected the side of a periodic box, one for each axis, or "
+                    "0 for none",
+                    sides.text()));
   }
   changed();
-  info_.box_size = size > 0 ? std::optional(size) : std::nullopt;
+  info_.box_size = is_none ? std::nullopt : std::optional(sides);
 }
 
 void ArraySnapshot::set_time(double time) {
   changed();
   info_.time = time;
+}
+
+void ArraySnapshot::set_scale_factor(double scale_factor) {
+  if (!std::isfinite(scale_factor) || !(scale_factor > 0)) {
+    throw UsageError(
+        fmt::format("the scale factor: {}, expected a finite number > 0", scale_factor));
+  }
+  changed();
+  info_.redshift = 1 / scale_factor - 1;
 }
 
 void ArraySnapshot::set_position_origin(const Vec3& origin) {

@@ -93,6 +93,10 @@ ParticleTypeInfo get_type(Reader& in) {
   return type;
 }
 
+std::string text_of(const std::optional<BoxSides>& box) {
+  return box ? box->text() : "none";
+}
+
 std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "none";
 }
@@ -160,7 +164,10 @@ class WholeType {
 std::string packed(const SnapshotPart& part) {
   Writer out;
   out.put(part.info.time);
-  out.put(part.info.box_size);
+  out.put(part.info.redshift);
+  const std::optional<BoxSides>& box = part.info.box_size;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    out.put(box ? (*box)[axis] : 0.0);
   for (const double x : part.origin.a)
     out.put(x);
   out.put(part.info.types.size());
@@ -173,7 +180,11 @@ SnapshotPart unpacked(const std::string& text) {
   Reader in(text);
   SnapshotPart part;
   part.info.time = in.get<double>();
-  part.info.box_size = in.get_optional();
+  part.info.redshift = in.get_optional();
+  std::vector<double> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sides.push_back(in.get<double>());
+  part.info.box_size = box_of(sides);
   for (double& x : part.origin.a)
     x = in.get<double>();
   const auto types = in.get<std::size_t>();
@@ -189,6 +200,7 @@ SnapshotInfo whole_of(const std::vector<SnapshotPart>& parts) {
     const SnapshotPart& part = parts[rank];
     require_same("a time of", rank, fmt::format("{}", part.info.time),
                  fmt::format("{}", first.info.time));
+    require_same("a redshift of", rank, text_of(part.info.redshift), text_of(first.info.redshift));
     require_same("a box size of", rank, text_of(part.info.box_size), text_of(first.info.box_size));
     require_same("an origin of positions of", rank,
                  fmt::format("{}", fmt::join(part.origin.a, " ")),

@@ -149,3 +149,75 @@ def test_values_that_astropy_masks_are_refused(arrays, has_unit):
         particles.gas(mass=masked(mass, mask=np.arange(500) < 7))
     particles.gas(mass=masked(mass, mask=np.zeros(500, bool)))
     assert np.array_equal(particles["gas"]["mass"], arrays["mass"])
+
+
+def comoving_gas(scale_factor, comoving, box):
+    objects = pytest.importorskip("swiftsimio.objects")
+    rng = np.random.default_rng(5)
+
+    def of(values, unit, power):
+        made = objects.cosmo_array(
+            values, unit, comoving=True, scale_factor=scale_factor, scale_exponent=power
+        )
+        return made if comoving else made.to_physical()
+
+    arrays = {
+        "position": of(rng.random((2000, 3)) * 10, "Mpc", 1),
+        "smoothing_length": of(np.full(2000, 1.5), "Mpc", 1),
+        "mass": of(np.full(2000, 1e10), "Msun", 0),
+    }
+    side = objects.cosmo_quantity(
+        10.0, "Mpc", comoving=True, scale_factor=scale_factor, scale_exponent=1
+    )
+    return Particles(box_size=side if box else None).gas(**arrays)
+
+
+@pytest.mark.parametrize("scale_factor", [0.98, 1 / 3])
+@pytest.mark.parametrize("box", [True, False])
+def test_comoving_and_physical_arrays_make_one_map(renderer, scale_factor, box):
+    settings = {"size": (16, 16), "unit": "Msun/kpc^2", "tolerance": 1e-5}
+    comoving = splotchcl.column(comoving_gas(scale_factor, True, box), **settings)
+    physical = splotchcl.column(comoving_gas(scale_factor, False, box), **settings)
+    assert physical.values == pytest.approx(comoving.values, rel=1e-3)
+    assert physical.extent == pytest.approx(comoving.extent, rel=1e-6, abs=1e-6)
+    if box:
+        area = (10e3 * scale_factor) ** 2
+        assert physical.values.mean(dtype=float) == pytest.approx(2000e10 / area, rel=1e-4)
+
+
+def test_a_box_follows_physical_positions():
+    particles = comoving_gas(1 / 3, False, True)
+    assert particles.box_size == pytest.approx(10 / 3)
+    assert comoving_gas(1 / 3, True, True).box_size == pytest.approx(10)
+
+
+def test_a_box_that_may_be_comoving_or_not_is_refused_beside_comoving_positions():
+    unyt = pytest.importorskip("unyt")
+    objects = pytest.importorskip("swiftsimio.objects")
+    x = objects.cosmo_array(
+        np.zeros((4, 3)), "Mpc", comoving=True, scale_factor=0.5, scale_exponent=1
+    )
+    with pytest.raises(UsageError, match="does not say whether it is comoving"):
+        Particles(box_size=unyt.unyt_quantity(10, "Mpc")).gas(position=x)
+
+
+def test_arrays_of_two_scale_factors_are_refused():
+    objects = pytest.importorskip("swiftsimio.objects")
+
+    def at(scale_factor):
+        return objects.cosmo_array(
+            np.zeros((4, 3)), "Mpc", comoving=True, scale_factor=scale_factor, scale_exponent=1
+        )
+
+    particles = Particles().gas(position=at(0.5))
+    with pytest.raises(UsageError, match="at the scale factor 0.25, expected 0.5"):
+        particles.stars(position=at(0.25))
+    with pytest.raises(UsageError, match="found both, expected one"):
+        Particles(scale_factor=0.5, redshift=1)
+
+
+def test_a_box_may_have_three_sides():
+    particles = Particles(box_size=(4, 1, 2)).gas(position=np.zeros((4, 3)))
+    assert particles.box_size == (4, 1, 2)
+    with pytest.raises(UsageError, match="expected a number, or three"):
+        Particles(box_size=(4, 1))

@@ -32,7 +32,7 @@ double miss(const std::string& before, const std::string& left_out, const std::s
   const InterpolatedSnapshot predicted(make_pair(first, second, settings), fraction);
   const IdMatch match = match_ids(predicted.read_ids(type), real->read_ids(type));
   const Column at = predicted.read(type, "position"), is = real->read(type, "position");
-  const double box = real->info().box_size.value_or(1e30);
+  const double box = real->info().box_size.value_or(1e30).longest();
   double sum = 0;
   for (std::size_t i = 0; i < match.place_in_second.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -38,7 +38,7 @@ class MemorySnapshot : public Snapshot {
   void set_table_mass(int type, double mass) { type_info(type).table_mass = mass; }
   void set_cosmology(const Cosmology& cosmology) { info_.cosmology = cosmology; }
   void set_hubble_parameter(double h) { info_.hubble_parameter = h; }
-  void set_box_size(double size) { info_.box_size = size; }
+  void set_box_size(const BoxSides& sides) { info_.box_size = sides; }
   void set_origin(const Vec3& origin) { origin_ = origin; }
 
   const std::vector<std::string>& fields_read() const { return fields_read_; }

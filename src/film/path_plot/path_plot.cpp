@@ -71,11 +71,13 @@ struct Bounds {
 };
 
 // A header may name a box that has nothing to do with the particles.
-bool fill_box(const Bounds& bulk, double box_size) {
-  return std::all_of(bulk.axes.begin(), bulk.axes.end(), [box_size](const ValueRange& range) {
-    return range.minimum >= 0 && range.maximum <= box_size &&
-           range.maximum - range.minimum > 0.7 * box_size;
-  });
+bool fill_box(const Bounds& bulk, const BoxSides& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const ValueRange& range = bulk.axes[axis];
+    if (range.minimum < 0 || range.maximum > box[axis]) return false;
+    if (range.maximum - range.minimum <= 0.7 * box[axis]) return false;
+  }
+  return true;
 }
 
 // The periodic box, or the bulk of the particles.
@@ -94,7 +96,8 @@ Bounds outline_of(const PathPlot& plot) {
     bounds.axes[axis].maximum = percentile(values, 0.99);
   }
   if (plot.box_size && fill_box(bounds, *plot.box_size)) {
-    bounds.axes.fill({0, *plot.box_size});
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bounds.axes[axis] = {0, (*plot.box_size)[axis]};
   }
   return bounds;
 }

@@ -6,6 +6,7 @@
 
 #include "splotchcl/camera.h"
 #include "splotchcl/image.h"
+#include "splotchcl/periodic.h"
 
 namespace splotchcl {
 
@@ -22,7 +23,7 @@ struct PathPlot {
   std::vector<SecondEye> second_eyes;  // of each frame, or none
   std::vector<double> half_angles;     // of view, horizontal, in radians, of each frame
   std::vector<Vec3> particles;         // or a sample of them
-  std::optional<double> box_size;      // of a periodic box that begins at 0
+  std::optional<BoxSides> box_size;    // of a periodic box that begins at 0
 };
 
 // The places where particles crowd most: cells of a grid over the bulk of them that hold more

@@ -137,7 +137,7 @@ void describe(const GadgetHeader& header, SnapshotInfo& info) {
   info.time = header.time;
   // Runs without cosmology write a redshift of 0 that means nothing.
   if (header.omega_matter > 0 || header.redshift != 0) info.redshift = header.redshift;
-  if (std::isfinite(header.box_size) && header.box_size > 0) info.box_size = header.box_size;
+  if (header.box_size && header.box_size->are_lengths()) info.box_size = header.box_size;
   if (header.hubble_parameter > 0) info.hubble_parameter = header.hubble_parameter;
   if (is_cosmological(header)) {
     // kpc/h and km/s, as most have them: the header does not say.

@@ -23,7 +23,7 @@ struct GadgetHeader {
   double time = 0;
   double redshift = 0;
   int files = 1;
-  double box_size = 0;
+  std::optional<BoxSides> box_size;
   double omega_matter = 0;
   double omega_lambda = 0;
   double hubble_parameter = 0;

@@ -45,14 +45,11 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
   return counts;
 }
 
-// One length for all axes; 0 when they differ.
-double read_box_size(const Hdf5File& file) {
+// One length for all axes, or one for each.
+std::optional<BoxSides> read_box_size(const Hdf5File& file) {
   auto sides = file.numbers("Header", "BoxSize");
   if (!sides) sides = file.numbers("Parameters", "BoxSize");
-  if (!sides) return 0;
-  const bool is_cube = std::all_of(sides->begin(), sides->end(),
-                                   [&](double side) { return side == sides->front(); });
-  return is_cube ? sides->front() : 0;
+  return sides ? box_of(*sides) : std::nullopt;
 }
 
 }  // namespace

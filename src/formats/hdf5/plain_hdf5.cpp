@@ -255,20 +255,19 @@ std::optional<double> ratio_of_yt(const Hdf5File& file, const std::string& from,
                     : ratio_of_known_units(unit_of_yt(file, from), unit_of_yt(file, to), factors);
 }
 
-// yt's domain in the positions' unit, where it is a cube.
-std::optional<double> find_domain(const Hdf5File& file, const std::string& position_unit,
-                                  const UnitFactors& factors) {
+// yt's domain in the positions' unit.
+std::optional<BoxSides> find_domain(const Hdf5File& file, const std::string& position_unit,
+                                    const UnitFactors& factors) {
   const auto low = file.numbers("/", "domain_left_edge");
   const auto high = file.numbers("/", "domain_right_edge");
   if (!low || !high || low->size() != 3 || high->size() != 3) return std::nullopt;
   const auto ratio = ratio_of_yt(file, file.text("/", "domain_right_edge_units").value_or(""),
                                  position_unit, factors);
   if (!ratio) return std::nullopt;
-  const double side = high->front() - low->front();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if ((*high)[axis] - (*low)[axis] != side) return std::nullopt;
-  }
-  return side * *ratio;
+  std::vector<double> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sides.push_back(((*high)[axis] - (*low)[axis]) * *ratio);
+  return box_of(sides);
 }
 
 void read_numbers(const Hdf5File& file, SnapshotInfo& info) {
@@ -281,8 +280,16 @@ void read_numbers(const Hdf5File& file, SnapshotInfo& info) {
 }
 
 void read_box(const Hdf5File& file, SnapshotInfo& info) {
-  const auto box = find_number(file, {"box_size", "BoxSize", "boxsize"});
-  if (box && *box > 0) info.box_size = box;
+  constexpr std::array<const char*, 3> names = {"box_size", "BoxSize", "boxsize"};
+  for (const char* const object : {"/", "Header"}) {
+    for (const char* const name : names) {
+      if (const auto sides = file.numbers(object, name)) info.box_size = box_of(*sides);
+      if (info.box_size) return;
+    }
+  }
+  if (const auto side = find_number(file, {names.begin(), names.end()})) {
+    info.box_size = box_of({*side});
+  }
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ void NumpyTable::read_numbers(SnapshotInfo& info) {
     if (equal_ignoring_case(name, "redshift")) info.redshift = value;
     const bool is_box =
         equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
-    if (is_box && value > 0) info.box_size = value;
+    if (is_box) info.box_size = box_of({value});
   }
 }
 

@@ -23,8 +23,9 @@ class Loaded:
     """What an object holds: arrays by our type and our field, with their units."""
 
     types: dict[str | int, dict[str, Any]] = field(default_factory=dict)
-    box_size: float | None = None
+    box_size: Any = None  # a number or three, with a unit where the object's have one
     time: float | None = None
+    scale_factor: float | None = None
 
 
 def load_object(obj: Any, fields: Sequence[str]) -> Loaded:
@@ -53,13 +54,6 @@ def _require(fields: Iterable[str], loaded: Loaded) -> None:
             raise UsageError(f"field {name!r}: no type of particles has it")
     if not loaded.types:
         raise UsageError("found no particles with positions, expected some")
-
-
-def _cube_side(sides: Any) -> float:
-    values = np.atleast_1d(np.asarray(sides, np.float64))
-    if not np.allclose(values, values[0], rtol=1e-6):
-        raise UsageError(f"found a box with sides {values.tolist()}, expected a cube")
-    return float(values[0])
 
 
 # pynbody: families with arrays by name.
@@ -97,7 +91,7 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
         loaded.types[kind] = arrays
     loaded.box_size = _pynbody_box(snapshot)
     scale = snapshot.properties.get("a")
-    loaded.time = None if scale is None else float(scale)
+    loaded.time = loaded.scale_factor = None if scale is None else float(scale)
     return loaded
 
 
@@ -159,13 +153,24 @@ def _load_swiftsimio(data: Any, fields: Sequence[str]) -> Loaded:
         if "smoothing_length" in arrays:
             arrays["smoothing_length"] = arrays["smoothing_length"] * reach
         loaded.types[_SWIFT_TYPES[group]] = arrays
-    sides = metadata.boxsize
-    for arrays in loaded.types.values():
-        loaded.box_size = _cube_side(sides.to(arrays["position"].units))
-        break
+    loaded.box_size = _swift_box(metadata, loaded)
     scale = getattr(metadata, "scale_factor", None)
-    loaded.time = None if scale is None else float(scale)
+    loaded.time = loaded.scale_factor = None if scale is None else float(scale)
     return loaded
+
+
+# Comoving, whatever positions have been converted to: Particles makes it theirs. Where it does not
+# say that itself, as in early releases, it is made theirs here.
+def _swift_box(metadata: Any, loaded: Loaded) -> Any:
+    sides = metadata.boxsize
+    if getattr(sides, "comoving", None) is not None:
+        return sides
+    for arrays in loaded.types.values():
+        position = arrays["position"]
+        is_physical = getattr(position, "comoving", None) is False
+        scale = float(metadata.scale_factor) if is_physical else 1.0
+        return np.asarray(sides.to(position.units), np.float64) * scale
+    return None
 
 
 # Arrays are read when they are asked for; those that a file does not have raise or are None.
@@ -210,7 +215,7 @@ def _load_yt(obj: Any, fields: Sequence[str]) -> Loaded:
         if len(arrays["position"]) > 0:
             loaded.types[number] = arrays
     if all(dataset.periodicity):
-        loaded.box_size = _cube_side(dataset.domain_width.in_units("code_length"))
+        loaded.box_size = np.asarray(dataset.domain_width.in_units("code_length"))
     loaded.time = float(dataset.current_time)
     return loaded
 

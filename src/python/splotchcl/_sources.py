@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_number, as_values, is_number
 from ._core import UsageError
-from ._units import CarriedUnit, unit_of
+from ._units import CarriedUnit, scale_factor_of, unit_of
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")
 # Some files say by a number below 0 that a particle is in no halo.
@@ -149,9 +149,9 @@ class Source:
         return types[name]
 
     @property
-    def box_size(self) -> float | None:
-        """Side of the periodic box in the unit of positions; None: there is none."""
-        size: float | None = self._describe()["box_size"]
+    def box_size(self) -> float | tuple[float, float, float] | None:
+        """Side of the periodic box in the unit of positions, or three; None: there is none."""
+        size: float | tuple[float, float, float] | None = self._describe()["box_size"]
         return size
 
     def __repr__(self) -> str:
@@ -220,11 +220,14 @@ class Particles(Source):
 
     Parameters
     ----------
-    box_size : float, optional
-        Side of the periodic box, in the unit of positions; a value with a unit of its own is
-        converted to theirs. None: there is none.
+    box_size : float or sequence of 3 floats, optional
+        Side of the periodic box, or one for each axis, in the unit of positions; a value with a unit
+        of its own is converted to theirs. None: there is none.
     time : float, optional
         In the simulation's unit, for texts in pictures.
+    scale_factor, redshift : float, optional
+        One of them: comoving arrays that carry their unit (swiftsimio's) are then mapped in
+        physical units, as physical ones are. Given arrays of swiftsimio know it themselves.
     origin : sequence of 3 floats, optional
         What positions are relative to: float32 positions are taken as offsets from it, from
         float64 positions it is subtracted before they become floats.
@@ -238,8 +241,10 @@ class Particles(Source):
     def __init__(
         self,
         *,
-        box_size: float | None = None,
+        box_size: Any = None,
         time: float | None = None,
+        scale_factor: float | None = None,
+        redshift: float | None = None,
         origin: Any = None,
     ) -> None:
         self._arrays = _core.ParticleArrays()
@@ -250,11 +255,14 @@ class Particles(Source):
         # Numbers for all masses of a type that are to be arrays, until its particles are known.
         self._masses_to_spread: dict[int, tuple[float, CarriedUnit | None]] = {}
         self._box_unit = unit_of(box_size)
-        self._given_box = 0.0 if box_size is None else as_number("box_size", box_size)
+        self._given_box = (0.0, 0.0, 0.0) if box_size is None else _sides("box_size", box_size)
         if box_size is not None:
             self._arrays.set_box_size(self._given_box)
         if time is not None:
             self._arrays.set_time(as_number("time", time))
+        self._scale_factor = _scale_factor(scale_factor, redshift)
+        if self._scale_factor is not None:
+            self._arrays.set_scale_factor(self._scale_factor)
         if origin is not None:
             self._arrays.set_origin([as_number("origin", x) for x in origin])
             unit = unit_of(origin)
@@ -278,12 +286,14 @@ class Particles(Source):
         Raises
         ------
         UsageError
-            For another object, a field that no type has, and a box that is no cube.
+            For another object, and a field that no type has.
         """
         from ._objects import load_object
 
         loaded = load_object(obj, fields)
-        particles = cls(box_size=loaded.box_size, time=loaded.time)
+        particles = cls(
+            box_size=loaded.box_size, time=loaded.time, scale_factor=loaded.scale_factor
+        )
         for kind, arrays in loaded.types.items():
             particles.add(kind, **arrays)
         return particles
@@ -322,6 +332,8 @@ class Particles(Source):
             set.
         """
         number = self._number(type)
+        for field, values in fields.items():
+            self._check_scale_factor(field, values)
         units = {(number, field): unit_of(values) for field, values in fields.items()}
         self._check_units(units)
         for field, values in fields.items():
@@ -420,17 +432,37 @@ class Particles(Source):
         if "length" in known:
             self._box_in(known["length"])
 
-    # The side of the box in a unit of positions.
-    def _box_in(self, length: CarriedUnit) -> float:
+    # Arrays of swiftsimio say at which scale factor they are: it is that of all.
+    def _check_scale_factor(self, field: str, values: Any) -> None:
+        found = scale_factor_of(values)
+        if found is None:
+            return
+        if self._scale_factor is None:
+            self._scale_factor = found
+            self._arrays.set_scale_factor(found)
+        elif abs(found - self._scale_factor) > 1e-6 * self._scale_factor:
+            raise UsageError(
+                f"field {field}: at the scale factor {found:.8g}, expected {self._scale_factor:.8g} "
+                "as of the other particles"
+            )
+
+    # The sides of the box in a unit of positions.
+    def _box_in(self, length: CarriedUnit) -> tuple[float, float, float]:
         if self._box_unit is None:
             return self._given_box
+        if length.is_comoving and self._box_unit.is_comoving is None:
+            raise UsageError(
+                f"box_size: the unit {self._box_unit.text}, which does not say whether it is comoving "
+                f"as positions are; expected a number in {length.text}, or a comoving value"
+            )
         ratio = _core.ratio_of_units(self._box_unit.name, length.name, self._source)
         if ratio is None:
             raise UsageError(
                 f"box_size: the unit {self._box_unit.text}, expected one that can be converted to "
                 f"{length.text}, that of positions; give it in that unit"
             )
-        return self._given_box * ratio
+        x, y, z = self._given_box
+        return x * ratio, y * ratio, z * ratio
 
 
 # Positions, smoothing lengths and the origin are lengths; other fields are themselves, whatever
@@ -438,6 +470,28 @@ class Particles(Source):
 def _shared_kind(field: str) -> str:
     name = _core.canonical_field_name(field) or field
     return "length" if name in ("position", "smoothing_length", "origin") else name
+
+
+def _sides(what: str, values: Any) -> tuple[float, float, float]:
+    if is_number(values):
+        side = as_number(what, values)
+        return side, side, side
+    try:
+        x, y, z = (as_number(what, value) for value in values)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{what}: found {values!r}, expected a number, or three") from error
+    return x, y, z
+
+
+def _scale_factor(scale_factor: float | None, redshift: float | None) -> float | None:
+    if redshift is None:
+        return None if scale_factor is None else as_number("scale_factor", scale_factor)
+    if scale_factor is not None:
+        raise UsageError("scale_factor and redshift: found both, expected one of them")
+    of_redshift = as_number("redshift", redshift)
+    if not of_redshift > -1:
+        raise UsageError(f"redshift: found {of_redshift}, expected a number > -1")
+    return 1 / (1 + of_redshift)
 
 
 def _type_name(word: str) -> str:

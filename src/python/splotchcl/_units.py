@@ -32,10 +32,13 @@ class CarriedUnit:
     name : str
         As snapshots name units, so that maps can read it (docs/maps.md#units): where they do not
         know what it is called, in cgs. Where that is not known either, close to `text`.
+    is_comoving : bool, optional
+        None: it does not say.
     """
 
     text: str
     name: str
+    is_comoving: bool | None = None
 
 
 def unit_of(values: Any) -> CarriedUnit | None:
@@ -50,8 +53,8 @@ def unit_of(values: Any) -> CarriedUnit | None:
         if is_comoving is None:
             return CarriedUnit(text, name)
         if not is_comoving:
-            return CarriedUnit(f"{text} (physical)", name)
-        return CarriedUnit(f"{text} (comoving)", name + _comoving_factor(values))
+            return CarriedUnit(f"{text} (physical)", name, False)
+        return CarriedUnit(f"{text} (comoving)", name + _comoving_factor(values), True)
     return None
 
 
@@ -123,6 +126,13 @@ def _comoving_factor(values: Any) -> str:
 
     found = _or_none(find)
     return " (comoving)" if found is None else found
+
+
+def scale_factor_of(values: Any) -> float | None:
+    """The scale factor of values of swiftsimio, which carry it; None of others."""
+    factor = getattr(getattr(values, "cosmo_factor", None), "scale_factor", None)
+    found = None if factor is None else _or_none(lambda: float(factor))
+    return found if found is not None and found > 0 else None
 
 
 # Each package has its own errors for a unit that it cannot convert.

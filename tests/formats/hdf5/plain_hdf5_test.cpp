@@ -185,7 +185,7 @@ TEST_F(PlainHdf5, YtsDomainIsConvertedToTheUnitOfPositions) {
       EXPECT_FALSE(box);
     } else {
       ASSERT_TRUE(box);
-      EXPECT_NEAR(*box / (200 * 3.0856775815e21), 1, 1e-9);
+      EXPECT_NEAR(box->longest() / (200 * 3.0856775815e21), 1, 1e-9);
     }
   }
 }
