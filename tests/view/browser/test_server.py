@@ -264,3 +264,43 @@ def test_ctrl_c_ends_it_with_a_page_open(view):
     page = PageSocket(opened)
     page.receive()
     assert opened.end() == (0, "")
+
+
+def test_a_page_makes_the_program_read_no_file_through_a_keyframe(view):
+    opened = view()
+    secret = opened.folder / "secret"
+    secret.write_text("password=hunter2\n")
+    page = PageSocket(opened)
+    keyframes = [{"frame": 0, "settings": {"component.0.palette": "magma"}},
+                 {"frame": 2, "settings": {"component.0.palette": str(secret)}}]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [],
+               "keyframes": keyframes, "frame": 2})
+    text = page.receive_until(lambda message: message.get("type") == "error")["text"]
+    assert "expected the scene's own" in text and "hunter2" not in text
+
+
+def test_what_a_component_reads_that_is_off_is_not_replaced(view, snapshot, tmp_path):
+    numbers = tmp_path / "ids.toml"
+    numbers.write_text("\n".join(map(str, range(1, 2000))))
+    before = numbers.read_text()
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f"""
+snapshot = "{snapshot}"
+[image]
+size = [64, 48]
+[camera]
+position = [0, 0, 5]
+look_at = [0, 0, 0]
+[[component]]
+types = "gas"
+[[component]]
+types = "gas"
+select = {{ ids = "ids.toml" }}
+""")
+    page = PageSocket(view(scene))
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [1]})
+    for kind, path in (("save_scene", numbers), ("save_scene", snapshot), ("save_picture", snapshot)):
+        page.send({"type": kind, "id": 1, "path": str(path), "replace": True})
+        answer = page.receive_until(lambda message: message.get("type") == "answer")
+        assert "error" in answer, path
+    assert numbers.read_text() == before
