@@ -47,12 +47,15 @@ DrawLoop::~DrawLoop() {
 }
 
 void DrawLoop::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    is_stopping_ = true;
-  }
-  changed_.notify_all();
+  stop_within(std::chrono::milliseconds(0));
   if (thread_.joinable()) thread_.join();
+}
+
+bool DrawLoop::stop_within(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  is_stopping_ = true;
+  changed_.notify_all();
+  return changed_.wait_for(lock, patience, [this] { return has_ended_; });
 }
 
 std::uint64_t DrawLoop::open_page(SendToPage send) {
@@ -173,6 +176,9 @@ void DrawLoop::run() {
       // Something newer is to be drawn, or nothing any more.
     }
   }
+  const std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  changed_.notify_all();
 }
 
 void DrawLoop::carry_out(const Work& work) {

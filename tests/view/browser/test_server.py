@@ -4,6 +4,7 @@ browser, by the same requests that one sends."""
 import http.client
 import json
 import resource
+import signal
 import socket
 import subprocess
 import sys
@@ -275,7 +276,7 @@ def test_a_page_makes_the_program_read_no_file_through_a_keyframe(view):
                  {"frame": 2, "settings": {"component.0.palette": str(secret)}}]
     page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [],
                "keyframes": keyframes, "frame": 2})
-    text = page.receive_until(lambda message: message.get("type") == "error")["text"]
+    text = page.receive_until(lambda message: message.get("type") == "error")[-1]["text"]
     assert "expected the scene's own" in text and "hunter2" not in text
 
 
@@ -301,6 +302,42 @@ select = {{ ids = "ids.toml" }}
     page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [1]})
     for kind, path in (("save_scene", numbers), ("save_scene", snapshot), ("save_picture", snapshot)):
         page.send({"type": kind, "id": 1, "path": str(path), "replace": True})
-        answer = page.receive_until(lambda message: message.get("type") == "answer")
+        answer = page.receive_until(lambda message: message.get("type") == "answer")[-1]
         assert "error" in answer, path
     assert numbers.read_text() == before
+
+
+def test_connections_without_the_token_lock_nobody_out(view):
+    opened = view()
+    strangers = []
+    for _ in range(100):
+        strangers.append(socket.create_connection(("127.0.0.1", opened.port), timeout=PATIENCE))
+    assert get(opened, f"/{opened.token}/")[0] == 200
+    for _ in range(100):
+        strangers.append(socket.create_connection(("127.0.0.1", opened.port), timeout=PATIENCE))
+        strangers[-1].sendall(b"GET /x/ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+    assert get(opened, f"/{opened.token}/")[0] == 200
+    assert PageSocket(opened).status == 101
+    # All are closed, whether they ask for anything or not.
+    for stranger in strangers:
+        try:
+            while stranger.recv(4096):
+                pass
+        except ConnectionResetError:
+            pass
+        stranger.close()
+
+
+def test_ctrl_c_ends_a_picture_that_is_drawn_in_one_part(view, run, tmp_path):
+    universe = tmp_path / "universe"
+    run("generate", "universe", "--particles", 300000, "-o", universe)
+    for ending in (signal.SIGINT, signal.SIGTERM):
+        opened = view(universe, "--size", "1024x1024")
+        page = PageSocket(opened)
+        page.receive_until(lambda message: message.get("stage") == "preview")
+        page.set(1, tolerance=0, component__0__absorption=2, component__0__size__factor=5)
+        time.sleep(4)
+        opened.process.send_signal(ending)
+        # It would draw for a minute.
+        opened.process.communicate(timeout=20)
+        assert opened.process.returncode == 0
