@@ -128,6 +128,30 @@ TEST_F(RenderedOutput, OfTheSameCallIsTheSameFile) {
   EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
 }
 
+// 4194303 is no process.
+TEST(Leftovers, OfAnIndexAreRemovedByTheNextOne) {
+  const TemporaryFolder folder;
+  splotchcl_in(folder, "generate halo --particles 2000 -o s");
+  std::ofstream(folder / ".s.splotchcl_index.4194303-1.part") << "half";
+  EXPECT_EQ(splotchcl_in(folder, "index s").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / ".s.splotchcl_index.4194303-1.part"));
+}
+
+TEST(Leftovers, OfKeptSmoothingLengthsAreRemovedByTheNextOnes) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  std::ofstream table(folder / "t.txt");
+  table << "x y z\n";
+  for (int i = 0; i < 300; ++i)
+    table << i % 7 << ' ' << i % 11 << ' ' << i % 13 << '\n';
+  table.close();
+  const std::string left = ".t.txt.type0.smoothing_lengths.4194303-1.part";
+  std::ofstream(folder / left) << "half";
+  const std::string render = "render t.txt -o p.png --size 32x24 --cache-smoothing-lengths";
+  EXPECT_EQ(splotchcl_in(folder, render).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / left));
+}
+
 class ClosedStreams : public ::testing::Test {
  protected:
   void SetUp() override {
