@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ inline std::vector<std::string> real_snapshots() {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data)) {
     const fs::path name = fs::relative(entry.path(), data);
     const std::string folder = name.begin()->string();
-    const bool has_snapshots = folder != "broken" && folder != "images" && folder != "camera" &&
-                               folder != "splotch_par" && folder != "README.md";
+    // What is no snapshot: damaged files, pictures, paths, scripts.
+    const std::set<std::string> others = {"broken", "camera",    "faults",     "images",
+                                          "odd",    "README.md", "splotch_par"};
+    const bool has_snapshots = others.count(folder) == 0;
     if (entry.is_regular_file() && has_snapshots) names.push_back(name.string());
   }
   std::sort(names.begin(), names.end());

@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +15,7 @@
 #include "common/crash_guard.h"
 #include "common/quiet_errors.h"
 #include "common/shrink_guard.h"
+#include "device/opencl/pocl_cache.h"
 #include "ranks/agreement.h"
 #include "splotchcl/error.h"
 
@@ -65,6 +68,16 @@ int run(int argc, char** argv) {
   return run(argc, argv, console);
 }
 
+// What is opened next would take the place of a standard stream that is closed, and what is told
+// would be written into it: batch systems and daemons start programs so.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // The lowest that is free, which is this one.
+    if (::open("/dev/null", O_RDWR) != stream) ::_exit(failed);
+  }
+}
+
 // PoCL compiles each kernel a second time, for its size of work-groups, unless it is told not to:
 // two seconds of a first picture, for the same bits at the same speed.
 void have_kernels_compiled_once() {
@@ -82,12 +95,14 @@ void have_kernels_compiled_once() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   // A write beyond the limit on file sizes becomes an error that is reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);
   splotchcl::guard_mapped_files();
   splotchcl::guard_crashes();
   splotchcl::let_errors_be_quiet();
   have_kernels_compiled_once();
+  splotchcl::give_pocl_a_cache();
   try {
     leave(run(argc, argv));
   } catch (...) {

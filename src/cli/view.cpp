@@ -1,12 +1,24 @@
+#include <unistd.h>
+
+#include <chrono>
 #include <iostream>
 
 #include "cli/commands.h"
+#include "common/unfinished_file.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot.h"
 #include "view/live_view.h"
 
 namespace splotchcl::cli {
 namespace {
+
+constexpr std::chrono::milliseconds patience_at_the_end(1000);
+
+// Nothing ends a device that draws.
+[[noreturn]] void leave_what_is_drawn() {
+  remove_unfinished_files();
+  ::_exit(0);
+}
 
 bool is_own_address(const std::string& address) {
   return address.rfind("127.", 0) == 0 || address == "::1";
@@ -37,6 +49,7 @@ int run_view(const ViewOptions& options, Console& console) {
   console.done("the page is at the address below until Ctrl-C");
   std::cout << page.address() << std::endl;
   page.run();
+  if (!page.end_within(patience_at_the_end)) leave_what_is_drawn();
   return 0;
 }
 

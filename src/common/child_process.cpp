@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include "common/reason.h"
@@ -41,7 +42,23 @@ class FileActions {
   posix_spawn_file_actions_t actions_;
 };
 
+bool is_program(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
+}
+
 }  // namespace
+
+std::string find_program(const std::string& name) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (folder.empty() || folder.front() != '/') continue;
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (is_program(file)) return file.string();
+  }
+  return "";
+}
 
 ScratchText::ScratchText() {
   std::string name = (std::filesystem::temp_directory_path() / "splotchcl-XXXXXX").string();
@@ -66,6 +83,9 @@ std::string ScratchText::text() const {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words, const Streams& streams) {
+  const bool is_path = words.front().find('/') != std::string::npos;
+  const std::string file = is_path ? words.front() : find_program(words.front());
+  if (file.empty()) throw DataError(words.front() + " cannot be started: " + reason(ENOENT));
   std::vector<char*> arguments;
   for (const std::string& word : words)
     arguments.push_back(const_cast<char*>(word.c_str()));
@@ -77,8 +97,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const Streams&
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  const int error = ::posix_spawnp(&process_, words.front().c_str(), files.get(), &attributes,
-                                   arguments.data(), environ);
+  const int error =
+      ::posix_spawn(&process_, file.c_str(), files.get(), &attributes, arguments.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
   if (error == 0) return;
   process_ = -1;

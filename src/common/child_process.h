@@ -27,8 +27,13 @@ class ScratchText {
   int descriptor_ = -1;
 };
 
-// Another program, found by its name as shells do. In a process group of its own, so that Ctrl-C
-// reaches this program alone, which then decides. It does not outlive the object.
+// The program of this name, as an absolute path; "" where there is none. Of PATH only folders with
+// absolute names are looked into: an empty or a relative one is the folder that is current, which
+// may be anyone's.
+std::string find_program(const std::string& name);
+
+// Another program, by its path or as find_program finds it. In a process group of its own, so that
+// Ctrl-C reaches this program alone, which then decides. It does not outlive the object.
 class ChildProcess {
  public:
   // Descriptors that become the program's standard input, output and errors; -1: nothing is read,

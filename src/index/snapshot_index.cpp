@@ -254,6 +254,7 @@ void SnapshotIndex::write(const SnapshotInfo& info) const {
   }
   const std::uint64_t checksum = checksum_of(bytes.data(), bytes.size());
   append(bytes, &checksum, sizeof checksum);
+  check_output_path(path);  // which removes what was left
   UnfinishedFile file(path);
   file.write(bytes.data(), bytes.size());
   file.finish();

@@ -64,6 +64,7 @@ bool SmoothingLengthCache::is_in_the_way() const {
 }
 
 void SmoothingLengthCache::write(const Column& lengths) const {
+  check_output_path(path_);  // which removes what was left
   UnfinishedFile file(path_);
   const std::array<std::uint64_t, 2> header = {key_, count_};
   file.write(mark.data(), mark.size());

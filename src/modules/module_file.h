@@ -1,12 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace splotchcl {
 
-// Where to load a module from: beside the program or library that this is part of, where it is
-// there (in a build folder, and with the address sanitizer, whose own dlopen does not look where
-// we would). Else its name alone, so that it is looked for where the loader looks for us.
+// Where to load a module from, as an absolute path: beside the program or library that this is part
+// of, or where an installation has it. Never by its name alone, which the loader would look for in
+// folders that the environment names. Where it is in neither place, where it is expected. Throws
+// DataError where the system does not say where the program lies.
 std::string module_file(const std::string& module_name);
+
+// The file, as an absolute path, whose code or data lies at this address. Throws as above.
+std::filesystem::path file_mapped_at(const void* address);
+// Folders to look for modules in, for a program or a library in `own_folder`.
+std::vector<std::filesystem::path> module_places(const std::filesystem::path& own_folder);
 
 }  // namespace splotchcl

@@ -1,6 +1,10 @@
 #include "view/answers.h"
 
+#include <cctype>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+
+#include "splotchcl/error.h"
 
 namespace splotchcl::view {
 namespace {
@@ -14,6 +18,30 @@ std::string text_of(const Json& json) {
 
 Json answer(std::uint64_t id) {
   return {{"type", "answer"}, {"id", id}};
+}
+
+bool is_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+// Where the quotation that begins at `quote` ends, behind its last quote; the text's end where it
+// does not. An apostrophe is no quote: letters stand on both sides of it.
+std::size_t end_of_quotation(const std::string& text, std::size_t quote) {
+  for (std::size_t i = quote + 1; i < text.size(); ++i) {
+    if (text[i] == text[quote] && (i + 1 == text.size() || !is_letter(text[i + 1]))) return i + 1;
+  }
+  return text.size();
+}
+
+std::string without_quotations(const std::string& text) {
+  std::string kept;
+  for (std::size_t i = 0; i < text.size();) {
+    const bool is_quote =
+        (text[i] == '"' || text[i] == '\'') && (i == 0 || !is_letter(text[i - 1]));
+    kept += is_quote ? "(not shown)" : std::string(1, text[i]);
+    i = is_quote ? end_of_quotation(text, i) : i + 1;
+  }
+  return kept;
 }
 
 Json given_way_json(const GivenWay& given_way) {
@@ -43,6 +71,11 @@ std::string frame_message(const FrameHeader& header, const ViewPicture& picture)
   message += json;
   message.append(picture.file.begin(), picture.file.end());
   return message;
+}
+
+std::string text_for_page(const std::exception& error) {
+  const bool is_of_a_file = dynamic_cast<const DataError*>(&error) != nullptr;
+  return is_of_a_file ? without_quotations(error.what()) : error.what();
 }
 
 std::string state_error(std::uint64_t state, const std::string& text) {

@@ -47,12 +47,15 @@ DrawLoop::~DrawLoop() {
 }
 
 void DrawLoop::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    is_stopping_ = true;
-  }
-  changed_.notify_all();
+  stop_within(std::chrono::milliseconds(0));
   if (thread_.joinable()) thread_.join();
+}
+
+bool DrawLoop::stop_within(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  is_stopping_ = true;
+  changed_.notify_all();
+  return changed_.wait_for(lock, patience, [this] { return has_ended_; });
 }
 
 std::uint64_t DrawLoop::open_page(SendToPage send) {
@@ -173,6 +176,9 @@ void DrawLoop::run() {
       // Something newer is to be drawn, or nothing any more.
     }
   }
+  const std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  changed_.notify_all();
 }
 
 void DrawLoop::carry_out(const Work& work) {
@@ -180,7 +186,7 @@ void DrawLoop::carry_out(const Work& work) {
     try {
       answer(work, *question);
     } catch (const std::exception& error) {
-      work.page->send({false, question_error(question->id, error.what())});
+      work.page->send({false, question_error(question->id, text_for_page(error))});
     }
     return;
   }
@@ -188,7 +194,7 @@ void DrawLoop::carry_out(const Work& work) {
   try {
     draw(work, task);
   } catch (const std::exception& error) {
-    work.page->send({false, state_error(work.state.number, error.what())});
+    work.page->send({false, state_error(work.state.number, text_for_page(error))});
     const std::lock_guard lock(mutex_);
     work.page->scheduler.failed({Stage::preview, task.input});
     work.page->scheduler.failed({Stage::exact, task.input});
@@ -264,14 +270,16 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SceneT
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SaveScene& question) {
-  const SaveResult result = save_scene(question.path, question.may_replace, scene.shown,
-                                       *drawer_.snapshot_of(scene.shown));
+  const SaveResult result =
+      save_scene(question.path, question.may_replace, scene.shown,
+                 {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.shown)});
   return save_answer(id, result, std::filesystem::absolute(question.path).string());
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question) {
-  const SaveResult result = check_picture(question.path, question.may_replace, scene.drawn,
-                                          *drawer_.snapshot_of(scene.drawn));
+  const SaveResult result =
+      check_picture(question.path, question.may_replace, scene.drawn,
+                    {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.drawn)});
   if (result == SaveResult::saved) {
     const DrawnFrame drawn = drawer_.draw(scene.drawn);
     write_pictures(question.path, drawn.pictures, image_file_options(scene.drawn));

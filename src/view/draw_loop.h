@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -41,6 +42,8 @@ class DrawLoop {
 
   // Ends what is being drawn. Nothing is sent any more when it returns.
   void stop();
+  // Asks for the same, and waits for no longer than that. Returns whether it has ended.
+  bool stop_within(std::chrono::milliseconds patience);
 
   // For any thread. Returns the page's number.
   std::uint64_t open_page(SendToPage send);
@@ -104,6 +107,7 @@ class DrawLoop {
   std::uint64_t last_page_ = 0;    // the newest
   std::uint64_t last_served_ = 0;  // the next in turn is the one after it
   bool is_stopping_ = false;
+  bool has_ended_ = false;
   // What is being drawn, where it may be overtaken.
   std::shared_ptr<Page> exact_page_;
   FrameScheduler::Task exact_task_;

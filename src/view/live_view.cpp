@@ -41,4 +41,8 @@ void LiveView::run() {
   state_->server.run();
 }
 
+bool LiveView::end_within(std::chrono::milliseconds patience) {
+  return state_->pages.stop_within(patience);
+}
+
 }  // namespace splotchcl::view

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -31,6 +32,9 @@ class LiveView {
   std::string address() const;
   // Until SIGINT or SIGTERM comes.
   void run();
+  // Ends what is being drawn, where that ends so soon. A frame that has one part does not. Returns
+  // whether it has ended.
+  bool end_within(std::chrono::milliseconds patience);
 
  private:
   struct State;

@@ -10,6 +10,7 @@
 #include <boost/beast/websocket.hpp>
 #include <csignal>
 #include <deque>
+#include <list>
 #include <utility>
 
 #include "splotchcl/error.h"
@@ -28,6 +29,9 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr std::chrono::seconds request_timeout{30};
+// Of a connection that has not shown the token yet.
+constexpr std::chrono::seconds stranger_timeout{5};
+constexpr std::size_t most_strangers = 16;
 constexpr std::uint32_t longest_request_header = 16 * 1024;
 constexpr int most_connections = 64;
 constexpr std::chrono::milliseconds pause_after_failure{100};
@@ -43,14 +47,17 @@ RequestSource source_of(const Request& request) {
           view_of(request[http::field::origin])};
 }
 
+class HttpConnection;
+
 // What all connections share; lives as long as the server.
 struct Shared {
   AccessRules rules;
   DrawLoop& pages;
-  int connections = 0;
+  int connections = 0;                     // that have shown the token
+  std::list<HttpConnection*> strangers{};  // that have not; the oldest first
 };
 
-// Counted from when it is accepted to when it is closed.
+// Counted from when it has shown the token to when it is closed.
 class ConnectionCount {
  public:
   explicit ConnectionCount(Shared& shared) : shared_(&shared) { ++shared.connections; }
@@ -171,31 +178,59 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   HttpConnection(Tcp::socket socket, Shared& shared)
       : stream_(std::move(socket)),
         shared_(shared),
-        count_(std::make_shared<ConnectionCount>(shared)) {}
+        as_stranger_(shared.strangers.insert(shared.strangers.end(), this)) {}
+  ~HttpConnection() { is_stranger_no_more(); }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
   void read() {
     parser_.emplace();
     parser_->header_limit(longest_request_header);
     parser_->body_limit(std::uint64_t{0});
-    stream_.expires_after(request_timeout);
+    stream_.expires_after(as_stranger_ ? stranger_timeout : request_timeout);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
                        if (!error) self->serve(self->parser_->get());
                      });
   }
 
+  // For another one that comes.
+  void give_up_place() {
+    is_stranger_no_more();
+    stream_.close();
+  }
+
  private:
+  void is_stranger_no_more() {
+    if (as_stranger_) shared_.strangers.erase(*as_stranger_);
+    as_stranger_.reset();
+  }
+
+  // Whether there is a place for one that has shown the token.
+  bool is_admitted() {
+    if (count_) return true;
+    if (shared_.connections >= most_connections) return false;
+    is_stranger_no_more();
+    count_ = std::make_shared<ConnectionCount>(shared_);
+    stream_.expires_after(request_timeout);
+    return true;
+  }
+
   void serve(const Request& request) {
     const RequestSource source = source_of(request);
     try {
-      if (websocket::is_upgrade(request)) {
-        if (shared_.rules.check_socket(source) != "live") {
-          return respond(plain_response(http::status::not_found, "no such socket\n"));
-        }
-        std::make_shared<PageSocket>(std::move(stream_), shared_, count_)->open(request);
-        return;
+      const bool is_socket = websocket::is_upgrade(request);
+      const std::string_view name =
+          is_socket ? shared_.rules.check_socket(source) : shared_.rules.check_request(source);
+      if (!is_admitted()) {
+        return respond(plain_response(http::status::service_unavailable,
+                                      "too many pages are open, expected at most 64\n"));
       }
-      respond(answer(request, shared_.rules.check_request(source)));
+      if (!is_socket) return respond(answer(request, name));
+      if (name != "live") {
+        return respond(plain_response(http::status::not_found, "no such socket\n"));
+      }
+      std::make_shared<PageSocket>(std::move(stream_), shared_, count_)->open(request);
     } catch (const AccessDenied& denied) {
       respond(plain_response(http::status::forbidden, denied.reason + "\n"));
     }
@@ -221,18 +256,20 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void respond(Response response) {
     const Request& request = parser_->get();
     set_policies(response, view_of(request[http::field::host]));
-    response.keep_alive(request.keep_alive());
+    response.keep_alive(count_ && request.keep_alive());
     if (request.method() != http::verb::head) response.prepare_payload();
     const auto kept = std::make_shared<Response>(std::move(response));
     http::async_write(stream_, *kept,
                       [self = shared_from_this(), kept](beast::error_code error, std::size_t) {
-                        if (!error && kept->keep_alive()) self->read();
+                        if (!error && kept->keep_alive()) return self->read();
+                        self->give_up_place();
                       });
   }
 
   beast::tcp_stream stream_;
   Shared& shared_;
-  std::shared_ptr<ConnectionCount> count_;
+  std::optional<std::list<HttpConnection*>::iterator> as_stranger_;
+  std::shared_ptr<ConnectionCount> count_;  // none of a stranger
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
 };
@@ -282,11 +319,11 @@ struct PageServer::State {
     acceptor.async_accept([this](boost::system::error_code error, Tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
       if (error) return accept_later();
-      if (shared.connections < most_connections) {
-        boost::system::error_code ignored;
-        socket.set_option(Tcp::no_delay(true), ignored);
-        std::make_shared<HttpConnection>(std::move(socket), shared)->read();
-      }
+      // Whoever comes is heard, so that those who know no token keep nobody out.
+      if (shared.strangers.size() >= most_strangers) shared.strangers.front()->give_up_place();
+      boost::system::error_code ignored;
+      socket.set_option(Tcp::no_delay(true), ignored);
+      std::make_shared<HttpConnection>(std::move(socket), shared)->read();
       accept();
     });
   }

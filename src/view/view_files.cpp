@@ -16,17 +16,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // The scene file that was opened is none of these: it is what most users want to replace.
-std::set<fs::path> inputs_of(const Scene& scene, const Snapshot& snapshot) {
-  InputFiles inputs;
-  inputs.add(snapshot);
-  if (scene.time.is_set()) inputs.add_snapshots(scene);
-  inputs.add_named_files(scene);
-  return inputs.all();
+std::set<fs::path> files_of(const ViewInputs& inputs) {
+  InputFiles files;
+  files.add(inputs.snapshot);
+  for (const Scene* const scene : {&inputs.opened, &inputs.all}) {
+    if (scene->time.is_set()) files.add_snapshots(*scene);
+    files.add_named_files(*scene);
+  }
+  return files.all();
 }
 
-SaveResult check(const fs::path& path, bool may_replace, const Scene& scene,
-                 const Snapshot& snapshot) {
-  check_outputs({{path, "the file to save"}}, [&] { return inputs_of(scene, snapshot); });
+SaveResult check(const fs::path& path, bool may_replace, const ViewInputs& inputs) {
+  check_outputs({{path, "the file to save"}}, [&] { return files_of(inputs); });
   return fs::exists(path) && !may_replace ? SaveResult::exists : SaveResult::saved;
 }
 
@@ -45,11 +46,11 @@ std::string portable_scene_text(const Scene& scene) {
 }
 
 SaveResult save_scene(const fs::path& path, bool may_replace, const Scene& scene,
-                      const Snapshot& snapshot) {
+                      const ViewInputs& inputs) {
   if (lower_ending(path) != ".toml") {
     throw UsageError(path.string() + ": found another ending, expected .toml for a scene");
   }
-  if (check(path, may_replace, scene, snapshot) == SaveResult::exists) return SaveResult::exists;
+  if (check(path, may_replace, inputs) == SaveResult::exists) return SaveResult::exists;
   const std::string text = portable_scene_text(scene);
   UnfinishedFile file(path);
   file.write(text.data(), text.size());
@@ -58,10 +59,10 @@ SaveResult save_scene(const fs::path& path, bool may_replace, const Scene& scene
 }
 
 SaveResult check_picture(const fs::path& path, bool may_replace, const Scene& scene,
-                         const Snapshot& snapshot) {
+                         const ViewInputs& inputs) {
   check_image_path(path);
   check_image_size(path, scene.image.width, scene.image.height);
-  return check(path, may_replace, scene, snapshot);
+  return check(path, may_replace, inputs);
 }
 
 }  // namespace splotchcl::view

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "film/path/film_path.h"
+#include "scene_file/file_names.h"
 #include "scene_file/suggested.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
@@ -49,12 +52,42 @@ bool is_known_palette(std::string name) {
   return is_reversed && has(name.substr(0, name.size() - 2));
 }
 
-// Any other name may be a file, which the page has no business with.
-void check_palettes(const Scene& opened, const Scene& scene) {
-  for (std::size_t i = 0; i < scene.components.size(); ++i) {
-    const std::string& palette = scene.components[i].palette;
-    if (palette == opened.components[i].palette || is_known_palette(palette)) continue;
-    throw UsageError("palette: found '" + palette +
+// As keyframes have words: TOML or bare.
+std::string unquoted(const std::string& word) {
+  const bool is_quoted = word.size() >= 2 && word.front() == '"' && word.back() == '"';
+  return is_quoted ? word.substr(1, word.size() - 2) : word;
+}
+
+bool is_palette_key(const std::string& key) {
+  constexpr std::string_view end = "palette";
+  return key.size() >= end.size() && key.compare(key.size() - end.size(), end.size(), end) == 0;
+}
+
+// All that a scene names, wherever it does: files, and palettes, which may be files.
+std::set<std::string> names_in(const Scene& scene) {
+  std::set<std::string> names;
+  Scene copy = scene;
+  scene_file::change_file_names(copy, [&names](const std::string& name) {
+    names.insert(name);
+    return name;
+  });
+  for (const Component& component : scene.components)
+    names.insert({component.palette, component.absorption_palette});
+  for (const Keyframe& keyframe : scene.path.keyframes) {
+    for (const auto& [key, value] : keyframe.values) {
+      if (is_palette_key(key)) names.insert(unquoted(value));
+    }
+  }
+  return names;
+}
+
+// The one gate for names that come from a page: any that the opened scene has not itself may be a
+// file, which the page has no business with.
+void check_names(const Scene& opened, const Scene& scene) {
+  const std::set<std::string> own = names_in(opened);
+  for (const std::string& name : names_in(scene)) {
+    if (own.count(name) > 0 || is_known_palette(name)) continue;
+    throw UsageError("palette: found '" + name +
                      "', expected the scene's own or one that splotchcl palettes lists");
   }
 }
@@ -77,7 +110,7 @@ Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& sta
     number->reset();
   }
   if (state.keyframes) scene.path.keyframes = *state.keyframes;
-  check_palettes(opened, scene);
+  check_names(opened, scene);
   const std::int64_t pixels = std::int64_t{scene.image.width} * scene.image.height;
   if (pixels > most_pixels) {
     throw UsageError(fmt::format(

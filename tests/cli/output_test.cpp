@@ -128,5 +128,73 @@ TEST_F(RenderedOutput, OfTheSameCallIsTheSameFile) {
   EXPECT_EQ(read_text(folder_ / "a.png"), read_text(folder_ / "b.png"));
 }
 
+// 4194303 is no process.
+TEST(Leftovers, OfAnIndexAreRemovedByTheNextOne) {
+  const TemporaryFolder folder;
+  splotchcl_in(folder, "generate halo --particles 2000 -o s");
+  std::ofstream(folder / ".s.splotchcl_index.4194303-1.part") << "half";
+  EXPECT_EQ(splotchcl_in(folder, "index s").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / ".s.splotchcl_index.4194303-1.part"));
+}
+
+TEST(Leftovers, OfKeptSmoothingLengthsAreRemovedByTheNextOnes) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  std::ofstream table(folder / "t.txt");
+  table << "x y z\n";
+  for (int i = 0; i < 300; ++i)
+    table << i % 7 << ' ' << i % 11 << ' ' << i % 13 << '\n';
+  table.close();
+  const std::string left = ".t.txt.type0.smoothing_lengths.4194303-1.part";
+  std::ofstream(folder / left) << "half";
+  const std::string render = "render t.txt -o p.png --size 32x24 --cache-smoothing-lengths";
+  EXPECT_EQ(splotchcl_in(folder, render).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / left));
+}
+
+class ClosedStreams : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    splotchcl_in(folder_, "generate halo --particles 2000 -o s");
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(ClosedStreams, ArePartsOfNoOutput) {
+  splotchcl_in(folder_, "render s -o whole.png --size 32x24");
+  const std::string whole = read_text(folder_ / "whole.png");
+  for (const char* const closed :
+       {"0<&-", "1>&-", "2>&-", "0<&- 1>&-", "1>&- 2>&-", "0<&- 1>&- 2>&-"}) {
+    const ProgramResult render =
+        splotchcl_in(folder_, std::string("render s -o a.png --size 32x24 ") + closed);
+    EXPECT_EQ(render.exit_code, 0) << closed;
+    EXPECT_EQ(read_text(folder_ / "a.png"), whole) << closed;
+    EXPECT_EQ(splotchcl_in(folder_, std::string("index s ") + closed).exit_code, 0) << closed;
+    EXPECT_EQ(splotchcl_in(folder_, std::string("render nothing -o b.png ") + closed).exit_code, 1)
+        << closed;
+  }
+}
+
+// Of a service, or of a container with another user.
+TEST(HomeThatCannotBeWritten, IsDoneWithout) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  const std::string without =
+      "unset SPLOTCHCL_CACHE XDG_CACHE_HOME POCL_CACHE_DIR; export TMPDIR=$PWD/tmp HOME=/proc; "
+      "mkdir tmp; \"$splotchcl\" generate halo --particles 2000 -o s; ";
+  EXPECT_EQ(run_in(folder, without + "\"$splotchcl\" render s -o a.png --size 32x24").exit_code, 0);
+}
+
+TEST(HomeThatCannotBeWritten, IsNamedWhereNothingElseCanBe) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_in(folder,
+             "export POCL_CACHE_DIR=/proc/nothing; mkdir none; OCL_ICD_VENDORS=$PWD/none "
+             "OPENCL_VENDOR_PATH=$PWD/none \"$splotchcl\" devices");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/proc/nothing"));
+}
+
 }  // namespace
 }  // namespace splotchcl::test

@@ -34,6 +34,15 @@ file(MAKE_DIRECTORY ${pictures} ${build})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 run(${prefix}/bin/splotchcl --version)
 
+# Of its parts none looks for libraries in the folder that is current.
+file(GLOB_RECURSE objects ${prefix}/bin/splotchcl ${prefix}/lib*/*.so)
+foreach(object IN LISTS objects)
+  execute_process(COMMAND readelf -d ${object} OUTPUT_VARIABLE dynamic)
+  if(dynamic MATCHES "R(UN)?PATH[^\n]*(\\[:|::|:\\]|[[:][^/$])")
+    message(FATAL_ERROR "${object} has an entry that is no absolute folder: ${CMAKE_MATCH_0}")
+  endif()
+endforeach()
+
 # Through the CMake package.
 run(${CMAKE_COMMAND} -S ${SOURCE}/examples/in_situ -B ${build} -G ${GENERATOR}
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_COMPILER=${CC} -DCMAKE_PREFIX_PATH=${prefix})

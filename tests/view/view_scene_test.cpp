@@ -141,6 +141,44 @@ TEST(ViewScene, PalettesAreNoFiles) {
       UsageError);
 }
 
+// With another name in a keyframe than at the start.
+PageState state_with_keyframe(const std::string& key, const std::string& value) {
+  PageState state;
+  state.keyframes = {{0, {{key, "\"magma\""}}}, {2, {{key, value}}}};
+  return state;
+}
+
+TEST(ViewScene, PalettesOfKeyframesAreNoFiles) {
+  const std::string key = "component.0.palette";
+  EXPECT_NO_THROW(scene_of(opened_scene(), nullptr, state_with_keyframe(key, "\"viridis_r\"")));
+  for (const char* const name : {"\"/etc/passwd\"", "\"../secret\"", "\"secret.txt\"", "\"secret\"",
+                                 "/etc/passwd", "'/etc/passwd'"}) {
+    EXPECT_THROW(scene_of(opened_scene(), nullptr, state_with_keyframe(key, name)), UsageError)
+        << name;
+    EXPECT_THROW(scene_of(opened_scene(), nullptr,
+                          state_with_keyframe("component.1.absorption_palette", name)),
+                 UsageError)
+        << name;
+  }
+}
+
+TEST(ViewScene, FilesOfAnyKeyOfKeyframesAreRefused) {
+  for (const char* const key : {"snapshot", "image.background_image", "finish.font",
+                                "finish.cross_fade.scene", "component.0.select.ids"}) {
+    PageState state;
+    state.keyframes = {{0, {{key, "\"/etc/passwd\""}}}};
+    EXPECT_THROW(scene_of(opened_scene(), nullptr, state), UsageError) << key;
+  }
+}
+
+TEST(ViewScene, KeepsFilesThatTheOpenedScenesOwnKeyframesName) {
+  Scene opened = opened_scene();
+  opened.path.keyframes = {{0, {{"component.0.palette", "\"own/palette.txt\""}}}};
+  EXPECT_NO_THROW(scene_of(opened, nullptr, {}));
+  EXPECT_NO_THROW(
+      scene_of(opened, nullptr, state_with_keyframe("component.0.palette", "\"own/palette.txt\"")));
+}
+
 TEST(ViewScene, HugePicturesAreRefused) {
   EXPECT_THROW(scene_of(opened_scene(), nullptr, state_with("image.size", "[65536, 65536]")),
                UsageError);

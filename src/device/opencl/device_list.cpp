@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/opencl/device_context.h"
+#include "device/opencl/pocl_cache.h"
 #include "device/opencl/runtime_lock.h"
 #include "splotchcl/error.h"
 #include "splotchcl/renderer.h"
@@ -64,6 +65,13 @@ std::string full_name_of(const compute::device& device) {
 }
 
 std::string no_device_advice() {
+  if (const std::string folder = unwritable_pocl_cache(); !folder.empty()) {
+    return "no OpenCL device found, and PoCL has none where it cannot write to its cache folder, "
+           "found " +
+           folder +
+           ": name one that can be written to in the environment, POCL_CACHE_DIR, or "
+           "install the OpenCL driver of your GPU";
+  }
   return "no OpenCL device found, expected at least one: install PoCL, which runs on any "
          "processor (Debian: apt-get install pocl-opencl-icd), or the OpenCL driver of your GPU";
 }

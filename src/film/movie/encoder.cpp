@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include "common/child_process.h"
@@ -29,16 +28,6 @@ const std::map<std::string, std::string> containers = {
 
 Codec codec_of(const std::filesystem::path& path, const MovieSettings& settings) {
   return settings.codec.value_or(lower_ending(path) == ".webm" ? Codec::vp9 : Codec::h264);
-}
-
-bool has_ffmpeg() {
-  const char* folders = std::getenv("PATH");
-  std::istringstream list(folders == nullptr ? "" : folders);
-  for (std::string folder; std::getline(list, folder, ':');) {
-    const std::filesystem::path program = std::filesystem::path(folder) / "ffmpeg";
-    if (::access(program.c_str(), X_OK) == 0) return true;
-  }
-  return false;
 }
 
 const char* encoder_of(Codec codec) {
@@ -161,7 +150,7 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
         "image.size, or write numbered images such as frame_%04d.png",
         path.string(), width, height));
   }
-  if (!has_ffmpeg()) {
+  if (find_program("ffmpeg").empty()) {
     throw DataError(path.string() +
                     ": films are made by ffmpeg, which is not installed (on Debian: apt-get "
                     "install ffmpeg); numbered images such as -o frame_%04d.png need none");

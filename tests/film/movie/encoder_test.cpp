@@ -54,6 +54,18 @@ TEST_F(FakeEncoder, ThatNeverReadsIsEnded) {
   EXPECT_TRUE(left_nothing());
 }
 
+TEST_F(FakeEncoder, OfTheCurrentFolderIsNotRun) {
+  make_ffmpeg("touch \"$(dirname \"$0\")/ran\"");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_ / "bin");
+  for (const char* const path : {"", ".", ":/nowhere", "/nowhere:", "../bin:/nowhere"}) {
+    ::setenv("PATH", path, 1);
+    EXPECT_THAT(failure(), HasSubstr("cannot be started")) << path;
+  }
+  std::filesystem::current_path(before);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "bin" / "ran"));
+}
+
 TEST_F(FakeEncoder, ThatNeverEndsIsEndedWithWhatItStarted) {
   make_ffmpeg("sleep 1000 & echo $! > \"$(dirname \"$0\")/child\"; cat > /dev/null; wait");
   EXPECT_THAT(failure(), HasSubstr("wrote nothing"));

@@ -4,6 +4,7 @@ browser, by the same requests that one sends."""
 import http.client
 import json
 import resource
+import signal
 import socket
 import subprocess
 import sys
@@ -264,3 +265,79 @@ def test_ctrl_c_ends_it_with_a_page_open(view):
     page = PageSocket(opened)
     page.receive()
     assert opened.end() == (0, "")
+
+
+def test_a_page_makes_the_program_read_no_file_through_a_keyframe(view):
+    opened = view()
+    secret = opened.folder / "secret"
+    secret.write_text("password=hunter2\n")
+    page = PageSocket(opened)
+    keyframes = [{"frame": 0, "settings": {"component.0.palette": "magma"}},
+                 {"frame": 2, "settings": {"component.0.palette": str(secret)}}]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [],
+               "keyframes": keyframes, "frame": 2})
+    text = page.receive_until(lambda message: message.get("type") == "error")[-1]["text"]
+    assert "expected the scene's own" in text and "hunter2" not in text
+
+
+def test_what_a_component_reads_that_is_off_is_not_replaced(view, snapshot, tmp_path):
+    numbers = tmp_path / "ids.toml"
+    numbers.write_text("\n".join(map(str, range(1, 2000))))
+    before = numbers.read_text()
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f"""
+snapshot = "{snapshot}"
+[image]
+size = [64, 48]
+[camera]
+position = [0, 0, 5]
+look_at = [0, 0, 0]
+[[component]]
+types = "gas"
+[[component]]
+types = "gas"
+select = {{ ids = "ids.toml" }}
+""")
+    page = PageSocket(view(scene))
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [1]})
+    for kind, path in (("save_scene", numbers), ("save_scene", snapshot), ("save_picture", snapshot)):
+        page.send({"type": kind, "id": 1, "path": str(path), "replace": True})
+        answer = page.receive_until(lambda message: message.get("type") == "answer")[-1]
+        assert "error" in answer, path
+    assert numbers.read_text() == before
+
+
+def test_connections_without_the_token_lock_nobody_out(view):
+    opened = view()
+    strangers = []
+    for _ in range(100):
+        strangers.append(socket.create_connection(("127.0.0.1", opened.port), timeout=PATIENCE))
+    assert get(opened, f"/{opened.token}/")[0] == 200
+    for _ in range(100):
+        strangers.append(socket.create_connection(("127.0.0.1", opened.port), timeout=PATIENCE))
+        strangers[-1].sendall(b"GET /x/ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+    assert get(opened, f"/{opened.token}/")[0] == 200
+    assert PageSocket(opened).status == 101
+    # All are closed, whether they ask for anything or not.
+    for stranger in strangers:
+        try:
+            while stranger.recv(4096):
+                pass
+        except ConnectionResetError:
+            pass
+        stranger.close()
+
+
+def test_ctrl_c_ends_a_picture_that_is_drawn_in_one_part(view, run, tmp_path):
+    universe = tmp_path / "universe"
+    run("generate", "universe", "--particles", 300000, "-o", universe)
+    for ending in (signal.SIGINT, signal.SIGTERM):
+        opened = view(universe, "--size", "1024x1024")
+        page = PageSocket(opened)
+        page.receive_until(lambda message: message.get("stage") == "preview")
+        page.set(1, tolerance=0, component__0__absorption=2, component__0__size__factor=5)
+        time.sleep(4)
+        opened.process.send_signal(ending)
+        # It would draw for a minute.
+        opened.process.communicate(timeout=20)
+        assert opened.process.returncode == 0
