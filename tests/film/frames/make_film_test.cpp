@@ -111,12 +111,14 @@ TEST_F(Films, AreMadeInParts) {
 }
 
 TEST_F(Films, HaveNoFramesOfAnotherPaletteOfTheUsersOwn) {
-  std::ofstream(folder_ / "mine.txt") << "0 0 0\n1 0 0\n";
-  ::setenv("SPLOTCHCL_PALETTES", folder_.path().c_str(), 1);
+  const auto palettes = folder_ / "palettes";
+  std::filesystem::create_directory(palettes);
+  std::ofstream(palettes / "mine.txt") << "0 0 0\n1 0 0\n";
+  ::setenv("SPLOTCHCL_PALETTES", palettes.c_str(), 1);
   options_.settings = {"component.gas.palette=mine_r"};
   options_.part = "1/2";
   EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
-  std::ofstream(folder_ / "mine.txt") << "0 0 0\n0 1 0\n";
+  std::ofstream(palettes / "mine.txt") << "0 0 0\n0 1 0\n";
   options_.part = "2/2";
   EXPECT_THAT(refusal(), HasSubstr("mine.txt"));
   ::unsetenv("SPLOTCHCL_PALETTES");
