@@ -110,12 +110,16 @@ extern "C" void survive_bus_error(int signal, siginfo_t* info, void*) {
 
 void survive_cut_files() {
   mappings();  // made before a handler needs it
+  struct sigaction now = {};
+  ::sigaction(SIGBUS, nullptr, &now);
+  if ((now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == survive_bus_error) return;
+  survival().before = now;
   survival().page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   struct sigaction action = {};
   action.sa_sigaction = survive_bus_error;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   ::sigemptyset(&action.sa_mask);
-  ::sigaction(SIGBUS, &action, &survival().before);
+  ::sigaction(SIGBUS, &action, nullptr);
 }
 
 std::uint64_t cut_file_count() {

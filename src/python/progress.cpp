@@ -32,6 +32,7 @@ bool is_to_end() {
 
 WithoutPython::WithoutPython() {
   ++ongoing().works;
+  survive_cut_files();  // compilers of kernels put handlers of their own in its place
   state_ = PyEval_SaveThread();
 }
 
@@ -70,6 +71,7 @@ std::function<void(const std::string&, double)> Progress::function() const {
 
 void Progress::operator()(const std::string& what, double fraction) const {
   if (is_to_end()) throw DataError("Python ends");
+  survive_cut_files();
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (!callable_.is_none()) callable_(what, fraction);
