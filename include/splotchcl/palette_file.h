@@ -14,6 +14,9 @@ namespace splotchcl {
 // with the nearest names, DataError for a file that is no palette. A name that ends in _r and that
 // no palette has is the palette of the name before it, reversed.
 Palette load_palette(const std::string& name, const std::filesystem::path& relative_to = {});
+// The file of the user's own that load_palette(name) reads; empty where it reads none, or a file
+// that is named by its path.
+std::filesystem::path own_palette_file(const std::string& name);
 // Of the program's own palettes, in alphabetical order.
 std::vector<std::string> palette_names();
 

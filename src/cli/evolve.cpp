@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cli/commands.h"
+#include "common/file_identity.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "film/frames/film_drawer.h"
@@ -144,21 +145,24 @@ class Evolution {
   void run() {
     const std::vector<int> part = select_part(options_.part, all_frames());
     console_.status("reading " + options_.galaxy.filename().string());
+    inputs_.add(options_.galaxy);
     const auto start = std::make_shared<CachedSnapshot>(open_snapshot(options_.galaxy));
     check_orbits(*start);
     const TurningGalaxy galaxy(start, decide_time(*start));
     if (pictures_) scene_.emplace(options_, galaxy);
     check_files(part, *start);
+    watch_files(*start);
     if (pictures_) begin_drawing(galaxy);
     for (const int frame : part) {
       console_.status(fmt::format("frame {} of {}", frame + 1, options_.frames));
       const std::shared_ptr<const Snapshot> turned = galaxy.at(time_of(frame));
+      inputs_.check();
       if (snapshots_) {
         write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame));
       }
       if (drawer_) {
         drawer_->draw(frame, scene_->scene(), *scene_->snapshot_at(turned), scene_->other_scenes(),
-                      pictures_->at(frame));
+                      pictures_->at(frame), [this] { inputs_.check(); });
       }
     }
     if (drawer_) drawer_->finish();
@@ -208,6 +212,16 @@ class Evolution {
     });
   }
 
+  // All moments show the same galaxy before the same surroundings.
+  void watch_files(const Snapshot& galaxy) {
+    InputFiles inputs;
+    inputs.add(galaxy);
+    if (options_.rotation_curve) inputs.add(*options_.rotation_curve);
+    if (scene_) inputs.add_named_files(scene_->scene());
+    for (const std::filesystem::path& file : inputs.with_sets())
+      inputs_.add(file);
+  }
+
   void begin_drawing(const TurningGalaxy& galaxy) {
     const ImageSettings& image = scene_->scene().image;
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
@@ -226,6 +240,7 @@ class Evolution {
   const EvolveOptions& options_;
   Console& console_;
   double duration_ = 0;  // Myr
+  WatchedFiles inputs_;
   std::optional<NumberedFiles> pictures_, snapshots_;
   std::optional<TurningScene> scene_;
   std::optional<FilmDrawer> drawer_;

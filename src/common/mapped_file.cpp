@@ -78,7 +78,12 @@ void MappedFile::check_size() const {
   const bool is_same = unpacked_.empty() && ::stat(path_.c_str(), &status) == 0 &&
                        status.st_dev == device_ && status.st_ino == node_;
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (!is_same || size >= size_) return;
+  const bool is_cut_now = is_same && size < size_;
+  if (!is_cut_now && (data_ == nullptr || !is_cut(data_))) return;
+  if (!is_cut_now) {
+    throw DataError(path_.string() +
+                    ": became shorter while it was read, and is another file now; read it again");
+  }
   throw DataError(
       fmt::format("{}: became shorter while it was read: found {} bytes, expected {}; wait until "
                   "it is completely written and try again",

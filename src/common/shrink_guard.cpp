@@ -1,6 +1,7 @@
 #include "common/shrink_guard.h"
 
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,6 +20,7 @@ struct Mapping {
   std::atomic<std::uint64_t> size{0};
   std::atomic<const char*> path{nullptr};
   std::atomic<bool> is_taken{false};
+  std::atomic<bool> is_cut{false};
 };
 
 std::array<Mapping, 1024>& mappings() {
@@ -57,19 +59,83 @@ void end_for_shrunken_file(const Mapping& mapping) {
   ::_exit(1);
 }
 
-extern "C" void handle_bus_error(int signal, siginfo_t* info, void*) {
-  const auto* const place = static_cast<const std::byte*>(info->si_addr);
-  for (const Mapping& mapping : mappings()) {
+Mapping* find_mapping(const siginfo_t& info) {
+  const auto* const place = static_cast<const std::byte*>(info.si_addr);
+  for (Mapping& mapping : mappings()) {
     const std::byte* const begin = mapping.begin.load();
-    const bool is_inside =
-        begin != nullptr && place >= begin && place < begin + mapping.size.load();
-    if (is_inside) end_for_shrunken_file(mapping);
+    if (begin != nullptr && place >= begin && place < begin + mapping.size.load()) return &mapping;
   }
+  return nullptr;
+}
+
+extern "C" void handle_bus_error(int signal, siginfo_t* info, void*) {
+  if (const Mapping* const mapping = find_mapping(*info)) end_for_shrunken_file(*mapping);
   ::signal(signal,
            SIG_DFL);  // no file of ours: on return the signal comes again, and ends the program
 }
 
+struct Survival {
+  std::atomic<std::uint64_t> cuts{0};
+  std::array<char, 4096> last_path{};  // the mapping may be gone when somebody asks
+  struct sigaction before = {};
+  std::uintptr_t page = 0;
+};
+
+Survival& survival() {
+  static Survival state;
+  return state;
+}
+
+// Zeros from the place of the signal to the end of the mapping.
+bool put_zeros(const Mapping& mapping, const siginfo_t& info) {
+  const auto place = reinterpret_cast<std::uintptr_t>(info.si_addr) & ~(survival().page - 1);
+  const auto end = reinterpret_cast<std::uintptr_t>(mapping.begin.load()) + mapping.size.load();
+  return ::mmap(reinterpret_cast<void*>(place), end - place, PROT_READ,
+                MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
+}
+
+extern "C" void survive_bus_error(int signal, siginfo_t* info, void*) {
+  Mapping* const mapping = find_mapping(*info);
+  if (mapping != nullptr && put_zeros(*mapping, *info)) {
+    std::strncpy(survival().last_path.data(), mapping->path.load(),
+                 survival().last_path.size() - 1);
+    mapping->is_cut = true;
+    ++survival().cuts;
+    return;
+  }
+  ::sigaction(signal, &survival().before, nullptr);  // the signal comes again
+}
+
 }  // namespace
+
+void survive_cut_files() {
+  mappings();  // made before a handler needs it
+  struct sigaction now = {};
+  ::sigaction(SIGBUS, nullptr, &now);
+  if ((now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == survive_bus_error) return;
+  survival().before = now;
+  survival().page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  struct sigaction action = {};
+  action.sa_sigaction = survive_bus_error;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
+std::uint64_t cut_file_count() {
+  return survival().cuts;
+}
+
+const char* last_cut_file() {
+  return cut_file_count() == 0 ? nullptr : survival().last_path.data();
+}
+
+bool is_cut(const std::byte* begin) {
+  for (const Mapping& mapping : mappings()) {
+    if (mapping.begin.load() == begin) return mapping.is_cut;
+  }
+  return false;
+}
 
 void guard_mapped_files() {
   mappings();  // made before a handler needs it
@@ -83,6 +149,7 @@ void guard_mapped_files() {
 void register_mapping(const std::byte* begin, std::uint64_t size, const char* path) {
   for (Mapping& mapping : mappings()) {
     if (mapping.is_taken.exchange(true)) continue;
+    mapping.is_cut = false;
     mapping.size = size;
     mapping.path = path;
     mapping.begin = begin;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -25,5 +27,17 @@ class WordHash {
  private:
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
+
+// Of whole words: the last bytes count as a word that ends in zeros. Differs wherever one word
+// does.
+inline std::uint64_t checksum(const std::byte* bytes, std::size_t size) {
+  WordHash hash;
+  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+    hash.add(word);
+  }
+  return hash.value();
+}
 
 }  // namespace splotchcl

@@ -390,9 +390,15 @@ Renderer::Renderer(const RendererOptions& options) {
   // Others may wait for the runtime, and this one for them.
   state_->join_ranks(options);
 }
-Renderer::~Renderer() = default;
+// To free what OpenCL has would wait without end in a forked process, whose memory goes anyway.
+Renderer::~Renderer() {
+  if (is_forked_from_runtime()) static_cast<void>(state_.release());
+}
 Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
 
 FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, bool on_all_cores) {
   check_frame(frame);
@@ -402,6 +408,7 @@ FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, b
 }
 
 Image Renderer::render(const Frame& frame) {
+  require_runtime();
   const ThreadPool::Scope scope(state_->threads);
   if (!frame.spread) return render(frame, first_plan(frame, state_->plan_options));
   FramePlan plan;
@@ -413,6 +420,7 @@ Image Renderer::render(const Frame& frame) {
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {
+  require_runtime();
   const ThreadPool::Scope scope(state_->threads);
   try {
     return state_->render(frame, plan);

@@ -7,6 +7,8 @@
 #include "finish/cross_fade.h"
 #include "finish/placeholders.h"
 #include "finish/scale_bar.h"
+#include "image/font_folders.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -53,6 +55,15 @@ Overlay make_text(const NamedText& named, const FinishSettings& finish,
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> font_file(const FinishSettings& finish) {
+  if (!has_text(finish)) return std::nullopt;
+  try {
+    return find_font(finish.font);
+  } catch (const UsageError&) {
+    return std::nullopt;  // said where it is drawn with
+  }
+}
 
 void check_finish(const Scene& scene, const SnapshotInfo& snapshot) {
   const FinishSettings& finish = scene.finish;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace splotchcl {
 // What can be told to be wrong with a scene's [finish] before particles are read: fonts,
 // placeholders, names of components, the scene to fade to. Throws UsageError.
 void check_finish(const Scene& scene, const SnapshotInfo& snapshot);
+
+// The file of the font of a scene's texts and bars; none where there are none, or it is not there.
+std::optional<std::filesystem::path> font_file(const FinishSettings& finish);
 
 // What is done to one picture between its drawing and its file, up to the texts
 // (splotchcl/finish.h). Everything is prepared, and refused if it cannot be, before the

@@ -69,17 +69,6 @@ std::uint64_t key_of(const SnapshotInfo& info) {
   return hash.value();
 }
 
-// Of whole words: their last bytes count as one that ends in zeros.
-std::uint64_t checksum_of(const std::byte* bytes, std::size_t size) {
-  WordHash hash;
-  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-    hash.add(word);
-  }
-  return hash.value();
-}
-
 // Tables of text are read as a whole, and which column is which a scene may say anew.
 bool has_parts(const SnapshotInfo& info) {
   const auto begins_with = [&info](const char* word) { return info.format.rfind(word, 0) == 0; };
@@ -136,6 +125,14 @@ SnapshotIndex::Type index_type(const Snapshot& snapshot, const ParticleTypeInfo&
   return type;
 }
 
+// Of the index of such a snapshot: only a file as long is read.
+std::uint64_t file_bytes(const SnapshotInfo& info) {
+  std::uint64_t bytes = sizeof(FileHeader) + sizeof(std::uint64_t);
+  for (const ParticleTypeInfo& type : info.types)
+    bytes += sizeof(TypeHeader) + blocks_of(type.count) * sizeof(ParticleBox);
+  return bytes;
+}
+
 // Takes values from a file's bytes, one after the other.
 class Bytes {
  public:
@@ -157,11 +154,11 @@ class Bytes {
 };
 
 bool ends_with_its_checksum(const MappedFile& file) {
-  std::uint64_t checksum = 0;
-  if (file.size() < sizeof checksum) return false;
-  const auto size = static_cast<std::size_t>(file.size()) - sizeof checksum;
-  std::memcpy(&checksum, file.data() + size, sizeof checksum);
-  return checksum == checksum_of(file.data(), size);
+  std::uint64_t sum = 0;
+  if (file.size() < sizeof sum) return false;
+  const auto size = static_cast<std::size_t>(file.size()) - sizeof sum;
+  std::memcpy(&sum, file.data() + size, sizeof sum);
+  return sum == checksum(file.data(), size);
 }
 
 void append(std::vector<std::byte>& bytes, const void* from, std::size_t size) {
@@ -206,7 +203,8 @@ SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
   if (!is_there(info)) return std::nullopt;
   const auto file = MappedFile::open_if_possible(path_for(info));
-  if (file == nullptr || !ends_with_its_checksum(*file)) return std::nullopt;
+  if (file == nullptr || file->size() != file_bytes(info) || !ends_with_its_checksum(*file))
+    return std::nullopt;
   Bytes bytes(*file);
   FileHeader header{};
   if (!bytes.take(&header, sizeof header) || header.mark != mark || header.key != key_of(info) ||
@@ -252,8 +250,8 @@ void SnapshotIndex::write(const SnapshotInfo& info) const {
     append(bytes, &head, sizeof head);
     append(bytes, type.boxes.data(), type.boxes.size() * sizeof(ParticleBox));
   }
-  const std::uint64_t checksum = checksum_of(bytes.data(), bytes.size());
-  append(bytes, &checksum, sizeof checksum);
+  const std::uint64_t sum = checksum(bytes.data(), bytes.size());
+  append(bytes, &sum, sizeof sum);
   check_output_path(path);  // which removes what was left
   UnfinishedFile file(path);
   file.write(bytes.data(), bytes.size());

@@ -13,10 +13,12 @@
 namespace splotchcl {
 namespace {
 
-// The file: this mark, key and count in the machine's own endianness, then the lengths.
+// The file: this mark, key and count in the machine's own endianness, then the lengths and their
+// checksum.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
                            'l', ' ', 'h', ' ', '1', '\n', 0,   0};
 constexpr std::size_t header_bytes = mark.size() + 2 * sizeof(std::uint64_t);
+constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
 
 }  // namespace
 
@@ -44,19 +46,19 @@ std::uint64_t SmoothingLengthCache::key_of(const Column& position,
 }
 
 std::optional<Column> SmoothingLengthCache::read() const {
-  std::error_code ignored;
-  const bool has_length =
-      std::filesystem::file_size(path_, ignored) == header_bytes + count_ * sizeof(float);
-  if (!has_length) return std::nullopt;
   const auto file = MappedFile::open_if_possible(path_);
-  if (file == nullptr) return std::nullopt;  // they are computed
+  const std::uint64_t length_bytes = count_ * sizeof(float);
+  if (file == nullptr || file->size() != header_bytes + length_bytes + checksum_bytes)
+    return std::nullopt;  // they are computed
   std::array<std::uint64_t, 2> header = {};
   std::memcpy(header.data(), file->data() + mark.size(), sizeof header);
   const bool is_the_same = std::memcmp(file->data(), mark.data(), mark.size()) == 0 &&
                            header[0] == key_ && header[1] == count_;
-  if (!is_the_same) return std::nullopt;
-  const auto* const first = reinterpret_cast<const float*>(file->data() + header_bytes);
-  return Column(file, first, count_);
+  const std::byte* const lengths = file->data() + header_bytes;
+  std::uint64_t sum = 0;
+  std::memcpy(&sum, lengths + length_bytes, sizeof sum);
+  if (!is_the_same || sum != checksum(lengths, length_bytes)) return std::nullopt;
+  return Column(file, reinterpret_cast<const float*>(lengths), count_);
 }
 
 bool SmoothingLengthCache::is_in_the_way() const {
@@ -70,6 +72,9 @@ void SmoothingLengthCache::write(const Column& lengths) const {
   file.write(mark.data(), mark.size());
   file.write(header.data(), sizeof header);
   file.write(lengths.data(), count_ * sizeof(float));
+  const std::uint64_t sum =
+      checksum(reinterpret_cast<const std::byte*>(lengths.data()), count_ * sizeof(float));
+  file.write(&sum, sizeof sum);
   file.finish();
 }
 

@@ -1,5 +1,6 @@
 #include "open_scene/input_files.h"
 
+#include "finish/finish_picture.h"
 #include "scene_file/file_names.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/snapshot_list.h"
@@ -31,12 +32,31 @@ void InputFiles::add_named_files(const Scene& scene) {
     named_.insert(name);
     return name;
   });
+  add_palettes(scene);
+  add_font(scene);
   const std::string& other = scene.finish.cross_fade.scene;
   if (other.empty() || !others_.insert(other).second) return;
   Scene fades_to = read_scene_file(other);
   fades_to.path = {};  // only its own films have frames
   add_snapshots(fades_to);
   add_named_files(fades_to);
+}
+
+void InputFiles::add_palettes(const Scene& scene) {
+  const auto add_palette = [this](const std::string& name) {
+    if (const auto file = own_palette_file(name); !file.empty()) add(file);
+  };
+  for (const Component& component : scene.components) {
+    add_palette(component.palette);
+    add_palette(component.absorption_palette);
+  }
+  add_palette(scene.map.palette);
+}
+
+void InputFiles::add_font(const Scene& scene) {
+  std::optional<std::filesystem::path>& known = fonts_[scene.finish.font];
+  if (!known) known = font_file(scene.finish);
+  if (known) add(*known);
 }
 
 std::set<std::filesystem::path> InputFiles::with_sets() const {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -20,7 +21,8 @@ class InputFiles {
   void add(const Snapshot& snapshot);
   // What the scene draws; opens it where it is a single snapshot.
   void add_snapshots(const Scene& scene);
-  // What the scene's keys name.
+  // What the scene's keys name: also the files of the user's palettes and of the font that go by
+  // names of their own.
   void add_named_files(const Scene& scene);
 
   // As they are named, of snapshots the base name of several files, too, with the files that are
@@ -30,8 +32,13 @@ class InputFiles {
   std::set<std::filesystem::path> all() const;
 
  private:
+  void add_palettes(const Scene& scene);
+  void add_font(const Scene& scene);
+
   std::set<std::filesystem::path> named_;
   std::set<std::string> others_;  // scenes
+  // By the names of fonts, which are looked for in many folders.
+  std::map<std::string, std::optional<std::filesystem::path>> fonts_;
 };
 
 // All that drawing a scene from a file reads: InputFiles::all() of the file, the scene, and the

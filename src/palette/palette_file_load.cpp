@@ -175,6 +175,15 @@ std::vector<PaletteInfo> list_palettes() {
   return palettes;
 }
 
+fs::path own_palette_file(const std::string& name) {
+  const std::optional<fs::path> folder = own_folder();
+  if (!folder || is_palette_path(name)) return {};
+  if (const fs::path file = own_file(*folder, name); !file.empty()) return file;
+  if (find_built_in(name)) return {};
+  const auto before = name_before_reversal(name);
+  return before ? own_file(*folder, *before) : fs::path();
+}
+
 Palette load_palette(const std::string& name, const std::filesystem::path& relative_to) {
   const std::optional<fs::path> folder = own_folder();
   if (is_palette_path(name)) {

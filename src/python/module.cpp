@@ -5,6 +5,7 @@
 
 #include "python/drawing.h"
 #include "python/picture.h"
+#include "python/progress.h"
 #include "python/scene.h"
 #include "python/source.h"
 #include "splotchcl/error.h"
@@ -62,6 +63,10 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = SPLOTCHCL_VERSION;
   add_errors(module);
   py::register_exception_translator(&translate);
+  survive_cut_files();
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_other_work));
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         py::cpp_function(&forget_other_work));
   bind_sources(module);
   bind_scenes(module);
   bind_pictures(module);

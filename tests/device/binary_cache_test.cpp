@@ -57,6 +57,12 @@ TEST_F(BinaryCacheTest, IgnoresAFileThatIsCutOrOfAnotherKey) {
   EXPECT_FALSE(cache_.find("key"));
 }
 
+TEST_F(BinaryCacheTest, ClaimsNoMemoryForAFileThatHasGrown) {
+  cache_.keep("key", binary_);
+  fs::resize_file(only_file(), std::uintmax_t{1} << 50);
+  EXPECT_FALSE(cache_.find("key"));
+}
+
 TEST_F(BinaryCacheTest, IgnoresAFileWithAnyByteChanged) {
   cache_.keep("key", binary_);
   const fs::path file = only_file();

@@ -121,6 +121,13 @@ TEST_F(Index, IsNotUsedWhereItIsDamaged) {
   }
 }
 
+TEST_F(Index, IsNotReadWhereItHasGrown) {
+  const auto snapshot = write(long_row());
+  SnapshotIndex::make(*snapshot, {}).write(snapshot->info());
+  std::filesystem::resize_file(path(), std::uintmax_t{1} << 40);
+  EXPECT_FALSE(SnapshotIndex::read(snapshot->info()));
+}
+
 TEST_F(Index, IsNotUsedWithAnyByteOfABoxChanged) {
   const auto snapshot = write(long_row());
   SnapshotIndex::make(*snapshot, {}).write(snapshot->info());

@@ -105,6 +105,21 @@ TEST_F(MissingSizes, ThatWereDamagedAreFoundAnew) {
   }
 }
 
+TEST_F(MissingSizes, OfWhichAnyByteHasChangedAreFoundAnew) {
+  write(1);
+  const std::vector<float> found = lengths({keep_});
+  const auto kept = folder_ / "snap.type1.smoothing_lengths";
+  const std::string whole = read_text(kept);
+  for (std::size_t place = 16; place < whole.size(); place += 97) {
+    std::string damaged = whole;
+    damaged[place] = static_cast<char>(damaged[place] ^ 2);
+    std::ofstream(kept, std::ios::binary) << damaged;
+    EXPECT_EQ(lengths({keep_}), found) << place;
+    EXPECT_THAT(notes_, Not(Contains(HasSubstr("are those kept in"))));
+  }
+  EXPECT_EQ(read_text(kept), whole);
+}
+
 TEST_F(MissingSizes, AreNotKeptInAFileOfSomethingElse) {
   write(1);
   const std::string mine = "my own notes on this snapshot";

@@ -1,5 +1,8 @@
 """Pictures have the bits of the command line's, and keep their tolerance."""
 
+import base64
+import subprocess
+import sys
 import numpy as np
 import pytest
 
@@ -148,3 +151,35 @@ def test_a_folder_that_is_missing_is_an_oserror(renderer, particles, tmp_path):
     image = renderer.render(particles, size=SIZE)
     with pytest.raises(OSError, match="missing"):
         image.save(tmp_path / "missing" / "a.png")
+
+
+# A PNG file with a color profile that says it has a text of more bytes than are there, at which
+# OpenImageIO 2.4 crashes.
+DAMAGED_PROFILE = """
+iVBORw0KGgoAAAANSUhEUgAAAFAAAAA8CAIAAAB+RarbAAABdmlDQ1BJQ0MgUHJvZmlsZQAAeJx1kb1LQmEUhx+1KNJwqCHC4A4WDQpREI1lg4
+uEmEFWi16/Aj8u9yohrUFLg9AQtfQ19B/UGrQWBEERRDQ39rWE3M5VQQk9l/eeh997fodzzwV7KKfmjZ55yBdKeiQYUFZja0rfO07GsOHDE1cN
+bSEcDtE1fh6lUuLBb/XqXtcxnMmUoYKtX3hW1fSSsExDaKukWbwnPKxm40nhE2GfLgMK31p6osFvFmca/GWxHo0sgt3qqWTaONHGalbPC08Ke/
+O5stqcx/oSV6qwsix5VI4HgwhBAigkKLNJjhJ+yQXZWWffVN0BAAAAAAAAAOjiyJAVr0/UsnRNSU6LnpInR8Xa+/99GumZ6UZ3VwB6X03zcxz6
+9qFWNc3fU9OsnYHjBa4LLX9R9jT3LXq1pXmPwb0DlzctLXEAV7sw8qzF9Xhdcsixp9PwcQGDMRi6h4H1xq6a95w/QXRbftEdHB7BhNS7N/4AL1
+VoH7FNFP8AAA6bSURBVHicnZtJcyQ5coXfc0Rkkr1oTGaaq/7/79JVJ9n0TJEZAX86uDuAyGRV9XRUGgu5MBIfnm9YSLT/AgkQ4Nrg9SlA0ACS
+9QoJ2Hwav/X0FARRN4nG9y5BABQNQVC0BUh6eQqH1qeCfHwgGro+jQ==
+"""
+
+
+@pytest.mark.parametrize(
+    "call", ["splotchcl.Image.open(path)", "splotchcl.galaxy(path, path + '.hdf5')"]
+)
+def test_a_picture_that_crashes_a_library_does_not_end_python(tmp_path, call):
+    path = tmp_path / "a.png"
+    path.write_bytes(base64.b64decode(DAMAGED_PROFILE))
+    script = f"""
+import splotchcl, sys
+path = sys.argv[1]
+try:
+    {call}
+except splotchcl.Error:
+    pass
+sys.exit(3)
+"""
+    command = [sys.executable, "-c", script, str(path)]
+    assert subprocess.run(command, timeout=120, check=False).returncode == 3

@@ -201,3 +201,71 @@ def test_a_forked_child_is_refused(renderer):
     answer = queue.get(timeout=60)
     child.join(60)
     assert "spawn" in answer
+
+
+def run_alone(script):
+    """The exit code of a Python of its own, in a minute at most."""
+    return subprocess.run([sys.executable, "-c", script], timeout=120, check=False).returncode
+
+
+DRAWN = """
+import os, sys, threading, time
+import numpy as np
+import splotchcl
+position = np.random.default_rng(0).random((200000, 3), dtype="f4")
+particles = splotchcl.Particles().gas(position=position, mass=1, smoothing_length=np.full(200000, 0.01, "f4"))
+renderer = splotchcl.Renderer()
+scene = splotchcl.suggest(particles, size=(64, 64))
+renderer.render(scene, particles)
+"""
+
+
+@pytest.mark.parametrize("end", ["renderer = None; os._exit(3)", "sys.exit(3)"])
+def test_a_renderer_is_freed_in_a_forked_child_without_harm(end):
+    script = DRAWN + f"""
+child = os.fork()
+if child == 0:
+    {end}
+for _ in range(600):
+    done, status = os.waitpid(child, os.WNOHANG)
+    if done:
+        os._exit(os.waitstatus_to_exitcode(status) % 256)
+    time.sleep(0.1)
+os.kill(child, 9)
+os._exit(1)
+"""
+    assert run_alone(script) == 3
+
+
+def test_python_that_ends_while_a_thread_draws_has_its_own_exit_code():
+    script = DRAWN + """
+def draw():
+    while True:
+        renderer.render(scene, particles)
+for _ in range(3):
+    threading.Thread(target=draw, daemon=True).start()
+time.sleep(0.5)
+sys.exit(7)
+"""
+    assert [run_alone(script) for _ in range(3)] == [7, 7, 7]
+
+
+def test_a_file_that_is_cut_while_it_is_mapped_is_an_error(tmp_path):
+    script = """
+import os, sys
+import numpy as np, splotchcl
+path = sys.argv[1]
+np.save(path, np.random.default_rng(0).random((200000, 3), dtype="f4"))
+snapshot = splotchcl.Snapshot(path)
+scene = splotchcl.suggest(snapshot, size=(64, 48))
+os.truncate(path, 100000)
+try:
+    splotchcl.reference(scene, snapshot)
+except splotchcl.DataError as error:
+    sys.exit(4 if "became shorter" in str(error) else 5)
+sys.exit(6)
+"""
+    code = subprocess.run(
+        [sys.executable, "-c", script, str(tmp_path / "a.npy")], timeout=120, check=False
+    ).returncode
+    assert code == 4

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -52,16 +53,36 @@ std::string head_of(const std::string& key, const std::string& binary) {
   return head.str();
 }
 
-// Nothing where it cannot be read.
-std::string text_in(const std::filesystem::path& path) {
+// How long a binary is that the head of a file tells of.
+std::optional<std::uint64_t> binary_bytes(const std::string& head) {
+  constexpr std::size_t begin = sizeof(first_line) - 1;
+  if (head.compare(0, begin, first_line) != 0) return std::nullopt;
+  std::uint64_t bytes = 0;
+  const char* const end = head.data() + head.size();
+  if (std::from_chars(head.data() + begin, end, bytes).ec != std::errc()) return std::nullopt;
+  return bytes;
+}
+
+// The whole file, where it is as long as its head, which ends with `key`, says; else nothing, so
+// that no memory is claimed for what a file has grown to.
+std::string text_in(const std::filesystem::path& path, const std::string& key) {
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(path, failure);
   if (failure) return {};
-  std::string text(static_cast<std::size_t>(size), '\0');
+  constexpr std::size_t numbers = 40;  // at most, with what is between them
+  std::string text(std::min<std::uintmax_t>(size, sizeof(first_line) + numbers + key.size()), '\0');
   std::ifstream file(path, std::ios::binary);
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  return text;
+  const auto read = [&](std::size_t begin) {
+    file.read(text.data() + begin, static_cast<std::streamsize>(text.size() - begin));
+    return file.gcount() == static_cast<std::streamsize>(text.size() - begin);
+  };
+  if (!read(0)) return {};
+  const std::size_t key_end = text.find(end_of_key);
+  const std::optional<std::uint64_t> bytes = binary_bytes(text);
+  if (key_end == std::string::npos || !bytes || size - key_end - 1 != *bytes) return {};
+  const std::size_t begin = text.size();
+  text.resize(static_cast<std::size_t>(size));
+  return read(begin) ? text : std::string();
 }
 
 // Nobody else may write to it, from when it is there.
@@ -122,7 +143,7 @@ std::filesystem::path BinaryCache::file_for(const std::string& key) const {
 std::optional<std::string> BinaryCache::find(const std::string& key) const {
   // Someone else may have made the folder since it was missing.
   if (!folder_ || !distrust(*folder_).empty()) return std::nullopt;
-  const std::string text = text_in(file_for(key));
+  const std::string text = text_in(file_for(key), key);
   const std::size_t key_end = text.find(end_of_key);
   if (key_end == std::string::npos) return std::nullopt;
   std::string binary = text.substr(key_end + 1);

@@ -32,8 +32,10 @@ Scene FilmDrawer::with_known_tone(Scene scene) const {
 }
 
 RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
-                             OtherScenes& other_scenes, const std::filesystem::path& output) {
+                             OtherScenes& other_scenes, const std::filesystem::path& output,
+                             const std::function<void()>& before_writing) {
   DrawnFrame drawn = drawer_.draw(with_known_tone(scene), snapshot, other_scenes);
+  before_writing();
   tell(drawn.notes);
   tell_of_bad_particles(drawn);
   finish();

@@ -33,9 +33,11 @@ class FilmDrawer {
 
   // The frame of this number as the scene shows it, to picture_path(output, ...), or to nowhere
   // where another rank writes it: an empty path. What it took.
+  // `before_writing` may throw what is wrong with what the frame was drawn from.
   // Throws as FrameDrawer::draw, and what writing an earlier frame has thrown.
   RenderStats draw(int frame, const Scene& scene, const Snapshot& snapshot,
-                   OtherScenes& other_scenes, const std::filesystem::path& output);
+                   OtherScenes& other_scenes, const std::filesystem::path& output,
+                   const std::function<void()>& before_writing);
   // All frames are written. Throws what writing has thrown.
   void finish();
 

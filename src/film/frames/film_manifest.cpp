@@ -1,13 +1,13 @@
 #include "film/frames/film_manifest.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <vector>
 
+#include "common/file_identity.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {
@@ -15,20 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string describe(const fs::path& file) {
-  std::error_code error;
-  struct stat found = {};
+std::string line_of(const fs::path& file) {
+  const std::optional<FileIdentity> found = file_identity(file);
   // A base name, whose files have lines of their own.
-  if (::stat(file.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return file.string();
-  return fmt::format("{}, {} bytes, of {:%Y-%m-%d %H:%M:%S}.{:03} UTC",
-                     fs::absolute(file, error).string(), found.st_size,
-                     fmt::gmtime(found.st_mtim.tv_sec), found.st_mtim.tv_nsec / 1'000'000);
+  if (!found) return file.string();
+  std::error_code error;
+  return fmt::format("{}, {}, holds {:016x}", fs::absolute(file, error).string(), describe(found),
+                     content_mark(file));
 }
 
 std::vector<std::string> lines_of(const InputFiles& inputs) {
   std::vector<std::string> lines;
   for (const fs::path& file : inputs.with_sets())
-    lines.push_back(describe(file));
+    lines.push_back(line_of(file));
   return lines;
 }
 

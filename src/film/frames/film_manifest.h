@@ -19,7 +19,8 @@ std::set<std::filesystem::path> film_files_read(const std::filesystem::path& fil
 
 // All that the frames of a film depend on, but for the device, which gives the same within the
 // tolerance: the scene as it was decided, what each frame sets, and the files of data, palettes,
-// lists and pictures, also those of scenes that it fades to, with their size and time.
+// lists, pictures and fonts, also those of scenes that it fades to, with their size, their time and
+// what they hold.
 std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference);
 
 }  // namespace splotchcl

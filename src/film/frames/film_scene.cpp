@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "film/frames/film_manifest.h"
 #include "load/passes.h"
 #include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
@@ -37,15 +38,33 @@ Camera upright(Camera camera, const ImageSettings& image) {
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
                      const std::shared_ptr<Communicator>& ranks)
     : ranks_(ranks) {
+  WatchedFiles opening;  // a scene file may change later on: it is read only once
+  opening.add(path);
   SceneWithSnapshot opened = open_scene(path, settings, ranks);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
+  watch_files();
+  opening.check();
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
   path_.emplace(scene_, notes_);
   path_->check(scene_);
+  watch_files();
   check_moments();
+}
+
+// Those that are known before the path is read, then those of its frames.
+void FilmScene::watch_files() {
+  InputFiles inputs;
+  if (path_) {
+    inputs = film_inputs(scene_, *path_);
+  } else {
+    inputs.add_snapshots(scene_);
+    inputs.add_named_files(scene_);
+  }
+  for (const std::filesystem::path& file : inputs.with_sets())
+    files_.add(file);
 }
 
 std::shared_ptr<const Snapshot> FilmScene::snapshot_at(const Scene& scene) {

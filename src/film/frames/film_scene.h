@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/file_identity.h"
 #include "film/path/film_path.h"
 #include "pictures/other_scenes.h"
 #include "sequence/film_snapshots.h"
@@ -33,16 +34,21 @@ class FilmScene {
   Scene scene_at(int frame) const { return path_->scene_at(scene_, frame); }
   std::shared_ptr<const Snapshot> snapshot_at(const Scene& scene);
   OtherScenes& other_scenes() { return other_scenes_; }
+  // Throws DataError where a file that frames are drawn from is no longer what it was when the
+  // scene was opened.
+  void check_files() const { files_.check(); }
   // What the user should know of scene, path and data.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  void watch_files();
   void check_moments() const;
   void check_words();
   void decide_components();
 
   std::shared_ptr<Communicator> ranks_;  // null: this process alone
   Scene scene_;
+  WatchedFiles files_;
   FilmSnapshots snapshots_;
   OtherScenes other_scenes_;
   std::optional<FilmPath> path_;

@@ -95,8 +95,10 @@ class Film {
     agree(options_.ranks.get(), [&] {
       status("reading");
       scene_.decide();
+      scene_.check_files();
       if (!has_files()) return;
-      files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference));
+      files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference),
+                  scene_.path().frame_count());
       if (!options_.only_join) frames = missing(part_);
     });
     if (options_.ranks) broadcast_values(*options_.ranks, frames);
@@ -186,7 +188,8 @@ class Film {
       const Scene scene = as_stored(scene_.scene_at(frames[i]));
       const auto output = has_files() ? files_.picture(frames[i], "") : std::filesystem::path();
       const RenderStats stats =
-          drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output);
+          drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output,
+                      [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
       if (report_.drawn) report_.drawn(frames[i], stats);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
@@ -209,6 +212,7 @@ class Film {
                                   files_.folder().string(), lacking, frames_.size()));
     }
     if (lacking > 0) return result(FilmState::part_is_drawn);
+    scene_.check_files();
     const FrameFiles::Lock lock(files_);
     if (!lock) return result(FilmState::joined_by_another);
     if (files_.is_film()) join();

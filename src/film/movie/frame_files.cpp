@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "common/file_identity.h"
 #include "common/folder_of.h"
 #include "common/text_file.h"
 #include "common/unfinished_file.h"
@@ -52,16 +52,15 @@ std::string difference(const std::string& found, const std::string& expected) {
   return fmt::format("made with '{}' where this film has '{}'", line_a, line_b);
 }
 
-// A picture of any of a film's frames: frame_000012_left.png.
-bool is_frame_of_film(const std::string& name, const std::vector<std::string>& suffixes) {
-  const std::string begin = "frame_";
-  if (name.compare(0, begin.size(), begin) != 0) return false;
-  std::size_t end = begin.size();
-  while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0)
-    ++end;
-  const std::string rest = name.substr(end);
-  return end > begin.size() && std::any_of(suffixes.begin(), suffixes.end(),
-                                           [&](const auto& s) { return rest == s + ".png"; });
+// Ends the manifest, before the pictures that were there.
+constexpr char older_pictures[] = "older pictures:\n";
+
+// Of a picture that is there. Devices have other numbers on other machines.
+std::optional<std::string> line_of(const std::filesystem::path& path, int frame,
+                                   const std::string& suffix) {
+  const std::optional<FileIdentity> file = file_identity(path);
+  if (!file) return std::nullopt;
+  return fmt::format("{}{}: {}, file {}", frame, suffix, describe(file), file->node);
 }
 
 }  // namespace
@@ -128,8 +127,15 @@ bool FrameFiles::is_complete(const std::vector<int>& frames) const {
          });
 }
 
-void FrameFiles::check_manifest(const std::string& manifest) const {
-  const std::string found = read_text_file(manifest_);
+void FrameFiles::check_manifest(const std::string& manifest) {
+  std::string found = read_text_file(manifest_);
+  const std::size_t end = found.rfind(older_pictures);
+  if (end != std::string::npos) {
+    std::istringstream lines(found.substr(end + sizeof older_pictures - 1));
+    for (std::string line; std::getline(lines, line);)
+      older_.insert(line);
+    found.resize(end);
+  }
   if (found == manifest) return;
   throw UsageError(fmt::format(
       "{}: found frames of another film, {}; remove {} to draw all of them anew, or choose "
@@ -137,28 +143,39 @@ void FrameFiles::check_manifest(const std::string& manifest) const {
       manifest_.string(), difference(found, manifest), is_film_ ? "the folder" : "this file"));
 }
 
-void FrameFiles::open(const std::string& manifest) {
-  if (is_begun()) return check_manifest(manifest);
-  std::error_code error;
-  if (is_film_ && !std::filesystem::create_directories(folder_, error) && error) {
-    throw DataError(folder_.string() + ": cannot be created: " + error.message());
+std::string FrameFiles::describe_pictures(int frames) const {
+  std::string text;
+  for (int frame = 0; frame < frames; ++frame) {
+    for (const std::string& suffix : suffixes_) {
+      if (const auto line = line_of(picture(frame, suffix), frame, suffix)) text += *line + "\n";
+    }
   }
-  UnfinishedFile file(manifest_);
-  file.write(manifest.data(), manifest.size());
-  // Another part of the film may have begun at the same time.
-  if (!file.finish_unless_there()) check_manifest(manifest);
+  return text;
+}
+
+void FrameFiles::open(const std::string& manifest, int frames) {
+  frame_count_ = frames;
+  if (!is_begun()) {
+    std::error_code error;
+    if (is_film_ && !std::filesystem::create_directories(folder_, error) && error) {
+      throw DataError(folder_.string() + ": cannot be created: " + error.message());
+    }
+    UnfinishedFile file(manifest_);
+    const std::string text = manifest + older_pictures + describe_pictures(frames);
+    file.write(text.data(), text.size());
+    (void)file.finish_unless_there();  // another part may have begun at the same time
+  }
+  check_manifest(manifest);
+}
+
+bool FrameFiles::is_own(int frame, const std::string& suffix) const {
+  const auto line = line_of(picture(frame, suffix), frame, suffix);
+  return line && older_.count(*line) == 0;
 }
 
 bool FrameFiles::has(int frame) const {
-  return std::all_of(suffixes_.begin(), suffixes_.end(), [&](const std::string& suffix) {
-    std::error_code error;
-    const std::filesystem::path path = picture(frame, suffix);
-    if (!std::filesystem::is_regular_file(path, error)) return false;
-    if (is_film_) return true;
-    // Images of the same name may be left from an older film.
-    return std::filesystem::last_write_time(path, error) >=
-           std::filesystem::last_write_time(manifest_, error);
-  });
+  return std::all_of(suffixes_.begin(), suffixes_.end(),
+                     [&](const std::string& suffix) { return is_own(frame, suffix); });
 }
 
 void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
@@ -190,15 +207,17 @@ void FrameFiles::close(const std::vector<int>& frames) {
 
 // Only what is a film's own goes: the folder may have been there before.
 void FrameFiles::remove_frames() const {
-  const auto is_own = [this](const std::string& name) { return is_frame_of_film(name, suffixes_); };
-  splotchcl::remove_leftovers(folder_, is_own);
-  std::vector<std::filesystem::path> own;
+  std::set<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
-    if (is_own(entry.path().filename().string())) own.push_back(entry.path());
+  for (int frame = 0; frame < frame_count_; ++frame) {
+    for (const std::string& suffix : suffixes_) {
+      const std::filesystem::path path = picture(frame, suffix);
+      names.insert(path.filename().string());
+      if (is_own(frame, suffix)) std::filesystem::remove(path, ignored);
+    }
   }
-  for (const std::filesystem::path& path : own)
-    std::filesystem::remove(path, ignored);
+  splotchcl::remove_leftovers(folder_,
+                              [&](const std::string& name) { return names.count(name) > 0; });
 }
 
 FrameFiles::Lock::Lock(const FrameFiles& files) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace splotchcl {
 // The files of a film's frames: in a folder beside the film until it is complete, or the
 // numbered images that the user asked for. A manifest, which says all that the frames depend
 // on, lies beside them, so that a film that was interrupted is continued and frames of
-// different films never meet.
+// different films never meet. It also tells which pictures lay there before.
 class FrameFiles {
  public:
   // `output` is a film or, with something like %04d in its name, numbered images. `suffixes`
@@ -36,8 +37,9 @@ class FrameFiles {
   // Whether all that is written in the end is there.
   bool is_complete(const std::vector<int>& frames) const;
   // Begins a film, or goes on with one of the same manifest. Throws UsageError where there are
-  // frames of another.
-  void open(const std::string& manifest);
+  // frames of another. Pictures of its `frames` frames that are there when it begins are not its
+  // own.
+  void open(const std::string& manifest, int frames);
   bool has(int frame) const;
   // Removes what is left of these frames where a process was killed while it wrote them.
   void remove_leftovers(const std::vector<int>& frames) const;
@@ -62,13 +64,17 @@ class FrameFiles {
 
  private:
   // Throws UsageError where the one that is there is another.
-  void check_manifest(const std::string& manifest) const;
+  void check_manifest(const std::string& manifest);
+  std::string describe_pictures(int frames) const;
+  bool is_own(int frame, const std::string& suffix) const;
   void remove_frames() const;
 
   std::filesystem::path output_, folder_, manifest_;
   std::optional<NumberedFiles> images_;  // none for a film
   std::vector<std::string> suffixes_;
   bool is_film_;
+  int frame_count_ = 0;
+  std::set<std::string> older_;  // lines of pictures that were there before the film was begun
 };
 
 }  // namespace splotchcl

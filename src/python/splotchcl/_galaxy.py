@@ -8,6 +8,7 @@ from pathlib import Path
 
 from . import _core
 from ._sources import Snapshot
+from ._untrusted import check_picture
 
 
 def galaxy(
@@ -98,5 +99,6 @@ def galaxy(
     if radius is not None:
         settings["radius"] = radius
     curve = None if rotation_curve is None else Path(rotation_curve)
+    check_picture(picture)
     _core.make_galaxy_file(Path(picture), Path(path), settings, gamma, speed, core, curve)
     return Snapshot(path)

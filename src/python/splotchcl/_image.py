@@ -14,6 +14,7 @@ from . import _core
 from ._core import UsageError
 from ._scene import Scene
 from ._sources import Source
+from ._untrusted import check_picture
 
 _WIDE_ANGLES = ("fisheye", "equirectangular", "cube")
 
@@ -61,6 +62,7 @@ class Image:
         DataError
             For a file that cannot be read.
         """
+        check_picture(path)
         return cls(_core.read_image(Path(path)))
 
     @property

@@ -110,6 +110,93 @@ TEST_F(Films, AreMadeInParts) {
   EXPECT_EQ(make_film(options_, report_).state, FilmState::complete_before);
 }
 
+TEST_F(Films, HaveNoFramesOfAnotherPaletteOfTheUsersOwn) {
+  const auto palettes = folder_ / "palettes";
+  std::filesystem::create_directory(palettes);
+  std::ofstream(palettes / "mine.txt") << "0 0 0\n1 0 0\n";
+  ::setenv("SPLOTCHCL_PALETTES", palettes.c_str(), 1);
+  options_.settings = {"component.gas.palette=mine_r"};
+  options_.part = "1/2";
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::part_is_drawn);
+  std::ofstream(palettes / "mine.txt") << "0 0 0\n0 1 0\n";
+  options_.part = "2/2";
+  EXPECT_THAT(refusal(), HasSubstr("mine.txt"));
+  ::unsetenv("SPLOTCHCL_PALETTES");
+}
+
+// As "cp -p" writes over a file: its size and time are those of before.
+TEST_F(Films, HaveNoFramesOfOtherDataOfTheSameTime) {
+  options_.part = "1/2";
+  make_film(options_, report_);
+  const auto file = folder_ / "halo.gadget";
+  const auto time = std::filesystem::last_write_time(file);
+  halo_.gas.position[0] += 1;
+  write_gadget2(file, halo_);
+  std::filesystem::last_write_time(file, time);
+  options_.part = "2/2";
+  EXPECT_THAT(refusal(), HasSubstr("halo.gadget"));
+}
+
+TEST_F(Films, EndWhereTheirDataIsWrittenAnewWhileTheyAreDrawn) {
+  report_.frame = [this](int frame, std::size_t, std::size_t) {
+    frames_.push_back(frame);
+    if (frame == 2) write_gadget2(folder_ / "halo.gadget", halo_);
+  };
+  try {
+    make_film(options_, report_);
+    ADD_FAILURE() << "the film was made";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("halo.gadget: changed while it was used"));
+  }
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2));
+  EXPECT_TRUE(has("frame_1.png"));
+  EXPECT_FALSE(has("frame_2.png"));
+}
+
+TEST_F(Films, DoNotDependOnTheirSceneFileOnceItIsRead) {
+  report_.frame = [this](int, std::size_t, std::size_t) {
+    std::ofstream(folder_ / "film.toml", std::ios::app) << "# another line\n";
+  };
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
+}
+
+TEST_F(Films, TakeNoOlderImagesWhoseTimesLieInTheFuture) {
+  make_film(options_, report_);
+  for (int frame = 0; frame < 4; ++frame) {
+    const auto file = folder_ / ("frame_" + std::to_string(frame) + ".png");
+    std::filesystem::last_write_time(
+        file, std::filesystem::last_write_time(file) + std::chrono::hours(1));
+  }
+  frames_.clear();
+  options_.settings = {"component.gas.palette=magma"};
+  make_film(options_, report_);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+}
+
+TEST_F(Films, KnowTheirOwnImagesWhateverTheClockSays) {
+  report_.is_stopped = [this] { return frames_.size() == 2; };
+  EXPECT_THROW(make_film(options_, report_), DataError);
+  std::filesystem::last_write_time(
+      folder_ / "frame_0.png",
+      std::filesystem::file_time_type::clock::now() - std::chrono::hours(24 * 365));
+  report_.is_stopped = {};
+  make_film(options_, report_);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+}
+
+TEST_F(Films, TakeNoForeignPicturesInTheFolderOfTheirFrames) {
+  if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
+  options_.output = folder_ / "film.mp4";
+  const auto frames = folder_ / "film.mp4.frames";
+  std::filesystem::create_directory(frames);
+  std::ofstream(frames / "frame_000002.png") << "a picture of somebody else";
+  std::ofstream(frames / "frame_000009.png") << "one that is no frame of the film";
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
+  EXPECT_THAT(frames_, ElementsAre(0, 1, 2, 3));
+  EXPECT_FALSE(has("film.mp4.frames/frame_000002.png"));
+  EXPECT_TRUE(has("film.mp4.frames/frame_000009.png"));
+}
+
 // Frames 0 and 1 are drawn of a film that was stopped, then 0 alone is asked for.
 class FilmsOfAnInterruptedOne : public Films {
  protected:

@@ -1,0 +1,42 @@
+"""Pictures that may make a library crash are read by another process first."""
+
+from __future__ import annotations
+
+import functools
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from ._core import DataError
+
+_READ = "import sys; from splotchcl import _core; _core.read_image(sys.argv[1])"
+
+
+def check_picture(path: str | os.PathLike[str]) -> None:
+    """Raises DataError for a picture that a process has crashed by.
+
+    What else is wrong with it says who reads it then.
+    """
+    try:
+        found = os.stat(path)
+    except OSError:
+        return
+    crashed = _crashes(os.path.abspath(path), found.st_ino, found.st_size, found.st_mtime_ns)
+    if crashed:
+        raise DataError(
+            f"{Path(path)}: cannot be read safely: a child process that read it crashed; the file "
+            "is damaged: copy or write it again"
+        )
+
+
+# The numbers tell a file that was written anew.
+@functools.lru_cache(maxsize=256)
+def _crashes(path: str, node: int, size: int, time: int) -> bool:
+    if not sys.executable:
+        return False
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    read = subprocess.run(
+        [sys.executable, "-c", _READ, path], env=environment, capture_output=True, check=False
+    )
+    return read.returncode < 0
