@@ -1,4 +1,4 @@
-# Run by embed_text.cmake at build time. NAME, FILES (separated by |), SOURCE, HEADER.
+# Run by embed_text.cmake at build time. NAME, FILES (separated by |), BASE, SOURCE, HEADER.
 string(REPLACE "|" ";" files "${FILES}")
 
 set(header "#pragma once\n\n#include <string_view>\n#include <vector>\n\n")
@@ -9,7 +9,11 @@ string(APPEND header "const std::vector<TextFile>& ${NAME}();\n\n}  // namespace
 
 set(entries "")
 foreach(file ${files})
-  get_filename_component(name ${file} NAME)
+  if(BASE)
+    file(RELATIVE_PATH name ${BASE} ${file})
+  else()
+    get_filename_component(name ${file} NAME)
+  endif()
   file(READ ${file} text)
   string(APPEND entries "      {\"${name}\", R\"EMBEDDED(${text})EMBEDDED\"},\n")
 endforeach()

@@ -1,6 +1,14 @@
 // Splats to lists per tile, in order: count, scan, scatter. A work-item walks one block of
 // splats; block and tile fix where each entry goes, so lists keep the splats' order and
 // never depend on timing.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entries.cl"
+#include "kernels/bin/tiles.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/project.h"
 
 static inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
                              uint block) {

@@ -1,4 +1,6 @@
 // What host and kernels share of the lists: 4-byte members only (splat.h).
+#include "kernels/common/splat.h"
+
 #ifndef SPLOTCHCL_BIN_H
 #define SPLOTCHCL_BIN_H
 

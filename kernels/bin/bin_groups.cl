@@ -1,6 +1,14 @@
 // Splats to lists per tile for GPUs: a work-item per splat finds its tiles, one per entry writes
 // the entry's tile and splat in the splats' order, the stable sort of the stage `sort` puts these
 // in the order of tiles, and a work-item per entry makes it.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entries.cl"
+#include "kernels/bin/tiles.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/project.h"
 
 // The slots of a chunk: all of the sorted ones, or as many as the projection has filled.
 INLINED uint slot_count(const BinParameters p, __global const BlockCounts* blocks) {

@@ -1,4 +1,9 @@
 // Entries of tiles' lists (bin.h), in either shape.
+#include "kernels/bin/amplitudes.cl"
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+
 #ifndef EXTENDED_NUMBERS
 // All but the place, which differs from tile to tile.
 INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors colors,

@@ -1,6 +1,12 @@
 // What LANES entries of a list hold from one on, as a VALUE (lanes.cl). Behind the last list there
 // is room for as many (bin.h, ENTRIES_BEHIND): of a list's last ones some may be of the next, or
 // hold nothing, and do not count.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/words.cl"
+
 #ifdef LANES_8
 #define OF_ENTRIES(entries, field)                                                         \
   ((VALUE)((entries)[0].field, (entries)[1].field, (entries)[2].field, (entries)[3].field, \

@@ -1,5 +1,12 @@
 // The tiles of LANES splats at a time, as tiles.cl packs them; FOUND_AGAIN where that is left to
 // tile_range().
+#include "kernels/bin/tiles.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/limits.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_widths.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 #define LOG2_OF(power_of_two) (31 - (int)clz((uint)(power_of_two)))

@@ -1,4 +1,6 @@
 // What host and kernels share of the check after drawing: 4-byte members only (splat.h).
+#include "kernels/common/splat.h"
+
 #ifndef SPLOTCHCL_CERTIFY_H
 #define SPLOTCHCL_CERTIFY_H
 

@@ -1,4 +1,13 @@
 // The sums of collected.cl: one work-item takes all of a tile's list, in order.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/certify/certify.h"
+#include "kernels/certify/collected.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
 
 // What work-items know of their tile.
 typedef struct TileOfCells {

@@ -2,6 +2,13 @@
 // splats at a time each work-item works out what one of them adds, and leaves a bit with the cells
 // that it adds to; then each adds up one cell, in the order of the list. Segments of cut lists have
 // cells of their own, which are joined in order.
+#include "kernels/bin/bin.h"
+#include "kernels/certify/certify.h"
+#include "kernels/certify/collected.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
+#include "kernels/common/splat.h"
 
 #define NO_CELL 0xffffffffu
 

@@ -1,5 +1,11 @@
 // Where splats are, how bright, and what they leave out where they end: sums over all of them,
 // from the lists that were drawn.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/certify/certify.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
 
 // Comparisons, since min, max and clamp are calls on PoCL.
 static inline float smaller(float a, float b) {

@@ -1,5 +1,6 @@
-// Formulas that several stages share. The host puts a block of #defines and the headers of
-// the stage in front of this file (src/device/frame/specialization.cpp).
+// Formulas that several stages share. The host puts a block of #defines in front of each program
+// (src/device/frame/specialization.cpp).
+#include "kernels/common/splat.h"
 
 #pragma OPENCL FP_CONTRACT ON
 

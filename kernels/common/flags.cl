@@ -1,5 +1,7 @@
 // Flags of 32 work-items in a row, as bits of a word, that of the first item the highest. Each item
 // knows one; all of the group read them after a barrier.
+#include "kernels/common/common.cl"
+
 #define FLAGS 32
 #define BIT_OF(k) (0x80000000u >> (k))
 

@@ -1,5 +1,7 @@
 // Sums over the work-items of a group, in log2(GROUP_ITEMS) steps. All of its items call these,
 // in uniform control flow; `sums` are GROUP_ITEMS numbers in local memory, free again afterwards.
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
 
 #define OF_GROUPS __attribute__((reqd_work_group_size(GROUP_ITEMS, 1, 1)))
 

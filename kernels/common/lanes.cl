@@ -2,6 +2,8 @@
 // hold as many: LANES_8 and LANES_16 choose. Stages written in VALUE and INTEGER share every
 // formula between them. A compiler keeps away from registers of sixteen floats but in a function
 // that is called with some.
+#pragma OPENCL FP_CONTRACT ON
+
 #undef VALUE
 #undef INTEGER
 #undef AS_VALUE

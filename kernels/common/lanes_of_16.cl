@@ -4,3 +4,6 @@
 #define INTEGER int16
 #define AS_VALUE as_float16
 #define AS_INTEGER as_int16
+
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/opacity.cl"

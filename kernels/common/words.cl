@@ -1,5 +1,6 @@
 // Eights of numbers taken apart and put together in pairs of neighbors: the steps by which columns
 // become rows, or rows columns, in registers.
+#include "kernels/common/common.cl"
 
 // Of two rows of words every other pair, or quad, side by side.
 INLINED float8 first_words(float8 a, float8 b) {

@@ -1,4 +1,5 @@
 // Light of one part of a sum's splats added to that of another.
+#include "kernels/composite/composite.h"
 
 static inline size_t first_of(const AddLightParameters p) {
   return (size_t)p.first_low | ((size_t)p.first_high << 32);

@@ -1,5 +1,10 @@
 // A layer that was worked out pixel by pixel, put behind what the planes of the picture's own grid
 // hold: of clouds around the camera, which are no splats. In sums it is added.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/opacity.cl"
 
 // Work-item (some pixels of the crop side by side, row): what a pixel takes is so little that an
 // item of its own would take longer. `layer` has the planes of a pixel one after the other, each

@@ -1,5 +1,12 @@
 // behind.cl in extended precision, eight pixels of a row at a time. Planes hold the two parts of
 // light, then those of depths (extended_pixels.cl).
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/extended/extended_lanes.cl"
+#include "kernels/extended/precise.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 // As many as there are in the row.
 static inline float8 load_first(int count, __global const float* pixels) {

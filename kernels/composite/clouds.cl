@@ -1,5 +1,12 @@
 // Clouds around the camera in tiles' lists (composite.h), for both shapes: their columns in pixels,
 // on VALUEs (lanes.cl).
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/shape.cl"
+
 #ifdef CLOUDS_IN_LISTS
 #define CLOUDS_PARAMETERS                                                       \
   , __global const CloudEntry *clouds, __global const CloudSplat *cloud_splats, \

@@ -1,4 +1,6 @@
 // What host and kernels share of compositing: 4-byte members only (splat.h).
+#include "kernels/common/splat.h"
+
 #ifndef SPLOTCHCL_COMPOSITE_H
 #define SPLOTCHCL_COMPOSITE_H
 

@@ -4,6 +4,17 @@
 // every pixel takes their products. Sums are extended numbers; in the ordered plan the optical
 // depth is summed instead of the opacity, so that no transmittance loses its digits, however thick
 // what lies before.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/extended_pixels.cl"
+#include "kernels/extended/extended.cl"
+#include "kernels/extended/extended_lanes.cl"
+#include "kernels/extended/precise.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
+
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
 #define BATCH 8
 #if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)

@@ -1,5 +1,18 @@
 // Compositing for GPUs: a work-group takes a segment of one tile's list, a work-item one pixel,
 // batch by batch (tile_batch.cl). Formulas are those of composite_rows.cl, on single floats.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/flags.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/clouds.cl"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/face_shape.cl"
+#include "kernels/composite/layer_behind.cl"
+#include "kernels/composite/opacity.cl"
+#include "kernels/composite/shape.cl"
+#include "kernels/composite/stencil.cl"
+#include "kernels/composite/tile_batch.cl"
 
 #ifdef FACE_OF_CUBE
 #define TILE_PARAMETER , const TileOnFace* on_face

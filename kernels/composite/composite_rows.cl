@@ -1,5 +1,20 @@
 // Compositing for processors with wide registers: a work-item takes a segment of one
 // tile's list and updates rows of eight pixels in a private copy of the tile.
+#include "kernels/common/common.cl"
+#ifdef ROWS_OF_16
+#include "kernels/common/lanes_of_16.cl"
+#endif
+#include "kernels/bin/bin.h"
+#include "kernels/common/pieces.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/clouds.cl"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/ordered_list.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/stencil.cl"
+#include "kernels/composite/summed_list.cl"
+#include "kernels/composite/tile_planes.cl"
 
 // A call: of a kernel itself PoCL makes three copies. Its last argument tells the compiler that it
 // may use registers of sixteen floats (lanes.cl).

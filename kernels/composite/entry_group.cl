@@ -1,6 +1,14 @@
 // Entries of a sum's list, gathered into groups of so many that touch the tile. Which these are is
 // the same for a crop, whose lists have others that do not touch it (splat.h): so it has the bits
 // of the whole picture, in whatever order those of a group are drawn.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/entry_windows.cl"
+#include "kernels/composite/narrow_discs.cl"
+#include "kernels/composite/narrow_splats.cl"
+
 #ifndef LIGHT_ORDERED
 #if LANES != 8 || ENTRIES_OF_GROUP != 64
 #error "kinds of entries are bits of bytes, and of a word"

@@ -1,5 +1,11 @@
 // Entries of a list that are looked at before they are drawn: in order eight, in sums as many as
 // are drawn kind by kind (summed_list.cl), and room for eight more.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/rows.cl"
+
 #ifdef LIGHT_ORDERED
 #define ROOM_OF_ENTRIES LANES
 #else

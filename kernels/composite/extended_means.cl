@@ -1,5 +1,8 @@
 // Means over the pixels along an axis, in double precision, eight at a time: of the pixels from
 // `begin` to `end` of a tile, of which pixel 0 has its center at distance `first`.
+#include "kernels/extended/double_lanes.cl"
+
+#pragma OPENCL FP_CONTRACT ON
 
 // The mean of exp(-d^2 / sigma^2) over pixels from 1 - erf of the distances of their edges.
 static inline double8 mean_of_complements(double8 left, double8 of_left, double8 right,

@@ -1,5 +1,14 @@
 // Pixels of extended precision in the planes, eight of a row at a time, and how the layers of a
 // tile's segments are joined.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/extended/extended_lanes.cl"
+#include "kernels/extended/precise.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
+
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 #define GROUP (TILE_PIXELS / 8)
 

@@ -1,4 +1,11 @@
 // Shapes of splats in double precision, eight pixels of a row of a tile at a time.
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/extended_means.cl"
+#include "kernels/extended/double_lanes.cl"
+
+#pragma OPENCL FP_CONTRACT ON
 
 static inline double in_full(FloatPair a) {
   return (double)a.high + (double)a.low;

@@ -1,5 +1,12 @@
 // The shape of a splat on a face of a cube (src/scene/projection.h, FaceEllipse), on VALUEs
 // (lanes.cl).
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/gaussian.cl"
+
+#ifdef FACE_OF_CUBE
 
 // Where a tile's pixels lie on the face.
 typedef struct TileOnFace {
@@ -33,3 +40,4 @@ INLINED VALUE face_shape(const Tilt tilt, VALUE dx, float dy, VALUE x, float y, 
   return shape;
 #endif
 }
+#endif

@@ -1,4 +1,5 @@
 // exp(-x^2) and erf(x), on VALUEs (lanes.cl, lanes_of_16.cl).
+#include "kernels/common/common.cl"
 
 // 2^f on [-1/2, 1/2]: relative error 7.5e-8, within single precision ...
 OVERLOADED static inline VALUE exp2_to_all_digits(VALUE f) {

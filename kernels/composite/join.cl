@@ -1,5 +1,12 @@
 // Joins the layers of a tile that was cut into segments, nearest first, into the planes.
 // Work-item (row of the tile, segment): those of the first segment of a cut tile join them all.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/join_pixels.cl"
+
 __kernel void join(const CompositeParameters p, __global const Grid* grids,
                    __global const Segment* segments, __global float* planes,
                    __global const float* partials) {

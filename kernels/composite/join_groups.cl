@@ -1,5 +1,11 @@
 // Joins the layers of a tile that was cut into segments, as join.cl does, for GPUs: a work-group
 // per segment, of which the first of a tile joins them all, a work-item per pixel.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/layer_behind.cl"
+
 #define GROUP (TILE_WIDTH * TILE_HEIGHT)
 
 // The segment behind the tile's last one. All items look for it together: to read one segment after

@@ -1,4 +1,7 @@
 // LANES pixels of a layer behind the planes' one.
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/opacity.cl"
+
 static inline void join_pixels(__global float* planes, size_t plane, __global const float* partial,
                                size_t pixel) {
 #ifdef LIGHT_ORDERED

@@ -1,4 +1,7 @@
 // A pixel of a layer, all its planes, behind what is in front of it; for GPUs.
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/opacity.cl"
+
 static inline void add_layer(float* front, const float* layer) {
 #ifdef LIGHT_ORDERED
   for (int c = 0; c < 3; ++c) {

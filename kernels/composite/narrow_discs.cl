@@ -1,6 +1,15 @@
 // Discs of sums, of a kernel that is cut and taken at pixels' centers, up to sixteen pixels wide:
 // what does not differ from pixel to pixel is worked out for eight entries at once, and no loop
 // over columns is left. Wider ones wait (waiting.cl).
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/entry_windows.cl"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+
 #if !defined(LIGHT_ORDERED) && defined(CUT_BY_ROWS) && !defined(SAMPLING_MEAN) && \
     !defined(ELLIPSES) && !defined(FINE_PLACES) && SUMMED == 3
 #define NARROW_DISCS

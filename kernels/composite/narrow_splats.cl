@@ -1,5 +1,19 @@
 // Narrow splats, most of a large snapshot: what does not differ from pixel to pixel is worked out
 // for eight entries at once, and no loop over columns is left.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/entry_windows.cl"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/shape.cl"
+#include "kernels/composite/waiting.cl"
+#ifndef FACE_OF_CUBE
+#include "kernels/composite/splat_rows.cl"
+#endif
+
 #if !defined(KERNEL_CUT) && !defined(ELLIPSES) && !defined(FACE_OF_CUBE) && \
     !defined(FINE_PLACES) && SUMMED == 3
 #define NARROW_SPLATS

@@ -2,6 +2,8 @@
 // (lanes.cl, lanes_of_16.cl): the opacity 1 - exp(-depth), which keeps depths of 1e-8. With
 // KEEP_TRANSMITTANCE, where sources may be so bright that they show through an opacity close
 // to 1, minus the transmittance from an opacity of one half on: it keeps its own digits.
+#include "kernels/common/common.cl"
+
 #ifdef KEEP_TRANSMITTANCE
 OVERLOADED static inline VALUE opacity_of(VALUE carried) {
   return carried + select((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);

@@ -1,4 +1,25 @@
 // An ordered list, entry by entry: every layer lies behind those before it.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/clouds.cl"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/entry_windows.cl"
+#include "kernels/composite/narrow_splats.cl"
+#include "kernels/composite/opacity.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/stencil.cl"
+#include "kernels/composite/tile_planes.cl"
+#include "kernels/composite/waiting.cl"
+#ifdef FACE_OF_CUBE
+#include "kernels/composite/face_rows.cl"
+#else
+#include "kernels/composite/splat_rows.cl"
+#endif
+
 #ifdef LIGHT_ORDERED
 
 static inline void load_opacities(float* tile, const TileInPlanes* place) {

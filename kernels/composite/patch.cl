@@ -1,5 +1,8 @@
 // Patches: rectangles of a tile that stay in registers while splats are added to them
 // (patches.cl). A splat is a bit of a word.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/rows.cl"
 
 // As wide as registers are, and with as many rows as leave some of them for a splat.
 #ifdef ROWS_OF_16

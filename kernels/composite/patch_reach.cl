@@ -1,4 +1,9 @@
 // Which patches of a tile its splats reach into.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+
 #ifndef FACE_OF_CUBE
 #define PATCH_COLUMNS (TILE_WIDTH / PATCH_WIDTH)
 #define PATCH_ROWS (TILE_HEIGHT / PATCH_HEIGHT)

@@ -1,5 +1,14 @@
 // Splats whose shapes along the axes of a tile are worked out patch by patch (patches.cl): only
 // along those that they reach into.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/patch_reach.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/shape.cl"
+
 #ifndef FACE_OF_CUBE
 
 typedef struct PatchShapes {

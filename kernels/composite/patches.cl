@@ -1,6 +1,12 @@
 // Splats added to a tile patch by patch: a patch stays in registers while all of them are added to
 // it, one after the other. Row by row each splat would load and store pixels that the one before
 // has just stored, and a processor waits for that.
+#include "kernels/common/common.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/patch_reach.cl"
+#include "kernels/composite/patch_shapes.cl"
+#include "kernels/composite/rows.cl"
+
 #ifndef FACE_OF_CUBE
 
 // Bits of the splats whose layers take more than one term, and of those that take three.

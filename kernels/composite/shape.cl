@@ -1,4 +1,6 @@
 // The cloud's shape and its layer, for compositing and resolving, on VALUEs (lanes.cl).
+#include "kernels/common/lanes.cl"
+#include "kernels/composite/gaussian.cl"
 
 // What a place holds below its single precision (bin.h). It is subtracted from distances to pixels,
 // which are exact where they count: near the splat.

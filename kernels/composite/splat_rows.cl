@@ -1,5 +1,13 @@
 // A splat in a tile, eight pixels of a row at a time: its shape is the product of one along x and
 // one along y, of which each is worked out once.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/shape.cl"
 
 // What all splats of a tile share.
 typedef struct SplatTile {

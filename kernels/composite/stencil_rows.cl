@@ -1,4 +1,12 @@
 // Stencils in rows of eight pixels: every one is eight of them.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/stencil.cl"
+
 #ifdef STENCILS
 
 // What eight of a list's stencils are drawn by, worked out for all of them at once: a processor

@@ -1,5 +1,28 @@
 // A sum's list: its entries group by group (entry_group.cl), those of a group kind by kind, since a
 // processor foresees the branches of each kind's loop, but not which kind comes next.
+#include "kernels/bin/bin.h"
+#include "kernels/bin/entry_lanes.cl"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/clouds.cl"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/entry_group.cl"
+#include "kernels/composite/entry_windows.cl"
+#include "kernels/composite/narrow_discs.cl"
+#include "kernels/composite/narrow_splats.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
+#include "kernels/composite/stencil.cl"
+#include "kernels/composite/stencil_rows.cl"
+#include "kernels/composite/tile_planes.cl"
+#include "kernels/composite/waiting.cl"
+#ifdef FACE_OF_CUBE
+#include "kernels/composite/face_rows.cl"
+#else
+#include "kernels/composite/splat_rows.cl"
+#endif
+
 #ifndef LIGHT_ORDERED
 
 typedef struct SummedList {

@@ -1,6 +1,17 @@
 // Compositing for GPUs: a batch of splats of a tile's list, fetched into local memory by a
 // work-group. Both axes of each splat are worked out once for all pixels, and which splats each
 // part of the tile needs to draw.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/flags.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/clouds.cl"
+#include "kernels/composite/composite.h"
+#include "kernels/composite/gaussian.cl"
+#include "kernels/composite/shape.cl"
+#include "kernels/composite/stencil.cl"
+
 #define GROUP (TILE_WIDTH * TILE_HEIGHT)
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
 #define BATCH FLAGS

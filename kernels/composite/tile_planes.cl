@@ -1,4 +1,11 @@
 // A segment's own copy of its tile, and the planes that it is added to.
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/rows.cl"
 
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
 // is there when they are stored: however many splats there are, those of one list only are added to

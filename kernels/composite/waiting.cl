@@ -1,4 +1,12 @@
 // Splats of a tile's list that wait until there are some, to be added to it together (patches.cl).
+#include "kernels/bin/bin.h"
+#include "kernels/common/common.cl"
+#include "kernels/composite/patch.cl"
+#include "kernels/composite/patch_reach.cl"
+#include "kernels/composite/patch_shapes.cl"
+#include "kernels/composite/patches.cl"
+#include "kernels/composite/rows.cl"
+
 #ifdef FACE_OF_CUBE
 // None waits.
 typedef struct WaitingSplats {

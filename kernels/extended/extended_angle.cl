@@ -1,4 +1,7 @@
 // Lengths and angles of extended numbers (extended.cl), relative error 2^-42.
+#include "kernels/extended/extended.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 // sqrt(a^2 + b^2); no square leaves single precision.
 static inline Extended extended_hypotenuse(Extended a, Extended b) {

@@ -1,4 +1,8 @@
 // Eight extended numbers (extended.cl) at a time: what compositing does in every pixel.
+#include "kernels/extended/extended.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
+
 #ifdef DOUBLE_NUMBERS
 typedef double8 ExtendedLanes;
 

@@ -1,6 +1,9 @@
 // exp and phi of full single precision, relative errors below 2e-7 wherever they are not
 // negligible (4e-7 for phi where divisions are not rounded correctly), on VALUEs (lanes.cl): for
 // light, whose relative error no later step enlarges.
+#include "kernels/common/lanes.cl"
+
+#pragma OPENCL FP_CONTRACT ON
 
 // exp(-(high + low)) for high >= 0, |low| far below 1; 0 from 86 on.
 static inline VALUE precise_exp_negative(VALUE high, VALUE low) {

@@ -1,6 +1,10 @@
 // Columns between two snapshots, bit for bit as src/between/interpolation.cpp has them: one
 // operation after the other, and none that devices round in their own ways. LANES particles at a
 // time.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/interpolate/interpolate.h"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 #define NOBODY 0xffffffffu

@@ -1,4 +1,9 @@
 // Clouds around the camera, which are no splats: the host draws them.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/view.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -1,5 +1,9 @@
 // What is known of a block of particles wherever the camera stands: the box around the good ones,
 // and how many are bad. A work-item walks one block.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
 
 typedef struct BoxLanes {
   Vectors lower, upper;

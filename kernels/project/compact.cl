@@ -1,4 +1,5 @@
 // Splats, or their keys, without the gaps between the blocks that they were projected in.
+#include "kernels/project/project.h"
 
 // Work-item: one block, whose splats lie at block * stride, and come to lie behind those of the
 // blocks before. `words` of a splat of a window; keys are moved with has_keys only.

@@ -1,6 +1,12 @@
 // Depths as integers (src/scene/depth_key.h): they order particles, and decide on which side of a
 // limit one lies. In integers alone, but for products with powers of two, so that every device has
 // the reference's bits. On VALUEs (lanes.cl).
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 #define ZERO_DEPTH ((ulong)1 << 47)
 // In units (src/scene/depth_key.h).

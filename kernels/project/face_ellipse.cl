@@ -1,5 +1,12 @@
 // How a cloud lies on a face of a cube, on VALUEs (lanes.cl): face_ellipse() of
 // src/scene/projection.cpp.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/project.h"
+
+#ifdef FACE_OF_CUBE
+
+#pragma OPENCL FP_CONTRACT OFF
 
 typedef struct FaceEllipse {
   VALUE squared_width, footprint, secant2;
@@ -50,3 +57,4 @@ INLINED VALUE face_part(const FaceEllipse ellipse, VALUE extent, const ProjectPa
   const VALUE of_cloud = ellipse.squared_width * face_secant2(ellipse, extent, p);
   return of_cloud / (of_cloud + ellipse.footprint);
 }
+#endif

@@ -1,5 +1,11 @@
 // How a cloud lies on a face of a cube, in extended numbers; face_ellipse.cl has the same in single
 // precision.
+#include "kernels/extended/extended.cl"
+#include "kernels/project/project.h"
+
+#ifdef FACE_OF_CUBE
+
+#pragma OPENCL FP_CONTRACT OFF
 
 typedef struct ExtendedFaceEllipse {
   Extended squared_width, footprint, secant2;
@@ -57,3 +63,4 @@ static inline float extended_face_part(const ExtendedFaceEllipse ellipse) {
   const float gk = 3.0f * high_part(ellipse.squared_width), c = high_part(ellipse.footprint);
   return c > 0.0f ? gk / (gk + c) : 1.0f;
 }
+#endif

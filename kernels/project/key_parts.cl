@@ -1,6 +1,9 @@
 // Splats of some blocks, put in order of the parts that their sort keys lie in, as long as they are
 // in a processor's cache. So all splats of a part lie in a few runs, in the order of their
 // particles, and are sorted and fetched without waiting for memory.
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/project/project.h"
 
 typedef struct SplatWords {
   float words[SPLAT_WORDS];

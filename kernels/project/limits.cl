@@ -1,5 +1,11 @@
 // What a particle weighs, how far its splat is drawn, whether its pixels take means, and on
 // which grid it lies (docs/accuracy.md), on VALUEs (lanes.cl).
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 // ln(1 + part), part >= 0: what the sum is rounded by is taken off again by the quotient, so that

@@ -1,4 +1,13 @@
 // Which particles are around the camera, and how deep.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/around.cl"
+#include "kernels/project/depth_key.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/view.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of_particles,
                             uint block, __global uint* listed, uint capacity) {

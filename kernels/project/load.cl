@@ -1,4 +1,8 @@
 // The fields of LANES particles, as memory holds them.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/project/project.h"
 
 // LANES values from index i on; those from `end` on repeat the last one, since a mapped
 // file may end with its last value. Stride 0: one value for all.

@@ -1,5 +1,11 @@
 // Where the camera sees one particle, in extended numbers (extended.cl); view.cl has the same in
 // single precision.
+#include "kernels/common/splat.h"
+#include "kernels/extended/extended.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/wide_angle_extended.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 typedef struct ExtendedPlace {
   Extended x, y;   // pixels of the whole picture

@@ -1,5 +1,26 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/depth_key.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/project_extended.cl"
+#include "kernels/project/sort_keys.cl"
+#include "kernels/project/splat_arrays.cl"
+#include "kernels/project/splat_lanes.cl"
+#include "kernels/project/splat_place.cl"
+#include "kernels/project/splat_widths.cl"
+#include "kernels/project/wide_angle.cl"
+#if defined(COUNT_TILES) || (defined(OUTPUT_SPLATS) && defined(TILES_IN_SPLAT))
+#include "kernels/bin/tile_lanes.cl"
+#include "kernels/bin/tiles.cl"
+#endif
+
+#pragma OPENCL FP_CONTRACT OFF
 
 #define PROJECT_PARAMETERS                                                                    \
   __global const float *positions, __global const float *smoothing_lengths,                   \

@@ -1,4 +1,6 @@
 // What host and kernels share of the projection: 4-byte members only (splat.h).
+#include "kernels/common/splat.h"
+
 #ifndef SPLOTCHCL_PROJECT_H
 #define SPLOTCHCL_PROJECT_H
 

@@ -1,5 +1,19 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
 // those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/extended/extended.cl"
+#include "kernels/project/face_ellipse_extended.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/place_extended.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_place.cl"
+#include "kernels/project/wide_angle.cl"
+#include "kernels/project/wide_angle_extended.cl"
+
+#ifdef EXTENDED_NUMBERS
+
+#pragma OPENCL FP_CONTRACT OFF
 
 // As log_from_least() and asinh_from_least() do it for lanes (limits.cl).
 static inline Extended extended_log_from_least(Extended value, const ExtendedFieldScaling map) {
@@ -323,4 +337,5 @@ static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
   }
   return splat;
 }
+#endif
 #endif

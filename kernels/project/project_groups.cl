@@ -1,6 +1,23 @@
 // Particles to splats for GPUs: a work-item per particle. A first pass counts the splats of each
 // group, and when these counts have been scanned a second one writes the splats without gaps, in
 // the order of the file.
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/depth_key.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/project_extended.cl"
+#include "kernels/project/sort_keys.cl"
+#include "kernels/project/splat_arrays.cl"
+#include "kernels/project/splat_lanes.cl"
+#include "kernels/project/splat_place.cl"
+#include "kernels/project/splat_widths.cl"
+#include "kernels/project/wide_angle.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 INLINED SplatLanes no_splat(void) {
   SplatLanes none;

@@ -1,4 +1,17 @@
 // Places of splats so sharp, or so bright, that single precision would show: in extended numbers.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/extended/extended.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/place_extended.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/view.cl"
+
+#ifndef EXTENDED_NUMBERS
+#include "kernels/extended/extended_value.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 // What a pixel by which its centre is off does to a splat, at most, per sigma (docs/accuracy.md).
 static inline VALUE slope_of_peak(VALUE peak) {
@@ -135,3 +148,4 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
   }
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));
 }
+#endif

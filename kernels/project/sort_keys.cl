@@ -1,4 +1,11 @@
 // Sort keys of splats: the order of an ordered frame, and of which part of it splats are.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/depth_key.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 #if defined(OUTPUT_KEYS) || defined(KEY_WINDOW)
 #define SORT_KEYS

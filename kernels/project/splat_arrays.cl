@@ -1,4 +1,13 @@
 // LANES splats, to be written one by one, and what kernels that write them take.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/common/words.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/sort_keys.cl"
+#include "kernels/project/splat_widths.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 #if defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)
 #define TILES_OF_LANES

@@ -1,4 +1,12 @@
 // How bright LANES splats are: what decides how exactly they are drawn.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/limits.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_widths.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct BrightnessLanes {

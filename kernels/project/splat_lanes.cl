@@ -1,4 +1,19 @@
 // Particles to splats, LANES at a time, step by step.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/limits.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/sharp_places.cl"
+#include "kernels/project/splat_brightness.cl"
+#include "kernels/project/splat_reach.cl"
+#include "kernels/project/splat_sampling.cl"
+#include "kernels/project/splat_widths.cl"
+#include "kernels/project/view.cl"
+#ifdef CLOUDS_AROUND
+#include "kernels/project/around.cl"
+#endif
+
 #pragma OPENCL FP_CONTRACT OFF
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.

@@ -1,4 +1,11 @@
 // Where splats lie on their grid, as integers (splat.h).
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/limits.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/wide_angle.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 // In units of 2^coarser of the grid's.

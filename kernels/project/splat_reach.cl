@@ -1,4 +1,13 @@
 // How far LANES splats reach, and which of them are left out for it.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/face_ellipse.cl"
+#include "kernels/project/limits.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_widths.cl"
+#include "kernels/project/view.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 // How far the center lies beyond a rectangle of the picture, along the axis where it is farthest,

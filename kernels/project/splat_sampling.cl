@@ -1,4 +1,15 @@
 // By what LANES splats are drawn, and on which grid: their widths, weights and radii there.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/project/face_ellipse.cl"
+#include "kernels/project/limits.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_brightness.cl"
+#include "kernels/project/splat_place.cl"
+#include "kernels/project/splat_widths.cl"
+#include "kernels/project/view.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 // Sampling: narrow splats take means over pixels, others the center values of a widened

@@ -1,5 +1,15 @@
 // How wide LANES splats are and what they weigh, in the picture's pixels, and which of them may be
 // seen.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/face_ellipse.cl"
+#include "kernels/project/limits.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/splat_place.cl"
+#include "kernels/project/view.cl"
+#include "kernels/project/wide_angle.cl"
+
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct SplatLanes {

@@ -1,4 +1,9 @@
 // Where the camera sees a particle: its depth and its place in the picture.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/project/load.cl"
+#include "kernels/project/project.h"
+#include "kernels/project/wide_angle.cl"
 
 // A chain of differences: none is to be joined with the product behind it.
 #pragma OPENCL FP_CONTRACT OFF

@@ -1,5 +1,11 @@
 // Where the projections that look in all directions put a particle (docs/projections.md), on
 // VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
+#include "kernels/common/lanes.cl"
+#include "kernels/project/project.h"
+
+#ifdef WIDE_ANGLE
+
+#pragma OPENCL FP_CONTRACT OFF
 
 typedef struct WideAnglePoint {
   VALUE x, y;                         // pixels from the middle of the picture
@@ -116,4 +122,5 @@ static inline Copies copies_in_picture(float x, float y, float radius_x, float r
   }
   return copies;
 }
+#endif
 #endif

@@ -1,5 +1,14 @@
 // Where the projections that look in all directions put a particle, in extended numbers
 // (docs/projections.md); wide_angle.cl has the same in single precision.
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/extended/extended.cl"
+#include "kernels/project/project.h"
+
+#ifdef WIDE_ANGLE
+#include "kernels/extended/extended_angle.cl"
+
+#pragma OPENCL FP_CONTRACT OFF
 
 typedef struct ExtendedWideAngle {
   Extended x, y;                         // pixels from the middle of the picture
@@ -157,4 +166,5 @@ static inline ExtendedEllipse extended_panorama_ellipse(Extended sigma, Extended
                         extended_row_length(sine, extended_quotient(u2, root), sine_m));
   return ellipse;
 }
+#endif
 #endif

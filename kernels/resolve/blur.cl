@@ -1,6 +1,9 @@
 // A grid whose splats were drawn narrower than they are is blurred once to their width
 // (blur_filter.h): along x into a temporary, along y into the target. Of all grids those parts are
 // in memory that are looked at (picture_layout.h).
+#include "kernels/common/common.cl"
+#include "kernels/common/splat.h"
+#include "kernels/resolve/resolve.h"
 
 // Rows of the temporary are whole eights, and begin with the part's first pixel.
 static inline size_t temporary_stride(const GridPart part) {

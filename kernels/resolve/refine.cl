@@ -1,5 +1,9 @@
 // A grid interpolated to half its pixel size, axis by axis. A work-item takes EIGHTS_OF_ITEM times
 // eight pixels of a row.
+#include "kernels/common/common.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
+#include "kernels/resolve/resolve.h"
 
 // Pixels on either side that one is made from; weights beyond them are 0.
 #ifdef TEN_TAPS

@@ -1,5 +1,12 @@
 // The sums of all grids, or the layers, to the light that they are. A work-item takes
 // EIGHTS_OF_ITEM times eight pixels of a row.
+#include "kernels/common/common.cl"
+#include "kernels/common/lanes.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/opacity.cl"
+#include "kernels/composite/shape.cl"
+#include "kernels/extended/precise.cl"
+#include "kernels/resolve/resolve.h"
 
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
 // that are padded to whole eights.

@@ -1,5 +1,11 @@
 // Slabs of an ordered frame: the wide splats of a slab, which coarse grids hold as sums of optical
 // depth and light, are laid among its narrow ones, which the picture's own planes hold in order.
+#include "kernels/common/common.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.h"
+#include "kernels/composite/shape.cl"
+#include "kernels/resolve/refine.cl"
+#include "kernels/resolve/resolve.h"
 
 // phi(T) = (1 - exp(-T)) / T of what takes the part `opacity` = 1 - exp(-T) away, and T.
 INLINED float8 depth_of(float8 opacity) {

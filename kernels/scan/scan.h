@@ -1,4 +1,6 @@
 // What host and kernels share of scans over long lists.
+#include "kernels/common/group.h"
+
 #ifndef SPLOTCHCL_SCAN_H
 #define SPLOTCHCL_SCAN_H
 

@@ -1,6 +1,10 @@
 // Exclusive sums over long lists: every group adds up a stretch of SCAN_STRETCH values, these sums
 // are scanned likewise, or, where one group could scan them, added up by every group; and every
 // group goes through its stretch again from what lies before it.
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
+#include "kernels/scan/scan.h"
 
 INLINED uint value_or_0(__global const uint* values, uint i, const ScanParameters p) {
   return i < p.count ? values[i] : 0u;

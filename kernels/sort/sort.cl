@@ -3,6 +3,12 @@
 // waits for another, so no forward progress is assumed.
 // Also, per block, the bits that are set in some keys and in all of them: a digit that is the
 // same for all needs no pass.
+#include "kernels/common/common.cl"
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/sort/short_run.cl"
+#include "kernels/sort/sort.h"
+
 KERNEL_BODY void histogram_of_block(const SortParameters p, __global const uint* keys,
                                     __global uint* histograms, __global KeyBits* bits, uint block) {
   const uint begin = block * p.block_length;

@@ -1,4 +1,6 @@
 // What host and kernels share of the sort.
+#include "kernels/common/group.h"
+
 #ifndef SPLOTCHCL_SORT_H
 #define SPLOTCHCL_SORT_H
 

@@ -1,6 +1,11 @@
 // The stable radix sort of sort.cl for GPUs: a work-group takes SORT_STRETCH pairs, sorts them in
 // local memory by the pass's digit, and writes runs of equal digits to where they belong. No group
 // waits for another.
+#include "kernels/common/common.cl"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
+#include "kernels/sort/short_run.cl"
+#include "kernels/sort/sort.h"
 
 INLINED uint digit_of(uint key, const GroupSortParameters p) {
   return (key >> p.shift) & ((1u << p.bits) - 1u);

@@ -2,6 +2,9 @@
 // sorts one part, which fits into a core's caches: by two digits of the leading bits of its keys,
 // in two stable passes; splats that agree in those by all bits. Within a run they have the order of
 // their particles, and so have those of equal keys in the end.
+#include "kernels/common/pieces.cl"
+#include "kernels/common/prefetch.cl"
+#include "kernels/sort/sort.h"
 
 // 32 bits of a splat's key, and below them where it lies.
 typedef ulong PartEntry;

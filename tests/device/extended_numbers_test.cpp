@@ -37,13 +37,11 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
  protected:
   std::vector<double> evaluate(const std::string& function, const char* kernel,
                                const std::vector<float>& x) {
-    std::string defines = "#define FUNCTION " + function + "\n#define COPIES\n";
+    std::string defines = "#define FUNCTION " + function + "\n#define COPIES\n#define WIDE_ANGLE\n";
     if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
     const Program program =
-        device().programs.get({defines,
-                               {"splat.h", "project.h", "common.cl", "lanes.cl", "precise.cl",
-                                "extended.cl", "extended_angle.cl", "wide_angle_extended.cl"},
-                               kernel});
+        device().programs.get({defines, "kernels/project/wide_angle_extended.cl",
+                               std::string("#include \"kernels/extended/precise.cl\"\n") + kernel});
     const auto results = device().pool.get<float>(2 * x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))

@@ -26,7 +26,7 @@ std::vector<ProgramSource> programs_of(const Specialization& variant) {
   if (variant.is_ordered()) programs.push_back(variant.composite_with_clouds());
   for (const ProgramSource& program :
        {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify(),
-        variant.coarse_grids(), variant.blur_strips(), variant.lay_slab()})
+        variant.coarse_grids(), variant.blur(), variant.lay_slab()})
     programs.push_back(program);
   return programs;
 }
@@ -72,11 +72,11 @@ class ShortTexts : public StageTest {
  protected:
   static void expect_compiled(const std::vector<ProgramSource>& programs) {
     for (const ProgramSource& program : programs) {
-      SCOPED_TRACE(program.defines + names_of(program));
+      SCOPED_TRACE(program.defines + program.file);
       // Optimizing takes most of the time, and warns of nothing that is looked for.
       ProgramText text = short_text_of(program, device().device);
       text.options += " -cl-opt-disable";
-      EXPECT_NO_THROW(expect_no_warnings(build_program(device().context, text, names_of(program))));
+      EXPECT_NO_THROW(expect_no_warnings(build_program(device().context, text, program.file)));
     }
   }
   // What PoCL has compiled before comes from its cache, without what it said of it.

@@ -32,8 +32,7 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
     const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
     const Program program =
         device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
-                               {"splat.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl"},
-                               shape_kernel});
+                               "kernels/composite/shape.cl", shape_kernel});
     const auto results = device().pool.get<float>(x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))
@@ -198,7 +197,7 @@ class DoubleLanes : public StageTest {
                       const std::function<double(double)>& exact) {
     const Program program = device().programs.get(
         {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n",
-         {"double_lanes.cl"},
+         "kernels/extended/double_lanes.cl",
          R"(
 __kernel void evaluate(__global const float* x, __global double* results) {
   const uint i = get_global_id(0);
@@ -234,7 +233,7 @@ class WideMeans : public StageTest {
   std::vector<double> means(float first, float sigma, std::size_t pixels) {
     const Program program = device().programs.get(
         {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define TILE_WIDTH 64\n",
-         {"double_lanes.cl", "extended_means.cl"},
+         "kernels/composite/extended_means.cl",
          R"(
 __kernel void evaluate(float first, float sigma, int pixels, __global double* results) {
   double values[TILE_WIDTH];

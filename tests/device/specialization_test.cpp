@@ -116,14 +116,10 @@ struct SharedStructure {
 class Sizes : public StageTest {
  protected:
   // Whether the device takes the structures, in the variant of this program, for what the host
-  // does. Its headers declare them; compiling its kernels, too, would take most of the time.
-  static void expect_equal_sizes(ProgramSource source,
+  // does. A header declares them; compiling kernels, too, would take most of the time.
+  static void expect_equal_sizes(ProgramSource source, const std::string& header,
                                  const std::vector<SharedStructure>& structures) {
-    source.files.erase(std::remove_if(source.files.begin(), source.files.end(),
-                                      [](const std::string& file) {
-                                        return file.substr(file.rfind('.')) != ".h";
-                                      }),
-                       source.files.end());
+    source.file = "kernels/" + header;
     source.more = "__kernel void sizes(__global uint* result) {\n";
     for (std::size_t i = 0; i < structures.size(); ++i) {
       source.more += "  result[" + std::to_string(i) + "] = sizeof(" + structures[i].name + ");\n";
@@ -145,7 +141,7 @@ class Sizes : public StageTest {
                                                {"TileSplat", variant.tile_splat_bytes()}};
     if (variant.is_extended())
       structures.push_back({"ExtendedSplat", variant.extended_splat_bytes()});
-    expect_equal_sizes(variant.bin(), structures);
+    expect_equal_sizes(variant.bin(), "bin/bin.h", structures);
   }
 
   static Frame small_frame() {
@@ -173,7 +169,7 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   frame.tolerance = 0;
   const FramePlan plan = make_plan(frame);
   const Specialization variant(frame, plan, device().traits);
-  expect_equal_sizes(variant.project(ProjectOutput::splats),
+  expect_equal_sizes(variant.project(ProjectOutput::splats), "project/project.h",
                      {{"ProjectParameters", sizeof(shared::ProjectParameters)},
                       {"ExtendedParameters", sizeof(shared::ExtendedParameters)},
                       {"ExtendedSplat", sizeof(shared::ExtendedSplat)},
@@ -181,19 +177,22 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
                       {"BlockCounts", sizeof(shared::BlockCounts)},
                       {"BlockBox", sizeof(shared::BlockBox)},
                       {"Grid", sizeof(shared::Grid)}});
-  expect_equal_sizes(variant.bin(), {{"BinParameters", sizeof(shared::BinParameters)},
-                                     {"Segment", sizeof(shared::Segment)}});
-  expect_equal_sizes(variant.composite(),
+  expect_equal_sizes(
+      variant.bin(), "bin/bin.h",
+      {{"BinParameters", sizeof(shared::BinParameters)}, {"Segment", sizeof(shared::Segment)}});
+  expect_equal_sizes(variant.composite(), "composite/composite.h",
                      {{"CompositeParameters", sizeof(shared::CompositeParameters)}});
-  expect_equal_sizes(variant.resolve(), {{"ResolveParameters", sizeof(shared::ResolveParameters)}});
-  expect_equal_sizes(variant.blur_strips(),
+  expect_equal_sizes(variant.resolve(), "resolve/resolve.h",
+                     {{"ResolveParameters", sizeof(shared::ResolveParameters)}});
+  expect_equal_sizes(variant.blur(), "resolve/resolve.h",
                      {{"BlurStripsParameters", sizeof(shared::BlurStripsParameters)}});
-  expect_equal_sizes(variant.coarse_grids(),
+  expect_equal_sizes(variant.coarse_grids(), "resolve/resolve.h",
                      {{"BlurParameters", sizeof(shared::BlurParameters)},
                       {"RefineParameters", sizeof(shared::RefineParameters)}});
-  expect_equal_sizes(Specialization::sort(), {{"SortParameters", sizeof(shared::SortParameters)},
-                                              {"KeyBits", sizeof(shared::KeyBits)}});
-  expect_equal_sizes(Specialization::interpolate(true),
+  expect_equal_sizes(
+      Specialization::sort(), "sort/sort.h",
+      {{"SortParameters", sizeof(shared::SortParameters)}, {"KeyBits", sizeof(shared::KeyBits)}});
+  expect_equal_sizes(Specialization::interpolate(true), "interpolate/interpolate.h",
                      {{"InterpolateParameters", sizeof(shared::InterpolateParameters)},
                       {"PathParameters", sizeof(shared::PathParameters)}});
 }

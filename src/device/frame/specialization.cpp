@@ -17,8 +17,8 @@ std::string define_if(bool condition, const std::string& name) {
 }
 
 // Light that passes many layers fades to denormal numbers, which no picture shows.
-ProgramSource layers_of(const std::string& defines, const std::vector<std::string>& files) {
-  ProgramSource source = {defines, files};
+ProgramSource layers_of(const std::string& defines, const std::string& file) {
+  ProgramSource source = {defines, file};
   source.denormals_are_zero = true;
   return source;
 }
@@ -144,41 +144,11 @@ ProgramSource Specialization::project(ProjectOutput output) const {
   defines += define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
   defines += define_if(extended_, "EXTENDED_NUMBERS");
-  return {defines, project_files(output)};
+  return {defines, rows_ ? "kernels/project/project.cl" : "kernels/project/project_groups.cl"};
 }
 
 bool Specialization::finds_tiles(ProjectOutput output) const {
   return (output == ProjectOutput::splats && rows_) || (writes_splats(output) && has_own_tiles());
-}
-
-// Where the camera sees particles.
-std::vector<std::string> Specialization::view_files() const {
-  std::vector<std::string> files = {"splat.h",     "project.h",   "common.cl", "lanes.cl",
-                                    "extended.cl", "prefetch.cl", "pieces.cl", "load.cl"};
-  if (!rows_) files.insert(files.begin(), "group.h");
-  if (is_wide_angle(projection_))
-    files.insert(files.end(), {"extended_angle.cl", "wide_angle.cl", "wide_angle_extended.cl"});
-  files.push_back("view.cl");
-  if (face_of_cube_) files.insert(files.end(), {"face_ellipse.cl", "face_ellipse_extended.cl"});
-  if (clouds_around_) files.push_back("around.cl");
-  files.insert(files.end(), {"place_extended.cl", "limits.cl", "depth_key.cl"});
-  return files;
-}
-
-std::vector<std::string> Specialization::project_files(ProjectOutput output) const {
-  std::vector<std::string> files = view_files();
-  if (!extended_) files.insert(files.end(), {"extended_value.cl", "sharp_places.cl"});
-  files.insert(files.end(), {"splat_place.cl", "splat_widths.cl", "splat_brightness.cl",
-                             "splat_sampling.cl", "splat_reach.cl", "splat_lanes.cl"});
-  if (extended_) files.push_back("project_extended.cl");
-  if (finds_tiles(output)) files.insert(files.end(), {"tiles.cl", "tile_lanes.cl"});
-  files.insert(files.end(), {"sort_keys.cl", "words.cl", "splat_arrays.cl"});
-  if (rows_) {
-    files.push_back("project.cl");
-  } else {
-    files.insert(files.end(), {"group_sums.cl", "project_groups.cl"});
-  }
-  return files;
 }
 
 std::string Specialization::wide_angle_defines() const {
@@ -190,51 +160,54 @@ std::string Specialization::wide_angle_defines() const {
 }
 
 ProgramSource Specialization::interpolate(bool rows) {
-  return {define_if(rows, "LANES_8"),
-          {"splat.h", "interpolate.h", "common.cl", "lanes.cl", "interpolate.cl"}};
+  return {define_if(rows, "LANES_8"), "kernels/interpolate/interpolate.cl"};
 }
 
 ProgramSource Specialization::boxes(bool rows, bool vector_colors) {
   return {define_if(rows, "LANES_8") + define_if(vector_colors, "VECTOR_COLORS"),
-          {"splat.h", "project.h", "common.cl", "lanes.cl", "prefetch.cl", "load.cl", "boxes.cl"}};
+          "kernels/project/boxes.cl"};
 }
 
 ProgramSource Specialization::scan_blocks() {
-  return {"", {"splat.h", "project.h", "scan.cl"}};
+  return {"", "kernels/project/scan.cl"};
 }
 
 ProgramSource Specialization::compact() {
-  return {"", {"splat.h", "project.h", "compact.cl"}};
+  return {"", "kernels/project/compact.cl"};
 }
 
 ProgramSource Specialization::key_parts() const {
   return {define("SPLAT_WORDS " + std::to_string(splat_bytes() / sizeof(cl_uint))) +
               define("MOST_KEY_PARTS " + std::to_string(most_key_parts)),
-          {"splat.h", "project.h", "prefetch.cl", "pieces.cl", "key_parts.cl"}};
+          "kernels/project/key_parts.cl"};
 }
 
 ProgramSource Specialization::sort_parts() {
-  return {"", {"prefetch.cl", "pieces.cl", "sort.h", "sort_parts.cl"}};
+  return {"", "kernels/sort/sort_parts.cl"};
 }
 
 ProgramSource Specialization::sort() {
-  return {"",
-          {"group.h", "splat.h", "sort.h", "common.cl", "prefetch.cl", "pieces.cl", "short_run.cl",
-           "sort.cl"}};
+  return {"", "kernels/sort/sort.cl"};
 }
 
 ProgramSource Specialization::carry() {
-  return {"", {"carry.cl"}};
+  return {"", "kernels/sort/carry.cl"};
 }
 
 ProgramSource Specialization::sort_groups() {
-  return {"",
-          {"group.h", "splat.h", "sort.h", "common.cl", "group_sums.cl", "short_run.cl",
-           "sort_groups.cl"}};
+  return {"", "kernels/sort/sort_groups.cl"};
 }
 
 ProgramSource Specialization::scan() {
-  return {"", {"group.h", "splat.h", "scan.h", "common.cl", "group_sums.cl", "scan_groups.cl"}};
+  return {"", "kernels/scan/scan_groups.cl"};
+}
+
+std::string Specialization::composite_file() const {
+  return rows_ ? "kernels/composite/composite_rows.cl" : "kernels/composite/composite_groups.cl";
+}
+
+std::string Specialization::join_file() const {
+  return rows_ ? "kernels/composite/join.cl" : "kernels/composite/join_groups.cl";
 }
 
 ProgramSource Specialization::bin() const {
@@ -243,13 +216,9 @@ ProgramSource Specialization::bin() const {
                               define_if(has_own_tiles(), "TILES_IN_SPLAT") +
                               define_if(!is_ordered(), "BLOCKS_OF_PROJECTION");
   if (rows_) {
-    return {defines,
-            {"splat.h", "project.h", "bin.h", "common.cl", "prefetch.cl", "pieces.cl", "tiles.cl",
-             "amplitudes.cl", "entries.cl", "bin.cl"}};
+    return {defines, "kernels/bin/bin.cl"};
   }
-  return {defines,
-          {"group.h", "splat.h", "project.h", "bin.h", "common.cl", "tiles.cl", "group_sums.cl",
-           "amplitudes.cl", "entries.cl", "bin_groups.cl"}};
+  return {defines, "kernels/bin/bin_groups.cl"};
 }
 
 ProgramSource Specialization::composite() const {
@@ -258,63 +227,19 @@ ProgramSource Specialization::composite() const {
                         define_if(pixel_means_, "SAMPLING_MEAN");
   if (extended_) {
     defines += define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS");
-    std::vector<std::string> files = {
-        "splat.h",    "bin.h",       "composite.h",       "common.cl",         "lanes.cl",
-        "precise.cl", "extended.cl", "extended_lanes.cl", "extended_pixels.cl"};
-    if (has_rows())
-      files.insert(files.end(), {"double_lanes.cl", "extended_means.cl", "extended_shape.cl",
-                                 "pieces.cl", "composite_extended_rows.cl"});
-    else
-      files.push_back("composite_extended_groups.cl");
-    return {defines, files};
+    return {defines, has_rows() ? "kernels/composite/composite_extended_rows.cl"
+                                : "kernels/composite/composite_extended_groups.cl"};
   }
   defines += number_defines() + define_if(rows_, "LANES_8") +
              define_if(takes_rows_of_16(), "ROWS_OF_16") + define_if(stencils_, "STENCILS") +
              block_defines();
-  return layers_of(defines, composite_files());
+  return layers_of(defines, composite_file());
 }
 
 ProgramSource Specialization::composite_with_clouds() const {
   ProgramSource source = composite();
   source.defines += define("CLOUDS_IN_LISTS");
   return source;
-}
-
-std::vector<std::string> Specialization::composite_files() const {
-  std::vector<std::string> files = {"splat.h", "bin.h", "composite.h", "common.cl"};
-  if (takes_rows_of_16())
-    files.insert(files.end(), {"lanes_of_16.cl", "gaussian.cl", "opacity.cl"});
-  files.insert(files.end(),
-               {"lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl", "clouds.cl", "stencil.cl"});
-  if (face_of_cube_) files.push_back("face_shape.cl");
-  if (rows_) {
-    files.insert(files.end(), {"rows.cl", "prefetch.cl", "words.cl", "entry_lanes.cl",
-                               "entry_windows.cl", "patch.cl", "patch_reach.cl", "patch_shapes.cl",
-                               "patches.cl", "waiting.cl", "tile_planes.cl"});
-    if (face_of_cube_) {
-      files.push_back("face_rows.cl");
-    } else {
-      files.push_back("splat_rows.cl");
-    }
-    files.insert(files.end(),
-                 {"stencil_rows.cl", "narrow_splats.cl", "narrow_discs.cl", "ordered_list.cl",
-                  "entry_group.cl", "summed_list.cl", "pieces.cl", "composite_rows.cl"});
-  } else {
-    files.insert(files.end(),
-                 {"flags.cl", "tile_batch.cl", "layer_behind.cl", "composite_groups.cl"});
-  }
-  return files;
-}
-
-std::vector<std::string> Specialization::join_files() const {
-  std::vector<std::string> files = {"splat.h",   "bin.h",    "composite.h",
-                                    "common.cl", "lanes.cl", "opacity.cl"};
-  if (rows_) {
-    files.insert(files.end(), {"join_pixels.cl", "join.cl"});
-  } else {
-    files.insert(files.end(), {"layer_behind.cl", "join_groups.cl"});
-  }
-  return files;
 }
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
@@ -331,7 +256,7 @@ std::string Specialization::block_defines() const {
 ProgramSource Specialization::join() const {
   return layers_of(tile_defines() + define_if(rows_, "LANES_8") +
                        define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE"),
-                   join_files());
+                   join_file());
 }
 
 // Coarse grids are for round splats that are not cut, and take center values.
@@ -342,38 +267,34 @@ ProgramSource Specialization::composite_slab() const {
   return layers_of(slab_defines() + define_if(full_precision_, "FULL_PRECISION") +
                        define_if(rows_, "LANES_8") + define_if(takes_rows_of_16(), "ROWS_OF_16") +
                        blocks,
-                   composite_files());
+                   composite_file());
 }
 
 ProgramSource Specialization::join_slab() const {
-  return layers_of(slab_defines() + define_if(rows_, "LANES_8"), join_files());
+  return layers_of(slab_defines() + define_if(rows_, "LANES_8"), join_file());
 }
 
 ProgramSource Specialization::lay_slab() const {
   return {define("LANES_8") + define_if(ten_taps_, "TEN_TAPS") + item_defines(),
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl",
-           "prefetch.cl", "refine.cl", "slab.cl"}};
+          "kernels/resolve/slab.cl"};
 }
 
 ProgramSource Specialization::list_around() const {
   std::string defines = define_if(rows_, "LANES_8") + define_if(vector_colors_, "VECTOR_COLORS") +
                         define_if(double_numbers_, "DOUBLE_NUMBERS");
   if (is_wide_angle(projection_)) defines += wide_angle_defines();
-  std::vector<std::string> files = view_files();
-  files.push_back("list_around.cl");
-  return {defines, files};
+  return {defines, "kernels/project/list_around.cl"};
 }
 
 ProgramSource Specialization::behind() const {
   const std::string defines = define_if(is_ordered(), "LIGHT_ORDERED");
   if (extended_) {
     return {defines + define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS"),
-            {"splat.h", "composite.h", "common.cl", "lanes.cl", "precise.cl", "extended.cl",
-             "extended_lanes.cl", "behind_extended.cl"}};
+            "kernels/composite/behind_extended.cl"};
   }
   return {defines + define_if(keeps_transmittance_, "KEEP_TRANSMITTANCE") +
               define("PIXELS_BEHIND " + std::to_string(pixels_behind())),
-          {"splat.h", "composite.h", "common.cl", "lanes.cl", "opacity.cl", "behind.cl"}};
+          "kernels/composite/behind.cl"};
 }
 
 int Specialization::pixels_behind() const {
@@ -384,13 +305,9 @@ ProgramSource Specialization::certify() const {
   const std::string defines =
       define_if(rows_, "LANES_8") + tile_defines() + define_if(kernel_cut_, "KERNEL_CUT");
   if (rows_) {
-    return {defines,
-            {"splat.h", "bin.h", "certify.h", "common.cl", "lanes.cl", "prefetch.cl", "pieces.cl",
-             "words.cl", "entry_lanes.cl", "collected.cl", "collect.cl"}};
+    return {defines, "kernels/certify/collect.cl"};
   }
-  return {defines,
-          {"group.h", "splat.h", "bin.h", "certify.h", "common.cl", "group_sums.cl", "lanes.cl",
-           "entry_lanes.cl", "collected.cl", "collect_groups.cl"}};
+  return {defines, "kernels/certify/collect_groups.cl"};
 }
 
 std::string Specialization::item_defines() const {
@@ -398,23 +315,20 @@ std::string Specialization::item_defines() const {
 }
 
 ProgramSource Specialization::coarse_grids() const {
-  std::vector<std::string> files = {"splat.h", "resolve.h", "common.cl", "prefetch.cl"};
-  if (!rows_) files.push_back("blur.cl");
-  files.push_back("refine.cl");
-  return {define_if(ten_taps_, "TEN_TAPS") + item_defines(), files};
+  return {define_if(ten_taps_, "TEN_TAPS") + item_defines(), "kernels/resolve/refine.cl"};
 }
 
-ProgramSource Specialization::blur_strips() const {
-  return {define_if(rows_of_16_, "LANES_16") + define("LANES_8"),
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "prefetch.cl", "blur_strips.cl"}};
+ProgramSource Specialization::blur() const {
+  if (!rows_) return {"", "kernels/resolve/blur.cl"};
+  return {define_if(rows_of_16_, "LANES_16") + define("LANES_8"), "kernels/resolve/blur_strips.cl"};
 }
 
 ProgramSource Specialization::clear() {
-  return {"", {"clear.h", "clear.cl"}};
+  return {"", "kernels/common/clear.cl"};
 }
 
 ProgramSource Specialization::add_light() {
-  return {"", {"splat.h", "composite.h", "add_light.cl"}};
+  return {"", "kernels/composite/add_light.cl"};
 }
 
 ProgramSource Specialization::resolve() const {
@@ -423,9 +337,7 @@ ProgramSource Specialization::resolve() const {
                               define_if(is_ordered(), "LIGHT_ORDERED") +
                               define_if(light_ == LightPlan::emission, "LIGHT_EMISSION") +
                               define_if(background_image_, "BACKGROUND_IMAGE") + item_defines();
-  return {defines,
-          {"splat.h", "resolve.h", "common.cl", "lanes.cl", "gaussian.cl", "shape.cl", "opacity.cl",
-           "precise.cl", "resolve.cl"}};
+  return {defines, "kernels/resolve/resolve.cl"};
 }
 
 }  // namespace splotchcl

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "device/opencl/device_traits.h"
 #include "device/opencl/program_cache.h"
@@ -88,7 +87,7 @@ class Specialization {
   static ProgramSource carry();
   static ProgramSource scan();
   ProgramSource coarse_grids() const;
-  ProgramSource blur_strips() const;
+  ProgramSource blur() const;
   static ProgramSource add_light();
   static ProgramSource clear();
 
@@ -97,10 +96,8 @@ class Specialization {
   bool finds_tiles(ProjectOutput output) const;
   std::string splat_defines() const;
   std::string wide_angle_defines() const;
-  std::vector<std::string> view_files() const;
-  std::vector<std::string> project_files(ProjectOutput output) const;
-  std::vector<std::string> composite_files() const;  // of single precision
-  std::vector<std::string> join_files() const;
+  std::string composite_file() const;  // of single precision
+  std::string join_file() const;
   std::string tile_size_defines() const;
   std::string tile_defines() const;
   std::string slab_defines() const;

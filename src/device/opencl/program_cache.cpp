@@ -26,7 +26,7 @@ std::string key_of(const compute::device& device, const ProgramText& text) {
 
 // All that its text is made of.
 std::string key_of(const ProgramSource& source) {
-  return names_of(source) + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
+  return source.file + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
          source.more;
 }
 
@@ -87,7 +87,7 @@ ProgramCache::Entry ProgramCache::entry_of(const ProgramSource& source) const {
   Entry entry;
   entry.text = is_short ? short_text_of(source, device) : text_of(source, device);
   entry.key = key_of(device, entry.text);
-  entry.names = names_of(source);
+  entry.name = source.file;
   if (is_short) entry.fallback = text_of(source, device);
   return entry;
 }
@@ -132,10 +132,10 @@ bool ProgramCache::restore(Entry& entry) {
 void ProgramCache::build(Entry& entry) {
   has_built_ = true;
   try {
-    entry.compiled = build_program(context_, entry.text, entry.names);
+    entry.compiled = build_program(context_, entry.text, entry.name);
   } catch (const DeviceError&) {
     if (!entry.fallback) throw;
-    entry.compiled = build_program(context_, *entry.fallback, entry.names);
+    entry.compiled = build_program(context_, *entry.fallback, entry.name);
   }
   binaries_.keep(entry.key, binary_of(*entry.compiled));
 }

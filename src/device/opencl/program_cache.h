@@ -27,7 +27,7 @@ class Program {
  private:
   friend class ProgramCache;
   struct Entry {
-    std::string key, names;
+    std::string key, name;
     ProgramText text;
     std::optional<ProgramText> fallback;  // where the compiler does not take the text
     std::optional<std::string> binary;    // that an earlier run has compiled

@@ -1,17 +1,9 @@
 #include "device/opencl/program_text.h"
 
-#include "splotchcl/error.h"
-#include "splotchcl_embedded/kernels.h"
+#include "device/opencl/kernel_text.h"
 
 namespace splotchcl {
 namespace {
-
-std::string kernel_text(const std::string& name) {
-  for (const embedded::TextFile& file : embedded::kernels()) {
-    if (name == file.name) return std::string(file.text);
-  }
-  throw DeviceError("kernel source " + name + " is not part of this build");
-}
 
 // Relaxed math is unfit for keys and for expm1.
 constexpr char zero_denormals[] = "-cl-denorms-are-zero";
@@ -26,6 +18,10 @@ constexpr char with_bodies[] = "-DCALLS_BODIES";
 // What compilers for processors cannot inline (wide_angle_extended.cl).
 constexpr char with_calls[] = "-DCALLS_TURN";
 
+std::string include_of(const std::string& file) {
+  return "#include \"" + file + "\"\n";
+}
+
 std::string joined(const std::string& a, const std::string& b) {
   return a + (a.empty() || b.empty() ? "" : " ") + b;
 }
@@ -39,16 +35,15 @@ std::string extras_of(const compute::device& device) {
 }  // namespace
 
 ProgramText text_of(const ProgramSource& source, const compute::device& device) {
-  std::string text = source.defines;
-  for (const std::string& file : source.files)
-    text += kernel_text(file);
+  const std::string file = source.file.empty() ? "" : include_of(source.file);
   return {joined(source.denormals_are_zero ? zero_denormals : "", extras_of(device)),
-          text + source.more};
+          source.defines + flattened(file + source.more)};
 }
 
 ProgramText short_text_of(const ProgramSource& source, const compute::device& device) {
   const ProgramText text = text_of(source, device);
-  return {joined(without_declarations, text.options), kernel_text("builtins.h") + text.source};
+  return {joined(without_declarations, text.options),
+          flattened(include_of("kernels/common/builtins.h")) + text.source};
 }
 
 bool is_pocl(const compute::device& device) {
@@ -61,13 +56,6 @@ bool is_pocl_processor(const compute::device& device) {
 
 bool is_nvidia(const compute::device& device) {
   return device.platform().name() == "NVIDIA CUDA";
-}
-
-std::string names_of(const ProgramSource& source) {
-  std::string names;
-  for (const std::string& file : source.files)
-    names += (names.empty() ? "" : " + ") + file;
-  return names;
 }
 
 }  // namespace splotchcl

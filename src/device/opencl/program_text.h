@@ -1,18 +1,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "device/opencl/opencl.h"
 
 namespace splotchcl {
 
-// What a program is made of: lines of #defines, then files in kernels/ in their order, and
-// source that is no file (tests). Sources are put together rather than included, so that
-// every cache sees every change.
+// What a program is made of: lines of #defines, a file in kernels/, and source that is no file
+// (tests); with all that both include (kernel_text.h).
 struct ProgramSource {
   std::string defines;
-  std::vector<std::string> files;
+  std::string file = {};
   std::string more = {};
   // What is smaller than 1.2e-38 may be taken as 0. Some processors take a hundred times as long
   // for an operation on such a number as for another one.
@@ -35,8 +33,5 @@ ProgramText short_text_of(const ProgramSource& source, const compute::device& de
 bool is_pocl(const compute::device& device);
 bool is_pocl_processor(const compute::device& device);
 bool is_nvidia(const compute::device& device);  // its own driver
-
-// Its files, for messages.
-std::string names_of(const ProgramSource& source);
 
 }  // namespace splotchcl

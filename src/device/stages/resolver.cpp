@@ -82,8 +82,8 @@ Resolver::Resolver(const StageContext& context)
     parameters_.circle_diameter = std::min(frame.width, frame.height);
   if (context.layout.grids.size() > 1) {
     grids_program_ = context.device.programs.get(context.specialization.coarse_grids());
-    if (context.device.traits.rows && context.plan.pyramid.is_blurred())
-      blur_program_ = context.device.programs.get(context.specialization.blur_strips());
+    if (context.plan.pyramid.is_blurred())
+      blur_program_ = context.device.programs.get(context.specialization.blur());
   }
   if (context.plan.slabs > 0)
     slab_program_ = context.device.programs.get(context.specialization.lay_slab());
@@ -221,13 +221,13 @@ void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
   const std::size_t plane_count = context_.specialization.planes();
-  Launch(context_.device, "resolve", grids_program_.create_kernel("blur_columns"))
+  Launch(context_.device, "resolve", blur_program_.create_kernel("blur_columns"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)
       .arg(columns)
       .run_grid(width_strips, source_height, plane_count);
-  Launch(context_.device, "resolve", grids_program_.create_kernel("blur_rows"))
+  Launch(context_.device, "resolve", blur_program_.create_kernel("blur_rows"))
       .value(parameters)
       .arg(context_.grids)
       .arg(*target.memory)
