@@ -67,8 +67,11 @@ LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double 
     criteria.protected_radius = nucleus_fraction * std::min(picture.width, picture.height);
     pixels_of_stars_ = remove_foreground_stars(picture_, criteria);
   }
-  radius_ = settings.radius_pixels ? *settings.radius_pixels / file_pixels * plane_.pixel_size()
-                                   : whole_radius(picture_, plane_);
+  // Beyond the picture there is no light, however far a galaxy is said to reach.
+  radius_ = whole_radius(picture_, plane_);
+  if (settings.radius_pixels) {
+    radius_ = std::min(radius_, *settings.radius_pixels / file_pixels * plane_.pixel_size());
+  }
   fade(settings);
   take_dust_away(settings);
   center_color_ = mean_light_within(std::max(settings.bulge_radius_kpc, plane_.pixel_size()));

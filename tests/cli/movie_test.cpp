@@ -307,6 +307,15 @@ TEST_F(Movie, TellsWhatToInstallWithoutFfmpeg) {
   EXPECT_THAT(result.err, HasSubstr("apt-get install ffmpeg"));
 }
 
+TEST_F(Movie, IsNotBegunWithoutAFolderForTemporaryFiles) {
+  const ProgramResult result =
+      run_in(folder_, "TMPDIR=/nonexistent \"$splotchcl\" movie film.toml -o film.mp4");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(is_one_line(result.err));
+  EXPECT_THAT(result.err, HasSubstr("TMPDIR"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4.frames"));
+}
+
 // One line, exit code 2, and nothing drawn.
 TEST_F(Movie, RefusesWhatCannotBeDrawn) {
   write("empty.txt", "");

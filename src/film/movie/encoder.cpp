@@ -155,6 +155,7 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
                     ": films are made by ffmpeg, which is not installed (on Debian: apt-get "
                     "install ffmpeg); numbered images such as -o frame_%04d.png need none");
   }
+  const ScratchText needed;  // by the encoder, when all frames have been drawn
   if (settings.bits == 10) check_ten_bits(path, codec_of(path, settings));
 }
 
