@@ -8,6 +8,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <array>
 #include <csignal>
 #include <deque>
 #include <list>
@@ -32,6 +33,9 @@ constexpr std::chrono::seconds request_timeout{30};
 // Of a connection that has not shown the token yet.
 constexpr std::chrono::seconds stranger_timeout{5};
 constexpr std::size_t most_strangers = 16;
+// Of a connection that has had its last answer, until the other side closes it, too.
+constexpr std::chrono::seconds closing_timeout{10};
+constexpr int most_closing = 128;
 constexpr std::uint32_t longest_request_header = 16 * 1024;
 constexpr int most_connections = 64;
 constexpr std::chrono::milliseconds pause_after_failure{100};
@@ -55,6 +59,7 @@ struct Shared {
   DrawLoop& pages;
   int connections = 0;                     // that have shown the token
   std::list<HttpConnection*> strangers{};  // that have not; the oldest first
+  int closing = 0;
 };
 
 // Counted from when it has shown the token to when it is closed.
@@ -172,6 +177,44 @@ void set_policies(Response& response, std::string_view host) {
   response.set("Cross-Origin-Resource-Policy", "same-origin");
 }
 
+// Closes a connection without a reset, with which the other side would lose the last answer if it
+// has sent more meanwhile: nothing is sent any more, and what comes is dropped.
+class ClosingConnection : public std::enable_shared_from_this<ClosingConnection> {
+ public:
+  ClosingConnection(Tcp::socket socket, Shared& shared)
+      : socket_(std::move(socket)), timer_(socket_.get_executor()), shared_(shared) {
+    ++shared_.closing;
+  }
+  ~ClosingConnection() { --shared_.closing; }
+  ClosingConnection(const ClosingConnection&) = delete;
+  ClosingConnection& operator=(const ClosingConnection&) = delete;
+
+  void start() {
+    beast::error_code ignored;
+    socket_.shutdown(Tcp::socket::shutdown_send, ignored);
+    timer_.expires_after(closing_timeout);
+    timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+      beast::error_code closing;
+      if (!error) self->socket_.close(closing);
+    });
+    drop();
+  }
+
+ private:
+  void drop() {
+    socket_.async_read_some(net::buffer(dropped_),
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              if (!error) return self->drop();
+                              self->timer_.cancel();
+                            });
+  }
+
+  Tcp::socket socket_;
+  net::steady_timer timer_;
+  Shared& shared_;
+  std::array<char, 4096> dropped_{};
+};
+
 // A connection that asks for files, until it becomes a socket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
@@ -194,10 +237,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                      });
   }
 
-  // For another one that comes.
+  // After its last answer, or for another one that comes.
   void give_up_place() {
     is_stranger_no_more();
-    stream_.close();
+    if (shared_.closing >= most_closing) return stream_.close();
+    std::make_shared<ClosingConnection>(stream_.release_socket(), shared_)->start();
   }
 
  private:
