@@ -223,6 +223,9 @@ int run_render(const RenderOptions& options, Console& console) {
     opened.emplace(open_checked(options, output, ranks, console));
   });
   const SceneWithSnapshot& source = *opened;
+  if (ranks) {
+    require_same_files(*ranks, files_read(options.scene, source.scene, *source.snapshot));
+  }
   if (output && ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {
     const Stopwatch reading;

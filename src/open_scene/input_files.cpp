@@ -1,6 +1,10 @@
 #include "open_scene/input_files.h"
 
+#include <fmt/format.h>
+
+#include "common/file_identity.h"
 #include "finish/finish_picture.h"
+#include "ranks/agreement.h"
 #include "scene_file/file_names.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/snapshot_list.h"
@@ -90,6 +94,17 @@ std::set<std::filesystem::path> files_read(const std::filesystem::path& file, co
   if (scene.time.is_set()) inputs.add_snapshots(scene);
   inputs.add_named_files(scene);
   return inputs.all();
+}
+
+void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files) {
+  const std::string advice = "give all processes the same files";
+  require_same(ranks, "a number of files to read of", std::to_string(files.size()), advice);
+  for (const std::filesystem::path& file : files) {
+    const std::optional<FileIdentity> found = file_identity(file);
+    const std::string content =
+        found ? fmt::format("{} bytes (mark {:016x})", found->bytes, content_mark(file)) : "none";
+    require_same(ranks, "in " + file.string(), content, advice);
+  }
 }
 
 }  // namespace splotchcl

@@ -10,6 +10,7 @@
 
 namespace splotchcl {
 
+class Communicator;
 class Snapshot;
 
 // The files that drawing scenes reads: snapshots, palettes, lists, pictures, fonts, paths, and all
@@ -45,5 +46,10 @@ class InputFiles {
 // snapshot that is open.
 std::set<std::filesystem::path> files_read(const std::filesystem::path& file, const Scene& scene,
                                            const Snapshot& snapshot);
+
+// Collective, before anything is drawn. Throws DeviceError on all ranks where they have not as many
+// files, or one of these that holds something else: hosts may have disks of their own. Of large
+// files stretches are compared.
+void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files);
 
 }  // namespace splotchcl

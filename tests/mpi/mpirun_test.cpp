@@ -118,6 +118,27 @@ TEST_P(MpiRun, NamesTheProcessForWhichASnapshotIsMissing) {
   EXPECT_THAT(own_line(result.err), HasSubstr("process 1 on "));
 }
 
+// Each host has a disk of its own, and one an older snapshot.
+TEST_P(MpiRun, RefusesSnapshotsOfOneNameThatDiffer) {
+  ASSERT_EQ(run("\"$splotchcl\" generate universe -o v --particles 30000 --seed 7").exit_code, 0);
+  write("scene.toml", small_scenes()[0].text);
+  write("in_its_folder",
+        "#!/bin/sh\nrank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}\nmkdir -p $rank; cd $rank\n"
+        "ln -sf ../scene.toml .\n[ $rank = 1 ] && ln -sf ../v u || ln -sf ../u .\n"
+        "exec \"$splotchcl\" $@\n");
+  run("chmod +x in_its_folder");
+  for (const char* const command :
+       {"render scene.toml -o ../a.png",
+        "movie scene.toml --set movie.frames=2 --set path.orbit.degrees=90 -o ../f_%04d.png"}) {
+    const ProgramResult result = run(mpirun(2) + "./in_its_folder " + command);
+    EXPECT_NE(result.exit_code, 0) << command;
+    EXPECT_NE(result.exit_code, 124) << "it had to be stopped";
+    EXPECT_THAT(own_line(result.err), HasSubstr("give all processes the same files")) << command;
+    EXPECT_FALSE(std::filesystem::exists(*folder_ / "a.png"));
+    EXPECT_FALSE(std::filesystem::exists(*folder_ / "f_0000.png"));
+  }
+}
+
 TEST_P(MpiRun, EndsWhereThePictureCannotBeWritten) {
   write("scene.toml", small_scenes()[0].text);
   const ProgramResult result = run("ln -s /dev/full full.png; " + mpirun(2) +

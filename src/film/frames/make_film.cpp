@@ -101,7 +101,10 @@ class Film {
                   scene_.path().frame_count());
       if (!options_.only_join) frames = missing(part_);
     });
-    if (options_.ranks) broadcast_values(*options_.ranks, frames);
+    if (options_.ranks) {
+      require_same_files(*options_.ranks, film_inputs(scene_.scene(), scene_.path()).with_sets());
+      broadcast_values(*options_.ranks, frames);
+    }
     draw(frames);
     FilmResult made = result(FilmState::part_is_drawn);
     agree(options_.ranks.get(), [&] {
