@@ -237,7 +237,7 @@ TEST_F(Movie, RefusesToMixFramesOfTwoFilms) {
   EXPECT_TRUE(is_one_line(other.err));
   EXPECT_THAT(other.err, HasSubstr("film.mp4.frames/movie.txt: found frames of another film"));
   std::filesystem::last_write_time(folder_ / "halo.gadget", {});
-  EXPECT_THAT(movie("-o film.mp4").err, ContainsRegex(" bytes, of 2[0-9]+-.*:.* UTC"));
+  EXPECT_THAT(movie("-o film.mp4").err, ContainsRegex(" bytes, written 2[0-9]+-.*:.* UTC"));
   EXPECT_THAT(other.err, HasSubstr("brightness = 1"));
 }
 
