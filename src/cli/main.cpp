@@ -102,8 +102,8 @@ int main(int argc, char** argv) {
   splotchcl::guard_crashes();
   splotchcl::let_errors_be_quiet();
   have_kernels_compiled_once();
-  splotchcl::give_pocl_a_cache();
   try {
+    splotchcl::give_pocl_a_cache();
     leave(run(argc, argv));
   } catch (...) {
     // Not even a message has found memory.
