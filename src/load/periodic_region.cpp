@@ -18,8 +18,9 @@ namespace {
 constexpr double rounding = 1e-6;
 
 // Extents of every `stride`-th particle.
-PositionExtent look_at_positions(const Column& position, const Vec3& origin,
-                                 const ParticlePass& pass, std::size_t stride) {
+PositionExtent look_at_positions(const Snapshot& snapshot, int type, std::size_t stride) {
+  const Column position = snapshot.read(type, "position");
+  const Vec3 origin = snapshot.position_origin();
   const auto look = [&](const ParticleRun& run, std::vector<PositionExtent>& found) {
     PositionExtent extent;
     const auto take = [&](const float x, const float y, const float z) {
@@ -44,7 +45,7 @@ PositionExtent look_at_positions(const Column& position, const Vec3& origin,
     found.push_back(extent);
   };
   PositionExtent all;
-  for (const PositionExtent& extent : pass.collect<PositionExtent>(look))
+  for (const PositionExtent& extent : pass_over(snapshot, type).collect<PositionExtent>(look))
     all.take(extent);
   if (all.is_empty()) return all;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -57,8 +58,7 @@ PositionExtent look_at_positions(const Column& position, const Vec3& origin,
 PositionExtent sampled_extent(const Snapshot& snapshot, const ParticleTypeInfo& type) {
   constexpr std::size_t most_looked_at = 200000;
   const std::size_t stride = sample_stride(static_cast<std::size_t>(type.count), most_looked_at);
-  return look_at_positions(snapshot.read(type.type, "position"), snapshot.position_origin(),
-                           pass_over(snapshot, type.type), stride);
+  return look_at_positions(snapshot, type.type, stride);
 }
 
 }  // namespace
@@ -77,15 +77,9 @@ void PositionExtent::take(const PositionExtent& other) {
   particles += other.particles;
 }
 
-PositionExtent extent_of(const Column& position, const Vec3& origin, const ParticlePass& pass) {
-  return look_at_positions(position, origin, pass, 1);
-}
-
 PositionExtent extent_of_type(const Snapshot& snapshot, int type) {
-  return snapshot.memory().get<PositionExtent>(fmt::format("extent of type {}", type), [&] {
-    return extent_of(snapshot.read(type, "position"), snapshot.position_origin(),
-                     pass_over(snapshot, type));
-  });
+  return snapshot.memory().get<PositionExtent>(
+      fmt::format("extent of type {}", type), [&] { return look_at_positions(snapshot, type, 1); });
 }
 
 bool lies_in_one_period(const PositionExtent& extent, const BoxSides& box) {

@@ -26,8 +26,6 @@ struct PositionExtent {
   void take(const PositionExtent& other);
 };
 
-// Of finite positions relative to `origin`.
-PositionExtent extent_of(const Column& position, const Vec3& origin, const ParticlePass& pass);
 // Of all particles of a type. Found once for a snapshot.
 PositionExtent extent_of_type(const Snapshot& snapshot, int type);
 

@@ -239,19 +239,17 @@ Column TypeFields::find_lengths() const {
   const Column position = positions();
   if (const auto spread = snapshot_->spread()) {
     return find_spread_sizes(*spread, type_->type, position,
-                             snapshot_->place_in_file(type_->type, 0), sizes_,
-                             periodic_box(position));
+                             snapshot_->place_in_file(type_->type, 0), sizes_, periodic_box());
   }
-  return find_sizes_by_neighbors(*snapshot_, type_->type, position, periodic_box(position), sizes_,
+  return find_sizes_by_neighbors(*snapshot_, type_->type, position, periodic_box(), sizes_,
                                  [this](const std::string& text) { say(text); });
 }
 
 // The box of the header, unless particles lie outside of one period of it.
-std::optional<BoxSides> TypeFields::periodic_box(const Column& position) const {
+std::optional<BoxSides> TypeFields::periodic_box() const {
   const std::optional<BoxSides>& box = snapshot_->info().box_size;
   if (!box) return std::nullopt;
-  const PositionExtent extent =
-      extent_of(position, snapshot_->position_origin(), pass_over(*snapshot_, type_->type));
+  const PositionExtent extent = extent_of_type(*snapshot_, type_->type);
   if (lies_in_one_period(extent, *box)) return box;
   say(tell_box_is_not_used(*box, extent));
   return std::nullopt;

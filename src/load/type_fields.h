@@ -56,7 +56,7 @@ class TypeFields {
   std::optional<Column> lengths_from_volumes(std::string& reason) const;
   std::optional<double> unit_of_densities() const;
   std::optional<double> unit_of_volumes() const;
-  std::optional<BoxSides> periodic_box(const Column& position) const;
+  std::optional<BoxSides> periodic_box() const;
   bool streams() const;
   void say(const std::string& text) const;
   [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;

@@ -58,6 +58,10 @@ inline Gas random_gas(int count, double half_side, float least_h, float most_h, 
   return gas;
 }
 
+inline double sum(const Map& map) {
+  return std::accumulate(map.values.begin(), map.values.end(), 0.0);
+}
+
 inline Gas one_particle(const Vec3& place, float size = 0.5F, float mass = 1) {
   Gas gas;
   gas.add(place, size, mass, 100);

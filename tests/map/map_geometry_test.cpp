@@ -16,6 +16,7 @@ using test::Gas;
 using test::map_of;
 using test::map_scene;
 using test::one_particle;
+using test::sum;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -24,10 +25,6 @@ std::pair<int, int> brightest(const Map& map) {
   const auto most = std::max_element(map.values.begin(), map.values.end());
   const int i = static_cast<int>(most - map.values.begin());
   return {i % map.width, i / map.width};
-}
-
-double sum(const Map& map) {
-  return std::accumulate(map.values.begin(), map.values.end(), 0.0);
 }
 
 TEST(MapGeometry, ShowsXToTheRightAndYUpwards) {

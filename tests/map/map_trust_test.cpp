@@ -19,13 +19,10 @@ using test::map_of;
 using test::map_scene;
 using test::MemorySnapshot;
 using test::one_particle;
+using test::sum;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-double sum_of_values(const Map& map) {
-  return std::accumulate(map.values.begin(), map.values.end(), 0.0);
-}
 
 // Of 64 particles in a row, all of one smoothing length, as suggestions have it for even gas.
 MemorySnapshot even_gas() {
@@ -160,7 +157,7 @@ TEST(MapTrust, OtherTypesOfParticlesContradictABoxToo) {
   snapshot.add(4, "mass", stars.mass);
   const double mass = std::accumulate(stars.mass.begin(), stars.mass.end(), 0.0);
   snapshot.set_box_size(1);
-  EXPECT_NEAR(sum_of_values(map_of(scene, snapshot)) / mass, 1, 1e-5);
+  EXPECT_NEAR(sum(map_of(scene, snapshot)) / mass, 1, 1e-5);
 }
 
 TEST(MapTrust, ABoxThatTheUserNamesIsUsed) {
@@ -172,11 +169,11 @@ TEST(MapTrust, ABoxThatTheUserNamesIsUsed) {
   MemorySnapshot snapshot = gas.snapshot();
   snapshot.set_box_size(32);
   std::vector<std::string> notes;
-  EXPECT_NEAR(sum_of_values(map_of(scene, snapshot, &notes)) / mass, 4, 1e-5);
+  EXPECT_NEAR(sum(map_of(scene, snapshot, &notes)) / mass, 4, 1e-5);
   EXPECT_THAT(notes, Each(Not(HasSubstr("is not used"))));
   scene.map.periodic.reset();
   scene.periodic.box = 32;
-  EXPECT_NEAR(sum_of_values(map_of(scene, gas.snapshot())) / mass, 4, 1e-5);
+  EXPECT_NEAR(sum(map_of(scene, gas.snapshot())) / mass, 4, 1e-5);
 }
 
 // Single precision has rounded the far face's neighbors onto it.
@@ -189,7 +186,7 @@ TEST(MapTrust, ABoxWithParticlesOnBothFacesIsPeriodic) {
   Scene scene = map_scene();
   scene.image.height = 64;
   scene.map.center = Vec3{{32, 32, 32}};
-  EXPECT_NEAR(sum_of_values(map_of(scene, snapshot)), 3, 1e-5);
+  EXPECT_NEAR(sum(map_of(scene, snapshot)), 3, 1e-5);
 }
 
 TEST(MapTrust, ABoxOfThreeSidesIsPeriodicAlongEach) {
@@ -207,14 +204,14 @@ TEST(MapTrust, ABoxOfThreeSidesIsPeriodicAlongEach) {
   EXPECT_NEAR(map.pixel, 0.5, 1e-12);
   EXPECT_EQ(map.center.a[0], 16);
   EXPECT_EQ(map.center.a[1], 2);
-  EXPECT_NEAR(sum_of_values(map) * map.pixel * map.pixel, 128, 1e-3);
+  EXPECT_NEAR(sum(map) * map.pixel * map.pixel, 128, 1e-3);
   // Every line of sight shows the same, the faces' neighbors too.
   for (const float value : map.values)
     EXPECT_NEAR(value, 1, 0.1);
   scene.map.view = MapView::xz;
   scene.image.height = 2;
   const Map from_the_side = map_of(scene, snapshot);
-  EXPECT_NEAR(sum_of_values(from_the_side) * from_the_side.pixel * from_the_side.pixel, 128, 1e-3);
+  EXPECT_NEAR(sum(from_the_side) * from_the_side.pixel * from_the_side.pixel, 128, 1e-3);
 }
 
 TEST(MapTrust, APartCutOutOfABoxFillsItsMap) {
