@@ -84,9 +84,8 @@ constexpr std::size_t refinement_taps = 16;
 struct RefinementFilter {
   std::array<double, refinement_taps> weights = {0, 0, 0, 0, 0, 0, 0, 1};
   double smallest_sigma = 0;  // narrowest splat, in old pixels, that it carries
-  bool has_ten_taps = false;  // all weights but the ten in the middle are 0
   // Old pixels on either side of the one under a new pixel that it is made from.
-  constexpr int reach() const { return has_ten_taps ? 5 : static_cast<int>(refinement_taps) / 2; }
+  static constexpr int reach() { return static_cast<int>(refinement_taps) / 2; }
 };
 
 // Weights that become a round Gaussian of peak 1 when the grid is blurred, the same along either
@@ -200,15 +199,9 @@ struct FramePlan {
   double light_behind = 1;
   // Ordered: the part of all particles that is expected to be drawn. Only memory depends on it.
   double visible_part = 0;
-  // Ordered: sort keys of 48 bits, ascending, of some particles that are expected to be drawn. They
-  // may be off by some bits; how splats lie in memory and how fast they are sorted depend on them,
-  // not their order.
-  std::vector<std::uint64_t> sampled_keys;
   SplatLimits splats;
-  double mean_error = 0;   // of pixel means by erf, as a part of a peak for each sigma
-  double shape_error = 0;  // of values at pixel centers by exp, as a part of themselves
-  // Kernels that are cut take a shorter polynomial for exp.
-  bool has_short_exponential = false;
+  double mean_error = 0;       // of pixel means by erf, as a part of a peak for each sigma
+  double shape_error = 0;      // of values at pixel centers by exp, as a part of themselves
   double grid_peak_error = 0;  // of splats on coarse grids, as a part of their peak
   PlaceLimits places;
   WideSplats wide_splats;  // guessed of sums

@@ -40,26 +40,9 @@ OVERLOADED static inline VALUE exp2_negative(VALUE t) {
   return times_power_of_two(exp2_of_fraction(t - (shifted - TO_LOW_BITS)), shifted);
 }
 
-// Along an axis of a splat. Where kernels are cut within 1.82 sigma, t is -4.8 at least: no whole
-// part has to be taken off, relative error 2.82e-5 and roundings. What lies farther out is not
-// drawn.
-#ifdef SHORT_EXPONENTIAL
-OVERLOADED static inline VALUE exp2_of_shape(VALUE t) {
-  t = max(t, (VALUE)(-4.8f));
-  VALUE root = t * 1.76936424e-5f + 4.82719953e-4f;
-  root = root * t + 6.64023892e-3f;
-  root = root * t + 5.96966555e-2f;
-  root = root * t + 0.346404457f;
-  root = root * t + 0.999985928f;
-  return root * root;
-}
-#else
-#define exp2_of_shape exp2_negative
-#endif
-
 // exp(-d^2 / sigma^2) with inverse = log2(e) / sigma^2.
 OVERLOADED static inline VALUE gaussian(VALUE d, float inverse) {
-  return exp2_of_shape(d * d * -inverse);
+  return exp2_negative(d * d * -inverse);
 }
 
 // erf as x p(x^2), constant beyond its range: absolute error 2.3e-6, its even and its odd powers

@@ -81,7 +81,7 @@ INLINED void add_dot(float* tile, const NarrowDiscs* discs, int i,
   float* pixel = first_pixel_of_disc(tile, discs, i);
   const float8 first = (float8)((float4)(discs->across[i]), (float4)(discs->along[i]));
   const float8 distance = first + (float8)(0, 1, 2, 3, 0, 1, 2, 3), square = distance * distance;
-  const float8 shapes = exp2_of_shape(square * discs->factor[i]);
+  const float8 shapes = exp2_negative(square * discs->factor[i]);
   float along[DOT], limits[DOT];
   vstore4(shapes.hi, 0, along);
   vstore4(discs->cut2[i] - square.hi, 0, limits);
@@ -96,7 +96,7 @@ INLINED void add_dot(float* tile, const NarrowDiscs* discs, int i,
 INLINED void add_eight_columns(float* pixel, float first, float factor, const DiscRows* of_disc,
                                int rows, __global const TileSplat* splat) {
   const float8 distance = first + (float8)(0, 1, 2, 3, 4, 5, 6, 7), squares = distance * distance;
-  const float8 across = exp2_of_shape(squares * factor);
+  const float8 across = exp2_negative(squares * factor);
   SUMMED_CHANNELS
   for (int k = 0; k < rows; ++k, pixel += ROW) {
     const float8 shape =
@@ -108,7 +108,7 @@ INLINED void add_eight_columns(float* pixel, float first, float factor, const Di
 #ifdef ROWS_OF_16
 INLINED void fill_rows_of_disc(float first, float factor, float cut2, int rows, DiscRows* of_disc) {
   const float16 distance = first + PATCH_LANES, square = distance * distance;
-  store_patch(exp2_of_shape(square * factor), of_disc->along);
+  store_patch(exp2_negative(square * factor), of_disc->along);
   store_patch(cut2 - square, of_disc->limits);
 }
 
@@ -121,7 +121,7 @@ INLINED void fill_rows_of_disc(float first, float factor, float cut2, int rows, 
 INLINED void add_sixteen_columns(float* pixel, float first, float factor, const DiscRows* of_disc,
                                  int rows, __global const TileSplat* splat) {
   const float16 distance = first + PATCH_LANES, squares = distance * distance;
-  const float16 across = exp2_of_shape(squares * factor);
+  const float16 across = exp2_negative(squares * factor);
   LIGHT_OF(float16);
   for (int k = 0; k < rows; ++k, pixel += ROW) {
     const float16 along = of_disc->along[k];
@@ -136,7 +136,7 @@ INLINED void fill_rows_of_disc(float first, float factor, float cut2, int rows, 
   for (int k = 0; k < 16; k += 8) {
     if (k >= rows) break;
     const float8 distance = first + (ramp + (float)k), square = distance * distance;
-    store_eight(exp2_of_shape(square * factor), of_disc->along + k);
+    store_eight(exp2_negative(square * factor), of_disc->along + k);
     store_eight(cut2 - square, of_disc->limits + k);
   }
 }

@@ -53,7 +53,7 @@ typedef struct PatchValues {
 
 // The shape of splat k along an axis, at these pixels of the tile, `d` from its center.
 INLINED PATCH center_values_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
-  return WITHIN_SQUARE(exp2_of_shape(d * d * axis->factor[k]), pixels, axis, k);
+  return WITHIN_SQUARE(exp2_negative(d * d * axis->factor[k]), pixels, axis, k);
 }
 INLINED PATCH means_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
   const float factor = axis->factor[k];

@@ -44,9 +44,6 @@ struct ExtendedFieldScaling {
 // Sort keys are counted by 16 of their bits.
 #define KEY_BINS 65536
 
-// The upper 32 bits of sort keys are told apart by so many bins where splats are put in parts.
-#define KEY_PART_BINS 4096
-
 // An integer of 64 bits.
 struct WideInteger {
   unsigned int low, high;
@@ -175,15 +172,6 @@ struct BlockCounts {
   unsigned int around;     // the camera: those are not drawn as splats
 };
 
-// Blocks of splats that are put in order of the parts of their keys (key_parts.cl).
-struct KeyPartParameters {
-  unsigned int first_block, block_count;  // of the launch, in counts
-  unsigned int stride;                    // slots of a block
-  unsigned int part_count;
-  unsigned int first_key, shift;  // bin (key - first_key) >> shift, or the first or last one
-  unsigned int has_ends;
-};
-
 // The bins of the keys of one block's splats; least > most where it has none.
 struct KeyBins {
   unsigned int least, most;
@@ -228,7 +216,6 @@ typedef struct ProjectParameters ProjectParameters;
 typedef struct BlockBox BlockBox;
 typedef struct BlockCounts BlockCounts;
 typedef struct KeyBins KeyBins;
-typedef struct KeyPartParameters KeyPartParameters;
 typedef struct ExtendedParameters ExtendedParameters;
 #endif
 

@@ -5,13 +5,6 @@
 #include "kernels/common/splat.h"
 #include "kernels/resolve/resolve.h"
 
-// Pixels on either side that one is made from; weights beyond them are 0.
-#ifdef TEN_TAPS
-#define PIXELS_BESIDE REACH_OF_TEN_TAPS
-#else
-#define PIXELS_BESIDE REFINEMENT_REACH
-#endif
-
 // Grids have even guards, so a finer pixel is left of its coarse pixel's center where its index is
 // even. Every pixel that is looked at is in memory (picture_layout.h).
 
@@ -29,10 +22,10 @@ static inline size_t temporary_columns(const GridPart part) {
   return ((size_t)(part.right_end - first_column(part)) + 15) & ~(size_t)15;
 }
 static inline int first_coarse_row(const GridPart part, Grid fine, Grid coarse) {
-  return coarse_place(part.top, fine, coarse) - PIXELS_BESIDE;
+  return coarse_place(part.top, fine, coarse) - REFINEMENT_REACH;
 }
 static inline int coarse_rows(const GridPart part, Grid fine, Grid coarse) {
-  const int last = coarse_place(part.bottom - 1, fine, coarse) + PIXELS_BESIDE;
+  const int last = coarse_place(part.bottom - 1, fine, coarse) + REFINEMENT_REACH;
   return last + 1 - first_coarse_row(part, fine, coarse);
 }
 
@@ -46,10 +39,10 @@ typedef struct Pair {
 INLINED Pair between(__global const float* center, size_t stride, const float* weights) {
   Pair pair = {(float8)(0.0f), (float8)(0.0f)};
 #pragma unroll
-  for (int k = -PIXELS_BESIDE; k <= PIXELS_BESIDE; ++k) {
+  for (int k = -REFINEMENT_REACH; k <= REFINEMENT_REACH; ++k) {
     const float8 beside = vload8(0, center + k * (int)stride);
-    if (k < PIXELS_BESIDE) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
-    if (k > -PIXELS_BESIDE) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
+    if (k < REFINEMENT_REACH) pair.even += weights[REFINEMENT_REACH - 1 - k] * beside;
+    if (k > -REFINEMENT_REACH) pair.odd += weights[REFINEMENT_REACH - 1 + k] * beside;
   }
   return pair;
 }
@@ -113,7 +106,7 @@ KERNEL_BODY void refine_along_y(const RefineParameters* refined, __global const 
   const int right_end = min(left + PIXELS_OF_ITEM, p.part.right_end);
   for (int x = left; x < right_end; x += 8) {
     __global const float* column = column_of(temporary, p.part, fine, coarse, c, x, first);
-    ask_for(column + (PIXELS_BESIDE + 1) * stride);
+    ask_for(column + (REFINEMENT_REACH + 1) * stride);
     __global float* below = planes + pixel_at(fine, c, x, first + 2);
     ask_to_write(below);
     ask_to_write(below + fine.stride);

@@ -40,7 +40,6 @@ struct BlurStripsParameters {
 // is made from those up to REFINEMENT_REACH beside the one that it lies on.
 #define REFINEMENT_TAPS 16
 #define REFINEMENT_REACH (REFINEMENT_TAPS / 2)
-#define REACH_OF_TEN_TAPS 5
 struct RefineParameters {
   unsigned int coarse, fine;  // grids
   struct GridPart part;       // of the finer grid, that is wanted

@@ -58,7 +58,7 @@ static inline float largest_of_first(float8 values, int count) {
 static inline void ask_for_pixels(__global float* planes, __global const float* columns,
                                   __global float* before, const RefineParameters p,
                                   const Grid coarse, const Grid fine, int x, int first) {
-  const size_t last_row = PIXELS_BESIDE * temporary_columns(p.part) + PIXELS_AHEAD;
+  const size_t last_row = REFINEMENT_REACH * temporary_columns(p.part) + PIXELS_AHEAD;
   for (uint c = 0; c < 6; ++c) {
     ask_for(column_of(columns, p.part, fine, coarse, c, x, first) + last_row);
     for (int y = max(first, p.part.top); y < min(first + 2, p.part.bottom); ++y) {

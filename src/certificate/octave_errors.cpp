@@ -145,7 +145,7 @@ int peak_spread_of(const PeakCells& cells, const Frame& frame) {
 // Where a splat is drawn, and as far as a coarse grid's filters carry it: what they reach of each
 // grid, whose pixels are half as wide as those of the one before.
 int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
-  const double filter_pixels = 2 * plan.pyramid.refinement.reach();
+  const double filter_pixels = 2 * RefinementFilter::reach();
   const double sigma = std::ldexp(widest_sigma(octave), -cells.level);
   const double reach =
       std::sqrt(least_extent2(plan, octave)) * sigma + (cells.is_on_picture() ? 1 : filter_pixels);
@@ -158,7 +158,7 @@ int peak_reach_of(int octave, const PeakCells& cells, const FramePlan& plan) {
 // pixels nearer.
 std::vector<double> peak_weights_of(int octave, const PeakCells& cells, const Frame& frame,
                                     const FramePlan& plan) {
-  const double filter_pixels = plan.pyramid.refinement.reach();
+  const double filter_pixels = RefinementFilter::reach();
   const int spread = peak_spread_of(cells, frame);
   if (cells.is_on_picture() && plan.precision != Precision::full)
     return std::vector<double>(static_cast<std::size_t>(spread) + 1, 1.0);

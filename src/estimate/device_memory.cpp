@@ -6,7 +6,6 @@
 
 #include "device/frame/cell_layout.h"
 #include "device/frame/chunks.h"
-#include "device/frame/key_parts.h"
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
 #include "device/frame/splat_capacity.h"
@@ -99,19 +98,6 @@ class FrameBuffers {
            segments * sizeof(shared::Segment) + entries() + capacity * pairs;
   }
 
-  // Where splats lie before they are put in parts of their keys.
-  std::uint64_t slots_apart() const {
-    return std::uint64_t{blocks_apart(traits_)} * traits_.project_block;
-  }
-
-  // How many splats of all are sorted at one time, where they lie in parts of their keys; else 0.
-  double sorted_in_parts(double splats) const {
-    const std::optional<KeyParts> parts = choose_key_parts(frame_, plan_, traits_);
-    if (!parts) return 0;
-    const auto part_count = static_cast<double>(parts->parts.size());
-    return splats * std::min(1.0, parts_at_a_time(traits_) / part_count);
-  }
-
   // What levels are blurred and refined to, by turns.
   std::uint64_t collecting_levels() const {
     std::uint64_t largest = 0;
@@ -184,27 +170,13 @@ std::uint64_t bytes_of_drawing(const FrameBuffers& buffers, const DeviceTraits& 
          buffers.slabs();
 }
 
-// Beside the keys of all: of splats before they are put in parts, and while some parts are sorted.
-std::uint64_t bytes_of_parts(const FrameBuffers& buffers, std::uint64_t key_end,
-                             std::uint64_t count, std::uint64_t in_parts) {
-  constexpr std::uint64_t entries = 2 * sizeof(std::uint64_t);
-  const std::uint64_t apart = buffers.slots_apart();
-  return std::max(buffers.splats(apart) + apart * (key + key_end + order),
-                  count * order + in_parts * entries);
-}
-
-// Where they are sorted all at once, keys and order have a second place each, where they are sorted
-// to: of keys on a processor the one that they were projected to.
+// Keys and order have a second place each, where they are sorted to: of keys on a processor the one
+// that they were projected to.
 std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
                              const DeviceTraits& traits, double splats) {
   const auto count = static_cast<std::uint64_t>(std::llround(splats));
-  const std::uint64_t key_end = key_end_of(frame);
   const std::uint64_t slots = buffers.slots(count);
-  const auto in_parts = static_cast<std::uint64_t>(buffers.sorted_in_parts(splats));
-  const std::uint64_t sorting =
-      slots * key_end + (in_parts > 0 ? std::max(slots * key, buffers.entries()) +
-                                            bytes_of_parts(buffers, key_end, count, in_parts)
-                                      : slots * key + count * (key + 2 * order));
+  const std::uint64_t sorting = slots * (key_end_of(frame) + key) + count * (key + 2 * order);
   return buffers.light() + buffers.splats(slots) +
          std::max(sorting, bytes_of_drawing(buffers, traits, count));
 }

@@ -158,20 +158,6 @@ TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
   EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
 }
 
-TEST_P(ShapeFunctions, ShapesOfCutKernelsErrByThePartThatPlansCountOn) {
-  const std::vector<float> x = evenly_spread(-4.8, 0, 1 << 16);
-  const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };
-  const double of_an_axis = 0.5 * error_of_shapes(Precision::fast, true);
-  EXPECT_LE(largest(x, evaluate("exp2_of_shape", "#define SHORT_EXPONENTIAL\n", x), error),
-            of_an_axis);
-}
-
-TEST_P(ShapeFunctions, ShapesOfCutKernelsAreNumbersWhereTheyAreNotDrawn) {
-  const std::vector<float> far = {-4.8F, -5, -1e2F, -1e4F, -1e10F, -1e20F, -1e30F, -3e38F};
-  for (const float value : evaluate("exp2_of_shape", "#define SHORT_EXPONENTIAL\n", far))
-    EXPECT_NEAR(value, std::exp2(-4.8), 1e-5);
-}
-
 TEST_P(ShapeFunctions, LogarithmsErrByARoundingAndTheirPolynomial) {
   const auto beyond_rounding = [](double found, double at) {
     const double exact = std::log2(at);

@@ -63,7 +63,7 @@ std::vector<shared::GridPart> wanted_parts(const Frame& frame, const GridPyramid
   };
   for (std::size_t level = 1; level < pyramid.level_grids.size(); ++level)
     wanted.push_back(coarse_part(wanted.back(), guard_of(level - 1), guard_of(level),
-                                 pyramid.refinement.reach()));
+                                 RefinementFilter::reach()));
   return wanted;
 }
 

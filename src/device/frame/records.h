@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
-#include "device/frame/key_parts.h"
 #include "device/frame/shared.h"
 #include "device/opencl/buffer_pool.h"
 
@@ -44,14 +43,6 @@ struct ParticleCounts {
   std::vector<ChunkBlocks> chunks_around;
 };
 
-// Where splats lie that were put in parts of their keys, block by block of the particles.
-struct SplatParts {
-  // Per block one more than there are parts: where its splats of each part begin, and the last end.
-  Buffer<std::uint32_t> first_slots;
-  std::uint32_t block_count = 0;
-  std::vector<KeyPart> keys;
-};
-
 // All splats of a frame in component and file order, with their sort keys, which have no gaps.
 struct KeyedSplats {
   SplatMemory splats;
@@ -65,8 +56,6 @@ struct KeyedSplats {
   std::vector<std::uint32_t> free_slots;
   std::uint32_t left_out = 0;  // blocks out of view
   ParticleCounts particles;
-  // Of splats in parts: keys lie slot by slot then, and there is no order.
-  std::optional<SplatParts> parts;
 };
 
 // The same, nearest first: splat order[0], order[1], ...

@@ -1,6 +1,5 @@
 #include "device/frame/specialization.h"
 
-#include "device/frame/key_parts.h"
 #include "device/frame/shared.h"
 #include "scene/plan/splat_limits.h"
 #include "surroundings/cloud_around.h"
@@ -44,7 +43,6 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       extended_(plan.is_extended()),
       double_numbers_(traits.double_numbers),
       full_precision_(plan.precision != Precision::fast),
-      short_exponential_(plan.has_short_exponential),
       fine_places_(plan.has_fine_places && !extended_),
       small_blocks_(plan.adds_small_blocks),
       kernel_cut_(frame.kernel.cut.has_value()),
@@ -56,7 +54,6 @@ Specialization::Specialization(const Frame& frame, const FramePlan& plan,
       keeps_transmittance_(plan.layers.keeps_transmittance),
       clouds_around_(has_clouds_around(frame)),
       stencils_(plan.pyramid.has_stencils()),
-      ten_taps_(plan.pyramid.refinement.has_ten_taps),
       background_image_(frame.background_image != nullptr) {
   if (has_rows()) {
     tile_width_ = is_ordered() || extended_ ? 32 : 64;
@@ -176,16 +173,6 @@ ProgramSource Specialization::compact() {
   return {"", "kernels/project/compact.cl"};
 }
 
-ProgramSource Specialization::key_parts() const {
-  return {define("SPLAT_WORDS " + std::to_string(splat_bytes() / sizeof(cl_uint))) +
-              define("MOST_KEY_PARTS " + std::to_string(most_key_parts)),
-          "kernels/project/key_parts.cl"};
-}
-
-ProgramSource Specialization::sort_parts() {
-  return {"", "kernels/sort/sort_parts.cl"};
-}
-
 ProgramSource Specialization::sort() {
   return {"", "kernels/sort/sort.cl"};
 }
@@ -223,7 +210,6 @@ ProgramSource Specialization::bin() const {
 
 ProgramSource Specialization::composite() const {
   std::string defines = tile_defines() + define_if(kernel_cut_, "KERNEL_CUT") +
-                        define_if(short_exponential_, "SHORT_EXPONENTIAL") +
                         define_if(pixel_means_, "SAMPLING_MEAN");
   if (extended_) {
     defines += define("LANES_8") + define_if(double_numbers_, "DOUBLE_NUMBERS");
@@ -275,8 +261,7 @@ ProgramSource Specialization::join_slab() const {
 }
 
 ProgramSource Specialization::lay_slab() const {
-  return {define("LANES_8") + define_if(ten_taps_, "TEN_TAPS") + item_defines(),
-          "kernels/resolve/slab.cl"};
+  return {define("LANES_8") + item_defines(), "kernels/resolve/slab.cl"};
 }
 
 ProgramSource Specialization::list_around() const {
@@ -315,7 +300,7 @@ std::string Specialization::item_defines() const {
 }
 
 ProgramSource Specialization::coarse_grids() const {
-  return {define_if(ten_taps_, "TEN_TAPS") + item_defines(), "kernels/resolve/refine.cl"};
+  return {item_defines(), "kernels/resolve/refine.cl"};
 }
 
 ProgramSource Specialization::blur() const {

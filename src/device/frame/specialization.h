@@ -80,8 +80,6 @@ class Specialization {
   static ProgramSource boxes(bool rows, bool vector_colors);
   static ProgramSource scan_blocks();
   static ProgramSource compact();
-  ProgramSource key_parts() const;
-  static ProgramSource sort_parts();
   static ProgramSource sort();
   static ProgramSource sort_groups();
   static ProgramSource carry();
@@ -113,13 +111,12 @@ class Specialization {
   bool rows_of_16_;      // of a patch, and sixteen lanes of a projection
   bool extended_;        // numbers of 45 bits
   bool double_numbers_;  // as doubles, else pairs of floats
-  bool full_precision_, short_exponential_, fine_places_, small_blocks_;
+  bool full_precision_, fine_places_, small_blocks_;
   bool kernel_cut_, pixel_means_;
   bool vector_colors_, ellipses_, copies_, face_of_cube_;
   bool keeps_transmittance_;
   bool clouds_around_;  // may be: they are no splats
   bool stencils_;       // of sums
-  bool ten_taps_;       // of a refinement
   bool background_image_;
   std::uint32_t tile_width_ = 16, tile_height_ = 16;
 };

@@ -19,11 +19,6 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.sorted_chunk = 1u << 19;
   traits.bin_blocks = 64;
   traits.sort_blocks = 32;
-  // A part is sorted in a core's caches, and blocks that are projected at a time lie in all cores'.
-  // The splats of fewer parts are sorted as fast all at once (docs/tuning.md).
-  traits.splats_of_part = 1u << 15;
-  traits.fewest_parts = 96;
-  traits.blocks_apart = 64;
   traits.segment_length = 8192;
   traits.list_capacity = 3u << 20;
 }

@@ -24,9 +24,6 @@ struct DeviceTraits {
   std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted
   std::uint32_t bin_blocks = 0;      // blocks that a chunk's splats are binned in, in order
   std::uint32_t sort_blocks = 0;     // blocks of the radix sort
-  // Of large ordered frames on a processor (key_parts.h): splats of a part of the keys, parts of
-  // the smallest such frame, and blocks of particles that are projected at a time.
-  std::uint32_t splats_of_part = 0, fewest_parts = 0, blocks_apart = 0;
   std::uint32_t segment_length = 0;  // entries of a tile's list per work-item
   std::uint64_t list_capacity = 0;   // entries of all lists of a band of the picture
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }

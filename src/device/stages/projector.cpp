@@ -51,8 +51,7 @@ Projector::Projector(const StageContext& context)
     : context_(context),
       width_needs_(upload_needs()),
       unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
-      unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")),
-      parts_(choose_key_parts(context.frame, context.plan, context.device.traits)) {
+      unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
   // Asked for, so that they are compiled with those of other stages.
   ProgramCache& programs = context.device.programs;
   const bool rows = context.device.traits.rows;
@@ -60,9 +59,6 @@ Projector::Projector(const StageContext& context)
     check_blocks_of_groups(context.device.traits);
     scan_.emplace(context.device);
     programs.get(context.specialization.project(ProjectOutput::counts));
-  } else if (parts_) {
-    programs.get(context.specialization.key_parts());
-    programs.get(Specialization::sort_parts());
   } else if (context.plan.needs_sort()) {
     programs.get(Specialization::compact());
   }
@@ -218,9 +214,8 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
     all.blocks_left_out += count_left_out(all.left_out.back());
   }
   if (all.blocks == 0) return {};
-  KeyedSplats keyed = scan_    ? project_all_in_groups(all, particles)
-                      : parts_ ? project_all_in_parts(all, particles)
-                               : project_all_in_blocks(all, particles);
+  KeyedSplats keyed =
+      scan_ ? project_all_in_groups(all, particles) : project_all_in_blocks(all, particles);
   keyed.left_out = all.blocks_left_out;
   return keyed;
 }

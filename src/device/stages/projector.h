@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
-#include "device/frame/key_parts.h"
 #include "device/frame/key_windows.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
@@ -53,9 +52,6 @@ class Projector {
   struct AllParticles;
   KeyedSplats project_all_in_blocks(const AllParticles& all,
                                     const std::vector<ParticleBuffers>& particles) const;
-  KeyedSplats project_all_in_parts(const AllParticles& all,
-                                   const std::vector<ParticleBuffers>& particles) const;
-  std::uint64_t room_for_keys(std::uint32_t slots) const;
   void put_keys_together(const Buffer<std::uint32_t>& keys,
                          const Buffer<shared::BlockCounts>& counts, std::uint32_t blocks,
                          std::uint32_t stride, KeyedSplats& keyed) const;
@@ -100,7 +96,6 @@ class Projector {
   // Stand for what a variant of the kernel does not write.
   Buffer<std::uint32_t> unused_;
   Buffer<std::uint16_t> unused_ends_;
-  const std::optional<KeyParts> parts_;  // of a large ordered frame on a processor
 };
 
 }  // namespace splotchcl

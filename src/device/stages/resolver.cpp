@@ -242,8 +242,7 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
   parameters.fine = fine;
   parameters.part = part;
   static_assert(refinement_taps == REFINEMENT_TAPS);
-  static_assert(RefinementFilter{{}, 0, false}.reach() == REFINEMENT_REACH);
-  static_assert(RefinementFilter{{}, 0, true}.reach() == REACH_OF_TEN_TAPS);
+  static_assert(RefinementFilter::reach() == REFINEMENT_REACH);
   const std::array<double, refinement_taps>& weights = context_.plan.pyramid.refinement.weights;
   std::transform(weights.begin(), weights.end(), parameters.weights,
                  [](double weight) { return static_cast<float>(weight); });

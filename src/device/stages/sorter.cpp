@@ -6,7 +6,6 @@
 
 #include "device/frame/specialization.h"
 #include "device/opencl/launch.h"
-#include "device/stages/part_sorter.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -164,7 +163,6 @@ Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std:
 }
 
 SortedSplats Sorter::sort(KeyedSplats keyed) const {
-  if (keyed.parts) return PartSorter(device_).sort(std::move(keyed));
   SortedSplats sorted;
   sorted.splats = std::move(keyed.splats);
   sorted.count = keyed.count;

@@ -58,10 +58,8 @@ double end_of_means(const PyramidNeeds& needs, int level) {
 void choose_narrower_splats(const KernelSettings& kernel, const PyramidNeeds& needs,
                             GridPyramid& pyramid) {
   constexpr double blur_part = 0.2;
-  pyramid.refinement = needs.few_taps ? choose_short_refinement((1 - blur_part) * needs.error)
-                                      : choose_refinement((1 - blur_part) * needs.error);
-  double smallest_sigma =
-      std::max(pyramid.refinement.smallest_sigma, end_of_means(needs, needs.few_taps ? 0 : 1));
+  pyramid.refinement = choose_refinement((1 - blur_part) * needs.error);
+  double smallest_sigma = std::max(pyramid.refinement.smallest_sigma, end_of_means(needs, 1));
   // A blur would carry light over the edge of a cloud that is cut.
   if (!kernel.cut) {
     pyramid.blur_error = blur_part * needs.error;
@@ -133,7 +131,7 @@ void append_coarse_grids(const Frame& frame, GridPyramid& pyramid) {
   // With twice of what refining reaches, of which a half is a finer grid's, every pixel that it
   // reads exists. Even, so that a pixel's index tells on which side of its coarse pixel's center it
   // lies.
-  const int guard = 2 * pyramid.refinement.reach() + reach + reach % 2;
+  const int guard = 2 * RefinementFilter::reach() + reach + reach % 2;
   for (int level = pyramid.first_level; has_level(frame, level); ++level) {
     if (pyramid.grids.size() + pyramid.grids_of_level() > most_grids) break;
     const int width = ceil_divide(frame.width, 1 << level);

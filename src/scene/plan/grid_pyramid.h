@@ -19,8 +19,6 @@ struct PyramidNeeds {
   // on there are such grids: 0 or 1.
   bool stencils = false;
   int first_level = 1;
-  // Whether light is refined so often that ten taps are to serve, if they can.
-  bool few_taps = false;
 };
 
 // The narrowest splats that are stencils, or nearly: they are a little wider where the error is

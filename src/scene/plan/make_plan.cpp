@@ -101,7 +101,6 @@ GridPyramid choose_pyramid(const Frame& frame, const FramePlan& plan) {
   needs.mean_sigma = plan.splats.mean_sigma;
   needs.error = plan.grid_peak_error / plan.needs.grid_light;
   needs.blurs_of_level = choose_blurs_of_level(frame, plan);
-  needs.few_taps = plan.slabs > 0;
   if (may_have_stencils(frame, plan)) set_use_of_stencils(plan.wide_splats, needs);
   return make_pyramid(frame, needs);
 }
@@ -149,11 +148,9 @@ void set_limits(const Frame& frame, FramePlan& plan) {
     plan.places = choose_place_limits(frame, plan, of_places);
   }
   const double of_layers = response_to_layers(frame, plan, unchecked);
-  plan.has_short_exponential =
-      suffices_short_exponential(frame, plan, plan.needs_sort() ? of_layers : response);
-  plan.shape_error = error_of_shapes(plan.precision, plan.has_short_exponential);
-  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source),
-                                    of_layers, plan.has_short_exponential ? plan.shape_error : 0);
+  plan.shape_error = error_of_shapes(plan.precision);
+  plan.layers =
+      choose_layer_limits(plan.shares, plan.light, std::max(background, source), of_layers);
 }
 
 // Bounds are several times larger than estimates.
@@ -212,7 +209,6 @@ FramePlan make_plan(const Frame& frame, const PlanOptions& options) {
   if (plan.needs_sort() && !plan.is_extended()) guess = guess_order(frame);
   plan.light_behind = guess.light_behind;
   plan.visible_part = guess.visible_part;
-  plan.sampled_keys = std::move(guess.sampled_keys);
   plan.slabs = choose_slabs(frame, plan, guess.wide_layers, options);
   if (plan.slabs > 0) {
     set_budget(make_error_budget(frame, plan.drawn_for_tolerance, plan.light, true), plan);

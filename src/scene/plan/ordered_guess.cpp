@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "scene/depth_key.h"
 #include "scene/peak_color.h"
 #include "scene/plan/cloud_in_picture.h"
 #include "scene/plan/light_structure.h"
@@ -24,15 +21,6 @@ constexpr std::size_t order_sample_limit = 2048;
 struct SampledSource {
   double source = 0, absorption = 0;
 };
-
-// Grows with the value; -0 and +0 are one.
-std::uint32_t ascending_bits(float value) {
-  constexpr std::uint32_t sign = 0x80000000u;
-  std::uint32_t bits = 0;
-  const float without_sign_of_zero = value == 0 ? 0.0f : value;
-  std::memcpy(&bits, &without_sign_of_zero, sizeof(bits));
-  return (bits & sign) != 0 ? ~bits : bits | sign;
-}
 
 // Splats are drawn so many sigma to each side, or a little less.
 constexpr double layer_extent = 2.5;
@@ -60,25 +48,9 @@ bool is_in_crop(const PictureCloud& cloud, const Rectangle& crop) {
 
 struct Sample {
   std::vector<SampledSource> sources;
-  std::vector<std::uint64_t> keys;
   double wide_pixels = 0;
-  std::size_t particles = 0;
+  std::size_t particles = 0, visible = 0;
 };
-
-// As kernels/project/sort_keys.cl makes them.
-std::uint64_t sort_key(const DrawnComponent& component, const Frame& frame, std::size_t i,
-                       double depth) {
-  constexpr std::uint64_t all_bits = (std::uint64_t{1} << depth_key_bits) - 1;
-  constexpr int bits_below_field = depth_key_bits - 32;
-  const Column& field = component.particles.sort_field;
-  std::uint64_t key = 0;
-  if (frame.sort.by == SortOrder::By::depth) {
-    key = key_of_depth(depth, make_depth_key_scale(frame, component));
-  } else if (!field.is_absent()) {
-    key = std::uint64_t{ascending_bits(field[i])} << bits_below_field;
-  }
-  return frame.sort.descending ? key ^ all_bits : key;
-}
 
 void sample_component(const DrawnComponent& component, const Frame& frame, std::size_t stride,
                       Sample& sample) {
@@ -90,8 +62,7 @@ void sample_component(const DrawnComponent& component, const Frame& frame, std::
     const std::optional<PictureCloud> cloud = cloud_in_picture(component, frame, i);
     ++sample.particles;
     if (!cloud) continue;
-    if (is_in_crop(*cloud, frame.crop))
-      sample.keys.push_back(sort_key(component, frame, i, cloud->depth));
+    if (is_in_crop(*cloud, frame.crop)) ++sample.visible;
     sample.wide_pixels += wide_pixels(*cloud, frame);
     const double amplitude = absorption * cloud->column;
     const double source =
@@ -141,9 +112,7 @@ OrderedGuess guess_order(const Frame& frame) {
                       (static_cast<double>(frame.width) * frame.height);
   if (sample.particles > 0)
     guess.visible_part =
-        static_cast<double>(sample.keys.size()) / static_cast<double>(sample.particles);
-  std::sort(sample.keys.begin(), sample.keys.end());
-  guess.sampled_keys = std::move(sample.keys);
+        static_cast<double>(sample.visible) / static_cast<double>(sample.particles);
   return guess;
 }
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "splotchcl/frame.h"
 
 namespace splotchcl {
@@ -18,8 +15,6 @@ struct OrderedGuess {
   double wide_layers = 0;
   // Which part of all particles the crop shows.
   double visible_part = 0;
-  // The sort keys of those that it shows, ascending, as well as doubles know them.
-  std::vector<std::uint64_t> sampled_keys;
 };
 
 OrderedGuess guess_order(const Frame& frame);

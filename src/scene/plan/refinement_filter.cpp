@@ -101,25 +101,6 @@ struct ErrorFrom {
   double sigma, error;
 };
 
-// Ten taps, minimax over all phases of a Gaussian of sigma 2, with an error of at most 4e-5 at
-// sigma 4 (scripts/design_refinement.py, which finds weights within 2.1e-5 of these and the same
-// largest error).
-constexpr TapWeights minimax_weights = {0,
-                                        0,
-                                        0,
-                                        0.00283293931,
-                                        -0.0155961976,
-                                        0.0504577231,
-                                        -0.143700312,
-                                        0.884471756,
-                                        0.292573146,
-                                        -0.100249456,
-                                        0.0396250615,
-                                        -0.0127252842,
-                                        0.00231062281};
-constexpr std::array<ErrorFrom, 6> minimax_errors = {
-    {{2, 6.3e-4}, {2.11, 3.7e-4}, {2.2, 2.6e-4}, {2.3, 2.0e-4}, {2.5, 1.7e-4}, {2.8, 1.4e-4}}};
-
 constexpr std::array<ErrorFrom, 16> least_squares_errors = {{{1.8, 9.8e-4},
                                                              {1.85, 7.2e-4},
                                                              {1.9, 5.2e-4},
@@ -155,24 +136,16 @@ RefinementOfSigma best_refinement(double sigma) {
     error = from.error;
     designed = from.sigma;
   }
-  return lagrange < error
-             ? RefinementOfSigma{{lagrange_weights(taps), sigma, false}, lagrange}
-             : RefinementOfSigma{{least_squares_weights(designed), sigma, false}, error};
+  return lagrange < error ? RefinementOfSigma{{lagrange_weights(taps), sigma}, lagrange}
+                          : RefinementOfSigma{{least_squares_weights(designed), sigma}, error};
 }
 
 RefinementFilter choose_refinement(double error) {
   for (const ErrorFrom& from : least_squares_errors) {
-    if (from.error <= error) return {least_squares_weights(from.sigma), from.sigma, false};
+    if (from.error <= error) return {least_squares_weights(from.sigma), from.sigma};
   }
   const double sigma = std::pow(lagrange_constant / std::max(error, 1e-12), 1 / lagrange_power);
-  return {lagrange_weights(taps), sigma, false};
-}
-
-RefinementFilter choose_short_refinement(double error) {
-  for (const ErrorFrom& from : minimax_errors) {
-    if (from.error <= error) return {minimax_weights, from.sigma, true};
-  }
-  return choose_refinement(error);
+  return {lagrange_weights(taps), sigma};
 }
 
 }  // namespace splotchcl

@@ -8,9 +8,6 @@ namespace splotchcl {
 // refinements, stays below `error` of a splat's peak (docs/accuracy.md).
 RefinementFilter choose_refinement(double error);
 
-// The same of ten taps, where they can keep the error.
-RefinementFilter choose_short_refinement(double error);
-
 // The filter that does best by splats from `sigma` on, in old pixels, and the largest relative
 // error of all refinements of one together.
 struct RefinementOfSigma {

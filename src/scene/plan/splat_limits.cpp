@@ -38,21 +38,8 @@ double error_of_means(Precision precision) {
 }
 
 // Of the polynomials of exp (kernels/composite/gaussian.cl), along both axes.
-double error_of_shapes(Precision precision, bool has_short_exponential) {
-  if (has_short_exponential) return 2 * 2.9e-5;
+double error_of_shapes(Precision precision) {
   return 2 * (precision == Precision::fast ? 2.7e-6 : 7.5e-8);
-}
-
-// Splats on coarse grids may be narrower than what they are cut by, and those on the faces of a
-// cube are no products along two axes.
-bool suffices_short_exponential(const Frame& frame, const FramePlan& plan, double response) {
-  constexpr double widest_cut = 1.82;  // gaussian.cl
-  constexpr double of_layers = 0.1;    // the rest is for the series of phi
-  const bool is_possible = plan.precision == Precision::fast && !takes_pixel_means(frame) &&
-                           !plan.is_face_of_cube && plan.pyramid.grids.size() == 1 &&
-                           frame.kernel.cut.value_or(2 * widest_cut) <= widest_cut;
-  const double share = (plan.needs_sort() ? of_layers : 1) * plan.shares.phi;
-  return is_possible && error_of_shapes(plan.precision, true) * response <= share;
 }
 
 // The kernels work it out in single precision.
@@ -150,12 +137,12 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
 constexpr double phi_of_thin_layers = 1.3;
 
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind, double response, double of_shapes) {
+                                double brightest_behind, double response) {
   LayerLimits limits;
   // One term of the series errs by y / 2 of phi, two by y^2 / 6, three by y^3 / 24, four by
   // y^4 / 120.
   limits.part = shares.phi / response;
-  const double phi = (limits.part - of_shapes) / phi_of_thin_layers;
+  const double phi = limits.part / phi_of_thin_layers;
   limits.phi_first = static_cast<float>(std::min(0.5, 2 * phi));
   limits.phi_short = static_cast<float>(std::min(0.5, std::sqrt(6 * phi)));
   limits.phi_third = static_cast<float>(std::min(0.5, std::cbrt(24 * phi)));

@@ -15,10 +15,8 @@ double center_value_error(double sigma_pixels);
 // By how much of its peak a mean by erf errs, along both axes together, for each sigma.
 double error_of_means(Precision precision);
 
-// Whether shapes of cut kernels may take a shorter polynomial for exp, whose error counts
-// `response` times, and by which part of itself such a shape errs, along both axes together.
-bool suffices_short_exponential(const Frame& frame, const FramePlan& plan, double response);
-double error_of_shapes(Precision precision, bool has_short_exponential);
+// By which part of itself a shape by exp errs, along both axes together.
+double error_of_shapes(Precision precision);
 
 // The width up to which splats that count as bright ones, of this light, are taken as means that
 // keep their digits (kernels/project/limits.cl); and the light from which on that is so wide.
@@ -50,8 +48,7 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
                                 const Responses& response);
 
 // `brightest_behind`: the most that can shine through a layer. `response`: of every layer alike.
-// `of_shapes`: the part by which layers err already.
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind, double response, double of_shapes);
+                                double brightest_behind, double response);
 
 }  // namespace splotchcl

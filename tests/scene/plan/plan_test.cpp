@@ -246,49 +246,6 @@ TEST(Plan, TakesThePrecisionThatTheToleranceNeeds) {
   EXPECT_EQ(precision_at(0), Precision::extended);
 }
 
-// As the original program draws it.
-Frame frame_of_cut_kernel(Kind absorption) {
-  Frame frame = frame_of({component(absorption, 0.2)});
-  frame.kernel.cut = 1.816;
-  frame.kernel.sampling = Sampling::center;
-  return frame;
-}
-
-TEST(Plan, TakesAShortExponentialWhereTheKernelIsCutWithinItsRange) {
-  for (const Kind absorption : {Kind::none, Kind::as_emission, Kind::gray}) {
-    Frame frame = frame_of_cut_kernel(absorption);
-    EXPECT_TRUE(make_plan(frame).has_short_exponential);
-    frame.kernel.cut = 1.83;
-    EXPECT_FALSE(make_plan(frame).has_short_exponential);
-    frame.kernel.cut.reset();
-    EXPECT_FALSE(make_plan(frame).has_short_exponential);
-  }
-}
-
-TEST(Plan, TakesNoShortExponentialForMeans) {
-  Frame frame = frame_of_cut_kernel(Kind::none);
-  frame.kernel.sampling = Sampling::mean;
-  EXPECT_FALSE(make_plan(frame).has_short_exponential);
-}
-
-TEST(Plan, TakesAShortExponentialWhereItsErrorFitsTheShare) {
-  Frame frame = frame_of_cut_kernel(Kind::none);
-  const FramePlan plan = make_plan(frame);
-  EXPECT_LE(plan.shape_error, plan.shares.phi);
-  frame.tolerance = 8e-4;
-  EXPECT_FALSE(make_plan(frame).has_short_exponential);
-}
-
-// On coarse grids splats are drawn narrower than what they are cut by.
-TEST(Plan, TakesNoShortExponentialOnCoarseGrids) {
-  Frame frame = frame_of_cut_kernel(Kind::none);
-  frame.tolerance = 0.1;
-  frame.width = frame.height = 1024;
-  const FramePlan plan = make_plan(frame);
-  ASSERT_GT(plan.pyramid.grids.size(), 1U);
-  EXPECT_FALSE(plan.has_short_exponential);
-}
-
 TEST(Plan, ExplainsItselfByName) {
   for (const Kind kind : {Kind::none, Kind::as_emission, Kind::gray}) {
     const Frame frame = frame_of({component(kind, 1)});

@@ -131,24 +131,5 @@ TEST(RefinementFilter, ErrsByNoMoreForBrightSplatsThatAreWiderByTheEighthRoot) {
   }
 }
 
-TEST(ShortRefinementFilter, HasTenTapsWhereTheyKeepTheError) {
-  for (const double error : {6e-4, 3e-4, 2e-4}) {
-    const RefinementFilter filter = choose_short_refinement(error);
-    EXPECT_TRUE(filter.has_ten_taps);
-    EXPECT_EQ(std::count(filter.weights.begin(), filter.weights.end(), 0), 6);
-    EXPECT_LT(2 * largest_error_of_all(filter.weights, filter.smallest_sigma), error);
-  }
-  EXPECT_FALSE(choose_short_refinement(1e-4).has_ten_taps);
-}
-
-// What scripts/design_refinement.py asks of them.
-TEST(ShortRefinementFilter, ErrsByLessThanItsLimitsAtTwoPixelsAndAfterEachFurtherRefinement) {
-  const Weights weights = choose_short_refinement(6.5e-4).weights;
-  EXPECT_LT(largest_error(weights, 2), 1.74e-4);
-  EXPECT_LT(largest_error(weights, 4), 4.01e-5);
-  EXPECT_LT(largest_error(weights, 8), 3.06e-5);
-  EXPECT_LT(largest_error(weights, 16), 1.30e-5);
-}
-
 }  // namespace
 }  // namespace splotchcl
