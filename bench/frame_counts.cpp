@@ -51,7 +51,7 @@ class ListReader {
   }
 
  private:
-  const Specialization& specialization() const { return pipeline_.context().specialization; }
+  const Variant& variant() const { return pipeline_.context().variant; }
 
   void read_sums(FrameCounts& counts) {
     for (const ParticleChunk& chunk : pipeline_.particle_chunks()) {
@@ -72,7 +72,7 @@ class ListReader {
   void read_lists(const CountedSplats& counted, FrameCounts& counts) {
     for (const TileBand& band : counted.bands) {
       const TileLists lists = pipeline_.binner().make_lists(counted, band);
-      const std::size_t entry_bytes = specialization().tile_splat_bytes();
+      const std::size_t entry_bytes = variant().tile_splat_bytes();
       const std::vector<std::byte> entries =
           device_.pool.download(lists.entries, lists.entry_count * entry_bytes);
       const std::byte* entry = entries.data();
@@ -96,7 +96,7 @@ class ListReader {
     float shape[4];  // x, y, sigma, radius (bin.h)
     std::memcpy(shape, entry, sizeof(shape));
     const Disc disc = {shape[0], shape[1], shape[3]};
-    const double width = specialization().tile_width(), height = specialization().tile_height();
+    const double width = variant().tile_width, height = variant().tile_height;
     work.row_parts += row_parts_of(disc, width, height);
     if (patch.width > 0) work.patches += patches_of(disc, width, height, patch);
   }
@@ -108,10 +108,10 @@ class ListReader {
 };
 
 // As patch.cl has them for three planes, and narrow_discs.cl leaves discs to them.
-bool takes_patches(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
+bool takes_patches(const Frame& frame, const FramePlan& plan, const Variant& variant,
                    const DeviceTraits& traits) {
   return traits.rows && frame.kernel.cut && frame.kernel.sampling == Sampling::center &&
-         specialization.planes() == 3 && !plan.needs_sort() && !plan.is_extended();
+         variant.planes() == 3 && !plan.needs_sort() && !plan.is_extended();
 }
 PatchSize patch_of(const DeviceTraits& traits) {
   if (traits.rows_of_16) return {16, 8};
@@ -155,7 +155,7 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
                          const std::string& device_name) {
   DeviceContext device(choose_device(device_name));
   const FramePlan plan = make_plan(frame);
-  const Specialization specialization(frame, plan, device.traits);
+  const Variant variant(frame, plan, device.traits);
   FrameCounts counts;
   counts.is_ordered = plan.needs_sort();
   counts.is_collected = plan.has_errors_of_splats;
@@ -163,15 +163,13 @@ FrameCounts frame_counts(const Frame& frame, const RenderStats& stats,
   counts.particles = static_cast<double>(stats.particles);
   counts.particle_bytes = static_cast<double>(particle_bytes(frame)) / counts.particles;
   counts.splats = static_cast<double>(stats.drawn_particles);
-  counts.splat_bytes =
-      static_cast<double>(specialization.splat_bytes() + specialization.extended_splat_bytes());
-  counts.entry_bytes = static_cast<double>(specialization.tile_splat_bytes());
+  counts.splat_bytes = static_cast<double>(variant.splat_bytes() + variant.extended_splat_bytes());
+  counts.entry_bytes = static_cast<double>(variant.tile_splat_bytes());
   const bool by_depth = frame.sort.by == SortOrder::By::depth;
   counts.key_bytes = sizeof(std::uint32_t) + (by_depth ? sizeof(std::uint16_t) : 0);
   counts.pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
-  counts.planes = specialization.planes();
-  if (takes_patches(frame, plan, specialization, device.traits))
-    counts.patch = patch_of(device.traits);
+  counts.planes = variant.planes();
+  if (takes_patches(frame, plan, variant, device.traits)) counts.patch = patch_of(device.traits);
   ListReader(device, frame, plan).read(counts);
   return counts;
 }

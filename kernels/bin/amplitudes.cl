@@ -1,6 +1,8 @@
 // The colors of splats: what they emit and absorb at the center.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 
 // A position is in [0, 1], so that the knot below is one of them. Behind the last there is one more

@@ -5,15 +5,17 @@
 #include "kernels/bin/entries.cl"
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/pieces.cl"
 #include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 #include "kernels/project/project.h"
 
 static inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
                              uint block) {
   const uint begin = p.first + block * p.stride;
-#ifdef BLOCKS_OF_PROJECTION
+#ifndef LIGHT_ORDERED
   // Blocks are the projection's: each fills only a part of its stride.
   return min(begin + p.length, block * p.stride + blocks[block].visible);
 #else
@@ -26,7 +28,7 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 #define ENTRIES_AHEAD 4
 #define SLOTS_AHEAD 32
 
-#ifndef BLOCKS_OF_PROJECTION
+#ifdef LIGHT_ORDERED
 KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* grids,
                              __global const Splat* splats, __global const uint* order,
                              __global uint* counts, __global uint* tiles, __global Splat* in_order,
@@ -234,13 +236,13 @@ KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid
   band.count = counts + (size_t)block * p.tile_count;
   band.entries = entries;
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
-#ifdef BLOCKS_OF_PROJECTION
+#ifndef LIGHT_ORDERED
     __global const Splat* from = splats + slot;
 #else
     __global const Splat* from = in_order + (slot - p.first);
 #endif
     ask_for(from + SLOTS_AHEAD);
-#if defined(BLOCKS_OF_PROJECTION) && defined(TILES_IN_SPLAT)
+#if !defined(LIGHT_ORDERED) && defined(TILES_IN_SPLAT)
     const uint touched = tiles_in_lists(from->tiles, from, grids + grid_of(*from));
 #else
     const uint touched = tiles[slot - p.first];

@@ -1,5 +1,6 @@
 // What host and kernels share of the lists: 4-byte members only (splat.h).
-#include "kernels/common/splat.h"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
 
 #ifndef SPLOTCHCL_BIN_H
 #define SPLOTCHCL_BIN_H

@@ -5,14 +5,16 @@
 #include "kernels/bin/entries.cl"
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 #include "kernels/project/project.h"
 
 // The slots of a chunk: all of the sorted ones, or as many as the projection has filled.
 INLINED uint slot_count(const BinParameters p, __global const BlockCounts* blocks) {
-#ifdef BLOCKS_OF_PROJECTION
+#ifndef LIGHT_ORDERED
   return min(p.end - p.first, blocks->visible);
 #else
   return p.end - p.first;
@@ -20,7 +22,7 @@ INLINED uint slot_count(const BinParameters p, __global const BlockCounts* block
 }
 
 INLINED uint splat_of_slot(const BinParameters p, __global const uint* order, uint slot) {
-#ifdef BLOCKS_OF_PROJECTION
+#ifndef LIGHT_ORDERED
   return p.first + slot;
 #else
   return order[p.first + slot];

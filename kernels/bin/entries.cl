@@ -2,6 +2,8 @@
 #include "kernels/bin/amplitudes.cl"
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 
 #ifndef EXTENDED_NUMBERS

@@ -1,6 +1,9 @@
 // Which tiles a splat is listed in: found once, by the projection where splats are binned as they
 // come, else by the counting of the sorted ones, and kept in a word per splat.
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 
 // Those of a grid's tiles that are in memory.

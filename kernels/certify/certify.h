@@ -1,5 +1,5 @@
 // What host and kernels share of the check after drawing: 4-byte members only (splat.h).
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.h"
 
 #ifndef SPLOTCHCL_CERTIFY_H
 #define SPLOTCHCL_CERTIFY_H

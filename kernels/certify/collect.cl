@@ -4,10 +4,11 @@
 #include "kernels/certify/certify.h"
 #include "kernels/certify/collected.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/pieces.cl"
 #include "kernels/common/prefetch.cl"
-#include "kernels/common/splat.h"
 
 // What work-items know of their tile.
 typedef struct TileOfCells {

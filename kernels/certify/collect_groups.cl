@@ -6,9 +6,10 @@
 #include "kernels/certify/certify.h"
 #include "kernels/certify/collected.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
-#include "kernels/common/splat.h"
 
 #define NO_CELL 0xffffffffu
 

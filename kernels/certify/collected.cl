@@ -4,8 +4,9 @@
 #include "kernels/bin/entry_lanes.cl"
 #include "kernels/certify/certify.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 
 // Comparisons, since min, max and clamp are calls on PoCL.
 static inline float smaller(float a, float b) {

@@ -1,8 +1,10 @@
 // A layer that was worked out pixel by pixel, put behind what the planes of the picture's own grid
 // hold: of clouds around the camera, which are no splats. In sums it is added.
+#undef LANES_8  // one pixel after the other
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/opacity.cl"
 

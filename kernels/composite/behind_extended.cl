@@ -1,7 +1,9 @@
 // behind.cl in extended precision, eight pixels of a row at a time. Planes hold the two parts of
 // light, then those of depths (extended_pixels.cl).
+#define LANES_8
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/extended/extended_lanes.cl"
 #include "kernels/extended/precise.cl"

@@ -1,8 +1,8 @@
 // Clouds around the camera in tiles' lists (composite.h), for both shapes: their columns in pixels,
 // on VALUEs (lanes.cl).
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/gaussian.cl"
 #include "kernels/composite/shape.cl"

@@ -1,5 +1,5 @@
 // What host and kernels share of compositing: 4-byte members only (splat.h).
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.h"
 
 #ifndef SPLOTCHCL_COMPOSITE_H
 #define SPLOTCHCL_COMPOSITE_H

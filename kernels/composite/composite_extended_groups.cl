@@ -4,13 +4,17 @@
 // every pixel takes their products. Sums are extended numbers; in the ordered plan the optical
 // depth is summed instead of the opacity, so that no transmittance loses its digits, however thick
 // what lies before.
+#define LANES_8
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/extended_pixels.cl"
 #include "kernels/extended/extended.cl"
 #include "kernels/extended/extended_lanes.cl"
+#include "kernels/extended/extended_splat.h"
 #include "kernels/extended/precise.cl"
 
 #pragma OPENCL FP_CONTRACT OFF

@@ -2,14 +2,17 @@
 // work-item takes a segment of one tile's list and updates rows of eight pixels in a private copy
 // of the tile. In the ordered plan it holds transmittances: doubles of them lose no digits to
 // layers, since each is multiplied by what the next layer lets through.
+#define LANES_8
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/pieces.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/extended_pixels.cl"
 #include "kernels/composite/extended_shape.cl"
 #include "kernels/extended/double_lanes.cl"
+#include "kernels/extended/extended_splat.h"
 
 #pragma OPENCL FP_CONTRACT ON
 

@@ -1,12 +1,13 @@
 // Compositing for processors with wide registers: a work-item takes a segment of one
 // tile's list and updates rows of eight pixels in a private copy of the tile.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #ifdef ROWS_OF_16
 #include "kernels/common/lanes_of_16.cl"
 #endif
 #include "kernels/bin/bin.h"
 #include "kernels/common/pieces.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/clouds.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/ordered_list.cl"

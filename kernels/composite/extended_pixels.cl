@@ -2,7 +2,8 @@
 // tile's segments are joined.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/extended/extended_lanes.cl"
 #include "kernels/extended/precise.cl"

@@ -1,9 +1,11 @@
 // Shapes of splats in double precision, eight pixels of a row of a tile at a time.
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/extended_means.cl"
 #include "kernels/extended/double_lanes.cl"
+#include "kernels/extended/extended_splat.h"
 
 #pragma OPENCL FP_CONTRACT ON
 

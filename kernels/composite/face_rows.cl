@@ -1,7 +1,8 @@
 // A splat in a tile of a face of a cube, eight pixels of a row at a time. Its ellipse lies askew,
 // so that each row has a shape of its own.
 #include "kernels/bin/bin.h"
-#include "kernels/common/splat.h"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/face_shape.cl"
 #include "kernels/composite/rows.cl"

@@ -1,8 +1,9 @@
 // The shape of a splat on a face of a cube (src/scene/projection.h, FaceEllipse), on VALUEs
 // (lanes.cl).
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/gaussian.cl"
 

@@ -2,8 +2,9 @@
 // Work-item (row of the tile, segment): those of the first segment of a cut tile join them all.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/join_pixels.cl"
 

@@ -2,7 +2,8 @@
 // per segment, of which the first of a tile joins them all, a work-item per pixel.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/layer_behind.cl"
 

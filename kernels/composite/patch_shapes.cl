@@ -2,10 +2,12 @@
 // along those that they reach into.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/gaussian.cl"
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/patch_reach.cl"
+#include "kernels/composite/pixel_range.cl"
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/shape.cl"
 

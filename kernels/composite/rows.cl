@@ -1,9 +1,11 @@
 // Rows of eight pixels of a tile, and how a splat updates a window of them.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/opacity.cl"
+#include "kernels/composite/pixel_range.cl"
 #include "kernels/composite/shape.cl"
 
 // No padding: a tile fits the nearest cache with room for its list. Rows of eight that begin where

@@ -2,8 +2,9 @@
 // one along y, of which each is worked out once.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/gaussian.cl"
 #include "kernels/composite/rows.cl"

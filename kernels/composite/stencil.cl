@@ -1,8 +1,8 @@
 // Stencils (splat.h), of which the host made the polynomials (src/scene/plan/stencil.h), on VALUEs
 // (lanes.cl).
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 
 #ifdef STENCILS
 #define STENCIL_PARAMETERS , __global const Stencil* stencils

@@ -2,8 +2,8 @@
 #include "kernels/bin/bin.h"
 #include "kernels/bin/entry_lanes.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/stencil.cl"
 

@@ -3,12 +3,14 @@
 // part of the tile needs to draw.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/common/flags.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/clouds.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/gaussian.cl"
+#include "kernels/composite/pixel_range.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/stencil.cl"
 

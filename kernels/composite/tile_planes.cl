@@ -1,9 +1,10 @@
 // A segment's own copy of its tile, and the planes that it is added to.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/prefetch.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/rows.cl"
 

@@ -1,6 +1,7 @@
 // Splats of a tile's list that wait until there are some, to be added to it together (patches.cl).
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/patch_reach.cl"
 #include "kernels/composite/patch_shapes.cl"

@@ -3,7 +3,7 @@
 // number, the second at most half a unit in the last place of the first. What follows needs
 // no more than the pairs give, so both have the same bounds (docs/accuracy.md). In memory
 // numbers are pairs always.
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.h"
 
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -1,8 +1,8 @@
 // Extended numbers (extended.cl) as many at a time as a VALUE (lanes.cl) has: a processor's
 // doubles, else sums of two VALUEs. The doubles of many GPUs are far slower than their floats.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 
 #pragma OPENCL FP_CONTRACT OFF
 

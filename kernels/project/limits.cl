@@ -1,8 +1,8 @@
 // What a particle weighs, how far its splat is drawn, whether its pixels take means, and on
 // which grid it lies (docs/accuracy.md), on VALUEs (lanes.cl).
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
 
@@ -104,7 +104,7 @@ static inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectPa
   return select(grid, (INTEGER)(0), peak > p.coarse_peak);
 }
 
-// level_of_grid() and, of coarse grids, blur_of_grid() of common.cl, of VALUEs.
+// level_of_grid() and, of coarse grids, blur_of_grid() of grid.cl, of VALUEs.
 static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
   const INTEGER of_others = ((grid - 1) >> p.blurs.shift) + p.blurs.first_level;
   return select(of_others, (INTEGER)(0), grid == 0);

@@ -1,6 +1,6 @@
 // Where the camera sees one particle, in extended numbers (extended.cl); view.cl has the same in
 // single precision.
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.h"
 #include "kernels/extended/extended.cl"
 #include "kernels/project/project.h"
 #include "kernels/project/wide_angle_extended.cl"

@@ -1,10 +1,13 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/pieces.cl"
 #include "kernels/common/prefetch.cl"
+#include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
+#include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"

@@ -1,8 +1,10 @@
 // The projection of one particle in extended numbers (extended.cl). Fields are
 // those of project.cl, which finds the bad particles, those beyond the limits and the sort keys.
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/common/splat.h"
 #include "kernels/extended/extended.cl"
+#include "kernels/extended/extended_splat.h"
 #include "kernels/project/face_ellipse_extended.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/place_extended.cl"

@@ -6,6 +6,7 @@
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
+#include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"

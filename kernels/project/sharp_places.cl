@@ -1,7 +1,7 @@
 // Places of splats so sharp, or so bright, that single precision would show: in extended numbers.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/extended/extended.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/place_extended.cl"

@@ -1,8 +1,10 @@
 // LANES splats, to be written one by one, and what kernels that write them take.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
 #include "kernels/common/words.cl"
+#include "kernels/extended/extended_splat.h"
 #include "kernels/project/project.h"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_widths.cl"

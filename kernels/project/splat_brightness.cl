@@ -1,7 +1,7 @@
 // How bright LANES splats are: what decides how exactly they are drawn.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/project/limits.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"

@@ -1,7 +1,7 @@
 // By what LANES splats are drawn, and on which grid: their widths, weights and radii there.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/project/face_ellipse.cl"
 #include "kernels/project/limits.cl"
 #include "kernels/project/project.h"

@@ -1,7 +1,7 @@
 // Where the projections that look in all directions put a particle, in extended numbers
 // (docs/projections.md); wide_angle.cl has the same in single precision.
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.h"
 #include "kernels/extended/extended.cl"
 #include "kernels/project/project.h"
 

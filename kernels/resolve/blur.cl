@@ -2,7 +2,8 @@
 // (blur_filter.h): along x into a temporary, along y into the target. Of all grids those parts are
 // in memory that are looked at (picture_layout.h).
 #include "kernels/common/common.cl"
-#include "kernels/common/splat.h"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/resolve/resolve.h"
 
 // Rows of the temporary are whole eights, and begin with the part's first pixel.

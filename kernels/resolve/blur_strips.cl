@@ -1,9 +1,11 @@
 // All grids of a level blurred to where they add up, by processors: blur.cl in strips of so many
 // columns that the rows which a pixel takes stay in the nearest cache, in VALUEs (lanes.cl).
+#define LANES_8
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/prefetch.cl"
-#include "kernels/common/splat.h"
 #include "kernels/resolve/resolve.h"
 
 #define VALUES_OF_STRIP (STRIP / LANES)

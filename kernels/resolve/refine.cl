@@ -1,8 +1,9 @@
 // A grid interpolated to half its pixel size, axis by axis. A work-item takes EIGHTS_OF_ITEM times
 // eight pixels of a row.
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/prefetch.cl"
-#include "kernels/common/splat.h"
 #include "kernels/resolve/resolve.h"
 
 // Grids have even guards, so a finer pixel is left of its coarse pixel's center where its index is

@@ -1,8 +1,10 @@
 // The sums of all grids, or the layers, to the light that they are. A work-item takes
 // EIGHTS_OF_ITEM times eight pixels of a row.
+#define LANES_8
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/opacity.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/extended/precise.cl"

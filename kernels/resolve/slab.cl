@@ -1,8 +1,10 @@
 // Slabs of an ordered frame: the wide splats of a slab, which coarse grids hold as sums of optical
 // depth and light, are laid among its narrow ones, which the picture's own planes hold in order.
+#define LANES_8
 #include "kernels/common/common.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
 #include "kernels/common/prefetch.cl"
-#include "kernels/common/splat.h"
 #include "kernels/composite/shape.cl"
 #include "kernels/resolve/refine.cl"
 #include "kernels/resolve/resolve.h"

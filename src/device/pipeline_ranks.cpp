@@ -22,10 +22,10 @@ class PassedSplats {
     if (count == 0) return;
     const KeyedSplats last = projector.keyed_memory(count);
     carry_splats(context, sorted, sorted.count - count, last);
-    const Specialization& specialization = context.specialization;
+    const Variant& variant = context.variant;
     BufferPool& pool = context.device.pool;
-    splats_ = pool.download(last.splats.splats, count * specialization.splat_bytes());
-    extended_ = pool.download(last.splats.extended, count * specialization.extended_splat_bytes());
+    splats_ = pool.download(last.splats.splats, count * variant.splat_bytes());
+    extended_ = pool.download(last.splats.extended, count * variant.extended_splat_bytes());
   }
 
   void send(FrameRanks& ranks, int to) const {
@@ -39,15 +39,15 @@ class PassedSplats {
   static void receive(const StageContext& context, FrameRanks& ranks, int from,
                       const SplatMemory& splats, std::uint32_t count) {
     if (count == 0) return;
-    const Specialization& specialization = context.specialization;
+    const Variant& variant = context.variant;
     const auto take = [&](const Buffer<std::byte>& to, std::size_t splat_bytes) {
       std::vector<std::byte> bytes(count * splat_bytes);
       if (bytes.empty()) return;
       ranks.all.receive(bytes.data(), bytes.size(), from);
       context.device.pool.write(to, 0, bytes.data(), bytes.size());
     };
-    take(splats.splats, specialization.splat_bytes());
-    take(splats.extended, specialization.extended_splat_bytes());
+    take(splats.splats, variant.splat_bytes());
+    take(splats.extended, variant.extended_splat_bytes());
   }
 
  private:

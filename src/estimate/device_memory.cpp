@@ -18,20 +18,20 @@ namespace {
 // Of the buffers of one frame, by what they hold.
 class FrameBuffers {
  public:
-  FrameBuffers(const Frame& frame, const FramePlan& plan, const Specialization& specialization,
+  FrameBuffers(const Frame& frame, const FramePlan& plan, const Variant& variant,
                const DeviceTraits& traits)
       : frame_(frame),
         plan_(plan),
-        specialization_(specialization),
+        variant_(variant),
         traits_(traits),
-        layout_(make_picture_layout(frame, plan, specialization)) {}
+        layout_(make_picture_layout(frame, plan, variant)) {}
 
   std::uint64_t planes() const { return layout_.plane_floats * sizeof(float); }
 
   // Of planes, and of what the check collects beside them.
   std::uint64_t light() const {
     shared::CertifyParameters cells{};
-    if (plan_.has_errors_of_splats) lay_out_cells(specialization_, cells);
+    if (plan_.has_errors_of_splats) lay_out_cells(variant_, cells);
     return planes() + std::uint64_t{layout_.tile_count} * cells.cells_per_tile * sizeof(float);
   }
 
@@ -63,7 +63,7 @@ class FrameBuffers {
   std::uint64_t splats_apart() const { return traits_.rows ? chunk_splats() : 0; }
 
   std::uint64_t splats(std::uint64_t count) const {
-    return count * (specialization_.splat_bytes() + specialization_.extended_splat_bytes());
+    return count * (variant_.splat_bytes() + variant_.extended_splat_bytes());
   }
 
   // Which tiles each is listed in.
@@ -74,17 +74,17 @@ class FrameBuffers {
 
   // The same of a chunk's, where they are not with the splats.
   std::uint64_t tiles_of_chunk() const {
-    return specialization_.has_own_tiles() ? 0 : tiles(chunk_splats());
+    return variant_.has_own_tiles() ? 0 : tiles(chunk_splats());
   }
 
   // Splats that were put in order for their lists; only by the shape for processors.
   std::uint64_t splats_in_order(std::uint64_t count) const {
-    return (traits_.rows ? count * specialization_.splat_bytes() : 0) + tiles(count);
+    return (traits_.rows ? count * variant_.splat_bytes() : 0) + tiles(count);
   }
 
   // Of the lists of as many tiles as fit.
   std::uint64_t entries() const {
-    return entry_capacity(plan_, traits_) * specialization_.tile_splat_bytes();
+    return entry_capacity(plan_, traits_) * variant_.tile_splat_bytes();
   }
 
   // Counts per tile of each block, and the lists.
@@ -104,7 +104,7 @@ class FrameBuffers {
     for (const shared::Grid& grid : layout_.collecting)
       largest = std::max<std::uint64_t>(largest, grid.plane_size);
     const std::uint64_t rooms = std::min<std::uint64_t>(layout_.collecting.size(), 2);
-    return rooms * largest * specialization_.planes() * sizeof(float);
+    return rooms * largest * variant_.planes() * sizeof(float);
   }
 
   // What a grid's rows are blurred or refined into.
@@ -115,7 +115,7 @@ class FrameBuffers {
       const std::uint64_t width = std::max(coarse.stride + 8, layout_.grids[g - 1].stride);
       largest = std::max(largest, width * (coarse.plane_size / coarse.stride));
     }
-    return largest * specialization_.planes() * sizeof(float);
+    return largest * variant_.planes() * sizeof(float);
   }
 
   // The planes before a slab, and what its grids are refined into. The errors are an eighth of a
@@ -123,7 +123,7 @@ class FrameBuffers {
   std::uint64_t slabs() const {
     if (plan_.slabs == 0) return 0;
     const std::uint64_t plane = layout_.grids.front().plane_size * sizeof(float);
-    return specialization_.planes() * plane + plane / 8 + blurred_columns() + collecting_levels();
+    return variant_.planes() * plane + plane / 8 + blurred_columns() + collecting_levels();
   }
 
   std::uint64_t blocks_of_chunk() const {
@@ -137,7 +137,7 @@ class FrameBuffers {
 
   const Frame& frame_;
   const FramePlan& plan_;
-  const Specialization& specialization_;
+  const Variant& variant_;
   const DeviceTraits& traits_;
   const PictureLayout layout_;
 };
@@ -208,18 +208,18 @@ std::uint64_t particle_bytes(const Frame& frame) {
 }
 
 std::uint64_t estimate_device_bytes(const Frame& frame, const FramePlan& plan,
-                                    const Specialization& specialization,
-                                    const DeviceTraits& traits, double splats) {
-  const FrameBuffers buffers(frame, plan, specialization, traits);
+                                    const Variant& variant, const DeviceTraits& traits,
+                                    double splats) {
+  const FrameBuffers buffers(frame, plan, variant, traits);
   const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
   return uploaded + (plan.needs_sort() ? bytes_in_order(buffers, frame, traits, splats)
                                        : bytes_for_sums(buffers, traits));
 }
 
 std::uint64_t estimate_device_bytes_of_windows(const Frame& frame, const FramePlan& plan,
-                                               const Specialization& specialization,
-                                               const DeviceTraits& traits, double splats) {
-  const FrameBuffers buffers(frame, plan, specialization, traits);
+                                               const Variant& variant, const DeviceTraits& traits,
+                                               double splats) {
+  const FrameBuffers buffers(frame, plan, variant, traits);
   const std::uint64_t uploaded = traits.shares_host_memory ? 0 : particle_bytes(frame);
   return uploaded + bytes_in_windows(buffers, frame, traits, splats);
 }

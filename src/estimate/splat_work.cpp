@@ -34,8 +34,7 @@ double length_inside(double middle, double reach, int first, int length) {
 
 }  // namespace
 
-SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan,
-                              const Specialization& specialization) {
+SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan, const Variant& variant) {
   SplatWork work;
   for (const SampledCloud& cloud : sample_clouds(frame)) {
     const std::size_t g = grid_of(cloud, plan);
@@ -50,8 +49,7 @@ SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan,
     const Rectangle& crop = frame.crop;
     const double width = length_inside(cloud.x, reach, crop.x, crop.width) / pixel;
     const double height = length_inside(cloud.y, reach, crop.y, crop.height) / pixel;
-    const double tiles =
-        (1 + width / specialization.tile_width()) * (1 + height / specialization.tile_height());
+    const double tiles = (1 + width / variant.tile_width) * (1 + height / variant.tile_height);
     work.splats += cloud.weight;
     work.tile_entries += cloud.weight * tiles;
     work.row_parts += cloud.weight * (1 + height) * (1 + width / 8);

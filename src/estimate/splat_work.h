@@ -1,6 +1,6 @@
 #pragma once
 
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
@@ -15,7 +15,6 @@ struct SplatWork {
 
 // From a sample of the particles, with the plan's extents and grids, as kernels/project/limits.cl
 // chooses them. Tiles that become opaque early are counted as if they did not.
-SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan,
-                              const Specialization& specialization);
+SplatWork estimate_splat_work(const Frame& frame, const FramePlan& plan, const Variant& variant);
 
 }  // namespace splotchcl

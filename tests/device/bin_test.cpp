@@ -175,8 +175,8 @@ TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {
   }
 
   int pixels_checked = 0;
-  const int tile_width = static_cast<int>(stages.context().specialization.tile_width());
-  const int tile_height = static_cast<int>(stages.context().specialization.tile_height());
+  const int tile_width = static_cast<int>(stages.context().variant.tile_width);
+  const int tile_height = static_cast<int>(stages.context().variant.tile_height);
   for (const reference::Splat& splat : reference::project(stages.frame())) {
     const auto found = level.find(splat.particle);
     const std::uint32_t g = found == level.end() ? 0 : found->second;

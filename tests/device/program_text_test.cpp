@@ -11,39 +11,42 @@
 #include "device/opencl/launch.h"
 #include "device/opencl/program_build.h"
 #include "device/stages.h"
+#include "device/stages/stage_programs.h"
 
 namespace splotchcl::test {
 namespace {
 
-std::vector<ProgramSource> programs_of(const Specialization& variant) {
-  std::vector<ProgramSource> programs = {variant.bin(), variant.composite(), variant.list_around(),
-                                         variant.behind(), variant.resolve()};
+std::vector<ProgramSource> programs_of(const Variant& variant) {
+  std::vector<ProgramSource> programs = {bin_program(variant), composite_program(variant),
+                                         list_around_program(variant), behind_program(variant),
+                                         resolve_program(variant)};
   for (const ProjectOutput output :
        {ProjectOutput::counts, ProjectOutput::splats, ProjectOutput::splats_and_keys,
         ProjectOutput::key_counts, ProjectOutput::window_counts, ProjectOutput::window_splats})
-    programs.push_back(variant.project(output));
-  if (variant.is_extended()) return programs;
-  if (variant.is_ordered()) programs.push_back(variant.composite_with_clouds());
+    programs.push_back(project_program(variant, output));
+  if (variant.extended) return programs;
+  if (variant.is_ordered()) programs.push_back(composite_with_clouds_program(variant));
   for (const ProgramSource& program :
-       {variant.join(), variant.composite_slab(), variant.join_slab(), variant.certify(),
-        variant.coarse_grids(), variant.blur(), variant.lay_slab()})
+       {join_program(variant), composite_program(variant.of_slabs()),
+        join_program(variant.of_slabs()), certify_program(variant), refine_program(variant),
+        blur_program(variant), lay_slab_program(variant)})
     programs.push_back(program);
   return programs;
 }
 
 std::vector<ProgramSource> programs_of_all_frames() {
-  return {Specialization::interpolate(true),
-          Specialization::interpolate(false),
-          Specialization::boxes(true, true),
-          Specialization::boxes(false, false),
-          Specialization::scan_blocks(),
-          Specialization::compact(),
-          Specialization::sort(),
-          Specialization::sort_groups(),
-          Specialization::carry(),
-          Specialization::scan(),
-          Specialization::clear(),
-          Specialization::add_light()};
+  return {program_source("kernels/interpolate/interpolate.cl", lanes_of(true)),
+          program_source("kernels/interpolate/interpolate.cl", lanes_of(false)),
+          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS"}),
+          program_source("kernels/project/boxes.cl"),
+          program_source("kernels/project/scan.cl"),
+          program_source("kernels/project/compact.cl"),
+          program_source("kernels/sort/sort.cl"),
+          program_source("kernels/sort/sort_groups.cl"),
+          program_source("kernels/sort/carry.cl"),
+          program_source("kernels/scan/scan_groups.cl"),
+          program_source("kernels/common/clear.cl"),
+          program_source("kernels/composite/add_light.cl")};
 }
 
 class ProgramTexts : public StageTest {
@@ -62,9 +65,9 @@ TEST_F(ProgramTexts, LetLayersOfSinglePrecisionAloneTakeDenormalNumbersAsZero) {
   for (const double tolerance : {1e-3, 0.0}) {
     frame.tolerance = tolerance;
     const FramePlan plan = make_plan(frame);
-    const Specialization variant(frame, plan, DeviceTraits());
-    EXPECT_EQ(zeroes_denormals(variant.composite()), !plan.is_extended()) << tolerance;
-    EXPECT_FALSE(zeroes_denormals(variant.bin()));
+    const Variant variant(frame, plan, DeviceTraits());
+    EXPECT_EQ(zeroes_denormals(composite_program(variant)), !plan.is_extended()) << tolerance;
+    EXPECT_FALSE(zeroes_denormals(bin_program(variant)));
   }
 }
 
@@ -110,7 +113,7 @@ TEST_F(ShortTexts, DeclareAllThatKernelsCallAndCompileWithoutWarnings) {
     for (const Frame& frame : frames()) {
       const FramePlan plan = make_plan(frame);
       std::vector<ProgramSource> programs;
-      for (const ProgramSource& program : programs_of(Specialization(frame, plan, traits))) {
+      for (const ProgramSource& program : programs_of(Variant(frame, plan, traits))) {
         if (compiled.insert(text_of(program, device().device).source).second)
           programs.push_back(program);
       }

@@ -144,13 +144,13 @@ class Stages {
 
   // The lists' splats, tile after tile.
   std::vector<ListedSplat> entries(const TileLists& lists) {
-    const std::size_t floats = context().specialization.tile_splat_bytes() / sizeof(float);
+    const std::size_t floats = context().variant.tile_splat_bytes() / sizeof(float);
     const std::vector<float> values = read_as<float>(lists.entries, lists.entry_count * floats);
     std::vector<ListedSplat> entries;
     for (std::size_t i = 0; i < values.size(); i += floats) {
       ListedSplat entry;
-      entry.x = static_cast<double>(values[i]) + 0.5 * context().specialization.tile_width();
-      entry.y = static_cast<double>(values[i + 1]) + 0.5 * context().specialization.tile_height();
+      entry.x = static_cast<double>(values[i]) + 0.5 * context().variant.tile_width;
+      entry.y = static_cast<double>(values[i + 1]) + 0.5 * context().variant.tile_height;
       entry.sigma = static_cast<double>(values[i + 2]);
       entry.radius = static_cast<double>(values[i + 3]);
       const double position =
@@ -184,7 +184,7 @@ class Stages {
   std::vector<shared::Splat> splats_in_slots(const SplatMemory& memory,
                                              const std::vector<std::uint32_t>& slots) {
     const std::size_t count = slots.empty() ? 0 : *std::max_element(slots.begin(), slots.end()) + 1;
-    const std::size_t bytes = context().specialization.splat_bytes();
+    const std::size_t bytes = context().variant.splat_bytes();
     const std::vector<std::byte> stored = read_as<std::byte>(memory.splats, count * bytes);
     std::vector<shared::Splat> splats(count);
     for (std::size_t i = 0; i < count; ++i)

@@ -135,7 +135,7 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     Stages stages(device, frame, lanes);
     stages.project();
     const std::size_t count = stages.keys().size();
-    const std::size_t floats = stages.context().specialization.splat_bytes() / sizeof(float);
+    const std::size_t floats = stages.context().variant.splat_bytes() / sizeof(float);
     constexpr std::size_t red_of_splat = sizeof(shared::Splat) / sizeof(float);
     ASSERT_GT(count, 500u);
     const std::vector<std::uint32_t> slots = stages.slots();

@@ -46,7 +46,7 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
   for (const reference::Splat& splat : reference::project(stages.frame()))
     expected.emplace(splat.particle, splat);
   // With the widths of ellipses behind each.
-  const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
+  const std::size_t words = stages.context().variant.splat_bytes() / sizeof(float);
   const std::vector<std::uint64_t> keys = stages.keys();
   const std::vector<std::uint32_t> slots = stages.slots();
   ASSERT_GT(keys.size(), 400u);

@@ -80,7 +80,7 @@ class WideAnglePlaces : public StageTest,
   }
 
   static std::vector<Placed> single_places(Stages& stages) {
-    const std::size_t words = stages.context().specialization.splat_bytes() / sizeof(float);
+    const std::size_t words = stages.context().variant.splat_bytes() / sizeof(float);
     const std::vector<std::uint32_t> slots = stages.slots();
     const std::size_t end = slots.empty() ? 0 : slots.back() + 1;
     const auto values = stages.read_as<float>(stages.keyed().splats.splats, end * words);
@@ -105,7 +105,7 @@ class WideAnglePlaces : public StageTest,
   }
 
   static std::vector<Placed> extended_places(Stages& stages) {
-    const Specialization& variant = stages.context().specialization;
+    const Variant& variant = stages.context().variant;
     const std::size_t words = variant.extended_splat_bytes() / sizeof(float);
     const std::size_t plain = variant.splat_bytes() / sizeof(float);
     const std::vector<std::uint32_t> slots = stages.slots();

@@ -7,7 +7,7 @@
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/particle_store.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 #include "scene/same_columns.h"
@@ -31,9 +31,11 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   const bool has_own_colors = !particles.color_vector.is_absent();
   const std::size_t count = ceil_divide(particles.count, p.block_particles);
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
-  const Program program =
-      device.programs.get(Specialization::boxes(device.traits.rows, has_own_colors));
-  Launch launch(device, "boxes", program.create_kernel("find_boxes"));
+  Choices choices = lanes_of(device.traits.rows);
+  if (has_own_colors) choices.emplace_back("VECTOR_COLORS");
+  const Program find_boxes =
+      device.programs.get(program_source("kernels/project/boxes.cl", choices));
+  Launch launch(device, "boxes", find_boxes.create_kernel("find_boxes"));
   pass_columns(launch.value(p), buffers);
   if (has_own_colors) launch.arg(buffers.own_color);
   launch.arg(boxes).run_items(count);

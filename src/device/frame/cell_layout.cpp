@@ -22,8 +22,8 @@ void lay_out(int (*shift_of)(int octave), std::uint32_t width, std::uint32_t hei
 
 }  // namespace
 
-void lay_out_cells(const Specialization& specialization, shared::CertifyParameters& parameters) {
-  const std::uint32_t width = specialization.tile_width(), height = specialization.tile_height();
+void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters) {
+  const std::uint32_t width = variant.tile_width, height = variant.tile_height;
   if (width != height && width != 2 * height) {
     throw DeviceError("tiles of " + std::to_string(width) + "x" + std::to_string(height) +
                       " pixels: they have to be squares, or twice as wide as high");

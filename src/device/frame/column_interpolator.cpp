@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "device/frame/shared.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 
@@ -49,7 +49,8 @@ shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColu
 }
 
 Launch launch_of(DeviceContext& device, const char* kernel) {
-  const Program program = device.programs.get(Specialization::interpolate(device.traits.rows));
+  const Program program = device.programs.get(
+      program_source("kernels/interpolate/interpolate.cl", lanes_of(device.traits.rows)));
   return Launch(device, "interpolate", program.create_kernel(kernel));
 }
 

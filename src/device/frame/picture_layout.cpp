@@ -94,14 +94,14 @@ void set_tiles(const shared::GridPart& part, int tile_width, int tile_height, sh
 }
 
 // Of the rows and columns before the first in memory.
-int tiles_before(const shared::Grid& grid, const Specialization& specialization) {
-  return grid.first_y / static_cast<int>(specialization.tile_height()) * grid.tiles_x +
-         grid.first_x / static_cast<int>(specialization.tile_width());
+int tiles_before(const shared::Grid& grid, const Variant& variant) {
+  return grid.first_y / static_cast<int>(variant.tile_height) * grid.tiles_x +
+         grid.first_x / static_cast<int>(variant.tile_width);
 }
 
-bool has_all_tiles(const shared::Grid& grid, const Specialization& specialization) {
-  const auto end_x = grid.first_x + grid.tiles_x * static_cast<int>(specialization.tile_width());
-  const auto end_y = grid.first_y + grid.tiles_y * static_cast<int>(specialization.tile_height());
+bool has_all_tiles(const shared::Grid& grid, const Variant& variant) {
+  const auto end_x = grid.first_x + grid.tiles_x * static_cast<int>(variant.tile_width);
+  const auto end_y = grid.first_y + grid.tiles_y * static_cast<int>(variant.tile_height);
   return grid.first_x == 0 && grid.first_y == 0 && end_x >= grid.width && end_y >= grid.height;
 }
 
@@ -137,7 +137,7 @@ std::vector<shared::Stencil> stencils_of_blurs(const GridPyramid& pyramid) {
 }
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
-                                  const Specialization& specialization) {
+                                  const Variant& variant) {
   const GridPyramid& pyramid = plan.pyramid;
   const int levels = pyramid.grids.back().level;
   const int middle_x = middle_of(frame.width, levels), middle_y = middle_of(frame.height, levels);
@@ -160,18 +160,16 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
     grid.mean_sigma = g == 0 ? plan.splats.mean_sigma : 0;
     const auto level = static_cast<std::size_t>(from.level);
     set_tiles(drawn_part(layout.wanted[level], g, is_whole(frame), pyramid),
-              static_cast<int>(specialization.tile_width()),
-              static_cast<int>(specialization.tile_height()), grid);
+              static_cast<int>(variant.tile_width), static_cast<int>(variant.tile_height), grid);
     grid.first_tile = layout.tile_count;
     // Below 0 it wraps around, as sums with it do.
-    grid.corner_tile =
-        grid.first_tile - static_cast<std::uint32_t>(tiles_before(grid, specialization));
-    grid.is_part = !has_all_tiles(grid, specialization);
+    grid.corner_tile = grid.first_tile - static_cast<std::uint32_t>(tiles_before(grid, variant));
+    grid.is_part = !has_all_tiles(grid, variant);
     grid.first_float_low = static_cast<std::uint32_t>(layout.plane_floats);
     grid.first_float_high = static_cast<std::uint32_t>(layout.plane_floats >> 32);
     layout.grids.push_back(grid);
     layout.tile_count += static_cast<std::uint32_t>(grid.tiles_x * grid.tiles_y);
-    layout.plane_floats += std::uint64_t{specialization.planes()} * grid.plane_size;
+    layout.plane_floats += std::uint64_t{variant.planes()} * grid.plane_size;
   }
   for (std::size_t level = 1; pyramid.is_blurred() && level < pyramid.level_grids.size(); ++level) {
     shared::Grid grid = layout.grids[static_cast<std::size_t>(pyramid.level_grids[level])];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "device/frame/shared.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
@@ -31,7 +31,7 @@ inline std::size_t floats_before(const shared::Grid& grid) {
 }
 
 PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
-                                  const Specialization& specialization);
+                                  const Variant& variant);
 
 // As kernels number them: first those that splats are drawn on, then those that collect levels.
 std::vector<shared::Grid> all_grids(const PictureLayout& layout);

@@ -13,10 +13,10 @@
 // What the stages hand on. Each owns its memory, which goes back to the pool with it.
 namespace splotchcl {
 
-// Splats in memory, Specialization::splat_bytes() each.
+// Splats in memory, Variant::splat_bytes() each.
 struct SplatMemory {
   Buffer<std::byte> splats;
-  // The same splats in extended precision only, Specialization::extended_splat_bytes() each.
+  // The same splats in extended precision only, Variant::extended_splat_bytes() each.
   Buffer<std::byte> extended;
 };
 
@@ -71,7 +71,7 @@ struct TileBand {
 };
 
 // The lists of one chunk of splats in a band of tiles. Entries have
-// Specialization::tile_splat_bytes() each.
+// Variant::tile_splat_bytes() each.
 struct TileLists {
   Buffer<std::byte> entries;
   Buffer<shared::Segment> segments;

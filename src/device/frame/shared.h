@@ -4,12 +4,13 @@
 #include <type_traits>
 
 // The structures that host and kernels share, byte for byte, in a namespace of their own.
-// What a variant of the kernels adds to Splat and TileSplat is not seen here: Specialization
+// What a variant of the kernels adds to Splat and TileSplat is not seen here: Variant
 // knows their sizes.
 namespace splotchcl::shared {
 #include "kernels/common/clear.h"
 #include "kernels/common/group.h"
 #include "kernels/common/splat.h"
+#include "kernels/extended/extended_splat.h"
 // The others use what stands there.
 #include "kernels/bin/bin.h"
 #include "kernels/certify/certify.h"

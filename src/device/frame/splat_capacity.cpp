@@ -21,16 +21,16 @@ std::uint64_t splat_slots(const Frame& frame, const FramePlan& plan, const Devic
   return particles * static_cast<std::uint64_t>(plan.splats_per_particle);
 }
 
-std::uint64_t splat_capacity(const FramePlan& plan, const Specialization& specialization,
+std::uint64_t splat_capacity(const FramePlan& plan, const Variant& variant,
                              const PictureLayout& layout, const DeviceTraits& traits,
                              std::uint64_t memory) {
   constexpr std::uint64_t key = sizeof(std::uint32_t) + sizeof(std::uint16_t);
   constexpr std::uint64_t place = sizeof(std::uint32_t);
   constexpr std::uint64_t sorted_into = 2 * sizeof(std::uint32_t);
-  const std::uint64_t splat = specialization.splat_bytes() + specialization.extended_splat_bytes();
+  const std::uint64_t splat = variant.splat_bytes() + variant.extended_splat_bytes();
   const std::uint64_t planes = layout.plane_floats * sizeof(float) * (plan.slabs > 0 ? 3 : 1);
-  const std::uint64_t lists = traits.list_capacity * specialization.tile_splat_bytes() +
-                              traits.sorted_chunk * (splat + place);
+  const std::uint64_t lists =
+      traits.list_capacity * variant.tile_splat_bytes() + traits.sorted_chunk * (splat + place);
   // Of a chunk of particles, before they are put together (Projector::project_window).
   const std::uint64_t apart = std::uint64_t{traits.rows ? traits.chunk_length() : 0} *
                               static_cast<std::uint64_t>(plan.splats_per_particle) *

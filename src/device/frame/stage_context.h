@@ -2,7 +2,7 @@
 
 #include "device/frame/component_colors.h"
 #include "device/frame/picture_layout.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
@@ -16,8 +16,8 @@ struct StageContext {
       : device(on),
         frame(of),
         plan(with),
-        specialization(of, with, on.traits),
-        layout(make_picture_layout(of, with, specialization)),
+        variant(of, with, on.traits),
+        layout(make_picture_layout(of, with, variant)),
         grids(on.pool.upload(all_grids(layout), "grids")),
         stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
         colors(upload_component_colors(of, with.light, on.pool)) {}
@@ -25,7 +25,7 @@ struct StageContext {
   DeviceContext& device;
   const Frame& frame;
   const FramePlan& plan;
-  const Specialization specialization;
+  const Variant variant;
   const PictureLayout layout;
   const Buffer<shared::Grid> grids;
   const Buffer<shared::Stencil> stencils;

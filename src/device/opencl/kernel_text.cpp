@@ -1,7 +1,9 @@
 #include "device/opencl/kernel_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -89,7 +91,35 @@ class Flattener {
   std::map<std::string, std::vector<Conditions>> known_;  // around what has been put in
 };
 
+bool is_of_word(char letter) {
+  return letter == '_' || std::isalnum(static_cast<unsigned char>(letter)) != 0;
+}
+
+// Beginning with a letter or a digit; of comments, too.
+std::set<std::string_view> words_of(std::string_view text) {
+  std::set<std::string_view> words;
+  for (auto begin = text.begin(); begin != text.end();) {
+    begin = std::find_if(begin, text.end(), is_of_word);
+    const auto end = std::find_if_not(begin, text.end(), is_of_word);
+    if (begin != end) words.insert({&*begin, static_cast<std::size_t>(end - begin)});
+    begin = end;
+  }
+  return words;
+}
+
 }  // namespace
+
+std::string mentioned(const std::string& defines, const std::string& text) {
+  const std::set<std::string_view> words = words_of(text);
+  std::string lines;
+  for (std::string_view rest = defines; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n') + 1);
+    const std::string_view name = line.substr(line.find(' ') + 1);
+    if (words.count(name.substr(0, name.find_first_of(" \n"))) > 0) lines += line;
+    rest.remove_prefix(line.size());
+  }
+  return lines;
+}
 
 std::string flattened(const std::string& source) {
   Flattener flattener;

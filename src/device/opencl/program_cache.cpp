@@ -27,7 +27,7 @@ std::string key_of(const compute::device& device, const ProgramText& text) {
 // All that its text is made of.
 std::string key_of(const ProgramSource& source) {
   return source.file + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
-         source.more;
+         source.variant + '\n' + source.more;
 }
 
 std::size_t count_of(const std::string& word, const std::string& text) {
@@ -75,10 +75,13 @@ compute::kernel Program::create_kernel(const std::string& name) const {
 }
 
 Program ProgramCache::get(const ProgramSource& source) {
-  std::string key = key_of(source);
-  const auto found = programs_.find(key);
-  if (found != programs_.end()) return Program(*this, found->second);
-  return Program(*this, programs_.emplace(std::move(key), entry_of(source)).first->second);
+  std::string asked = key_of(source);
+  const auto known = asked_for_.find(asked);
+  if (known != asked_for_.end()) return Program(*this, *known->second);
+  Entry entry = entry_of(source);
+  Entry& program = programs_.try_emplace(entry.key, std::move(entry)).first->second;
+  asked_for_.emplace(std::move(asked), &program);
+  return Program(*this, program);
 }
 
 ProgramCache::Entry ProgramCache::entry_of(const ProgramSource& source) const {

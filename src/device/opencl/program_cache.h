@@ -77,9 +77,10 @@ class ProgramCache {
 
   compute::context context_;
   BinaryCache binaries_;
+  std::map<std::string, Entry> programs_;  // by their keys
   // By what they were asked for with: a frame asks for dozens, chunk by chunk, and putting a
-  // source's files together takes longer than drawing a small chunk.
-  std::map<std::string, Entry> programs_;
+  // source's files together takes longer than drawing a small chunk. Variants share programs.
+  std::map<std::string, Entry*> asked_for_;
   StartCompiler start_compiler_;
   bool has_built_ = false;  // so that PoCL's library has been read
   double build_seconds_ = 0;

@@ -36,8 +36,9 @@ std::string extras_of(const compute::device& device) {
 
 ProgramText text_of(const ProgramSource& source, const compute::device& device) {
   const std::string file = source.file.empty() ? "" : include_of(source.file);
+  const std::string text = flattened(file + source.more);
   return {joined(source.denormals_are_zero ? zero_denormals : "", extras_of(device)),
-          source.defines + flattened(file + source.more)};
+          source.defines + mentioned(source.variant, text) + text};
 }
 
 ProgramText short_text_of(const ProgramSource& source, const compute::device& device) {

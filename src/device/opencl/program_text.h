@@ -6,11 +6,12 @@
 
 namespace splotchcl {
 
-// What a program is made of: lines of #defines, a file in kernels/, and source that is no file
-// (tests); with all that both include (kernel_text.h).
+// What a program is made of: a file in kernels/, lines of #defines, and source that is no file
+// (tests); with all that file and source include (kernel_text.h).
 struct ProgramSource {
-  std::string defines;
   std::string file = {};
+  std::string defines = {};
+  std::string variant = {};  // lines of #defines, of which it gets those of names that it mentions
   std::string more = {};
   // What is smaller than 1.2e-38 may be taken as 0. Some processors take a hundred times as long
   // for an operation on such a number as for another one.

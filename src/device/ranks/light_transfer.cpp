@@ -49,7 +49,7 @@ void LightTransfer::send(const SplatLight& light, int to) const {
     if ((header.used_grids >> g & 1) == 0) continue;
     const shared::Grid& grid = context_.layout.grids[g];
     send_values(light.planes.light, floats_before(grid),
-                std::uint64_t{context_.specialization.planes()} * grid.plane_size, to);
+                std::uint64_t{context_.variant.planes()} * grid.plane_size, to);
   }
   send_values(light.cells, 0, header.cells, to);
 }
@@ -64,7 +64,7 @@ SplatLight LightTransfer::receive(int from) const {
     if ((header.used_grids >> g & 1) == 0) continue;
     const shared::Grid& grid = context_.layout.grids[g];
     receive_values(light.planes.light, floats_before(grid),
-                   std::uint64_t{context_.specialization.planes()} * grid.plane_size, from);
+                   std::uint64_t{context_.variant.planes()} * grid.plane_size, from);
   }
   if (header.cells > 0) light.cells = context_.device.pool.get<float>(header.cells, "peak cells");
   receive_values(light.cells, 0, header.cells, from);
@@ -75,8 +75,8 @@ template <class Pass>
 void LightTransfer::in_planes(const TileBand& tiles, const Pass& pass) const {
   const shared::Grid& grid = context_.layout.grids.front();
   const auto across = static_cast<std::uint32_t>(grid.tiles_x);
-  const std::uint64_t row = std::uint64_t{grid.stride} * context_.specialization.tile_height();
-  for (std::uint32_t plane = 0; plane < context_.specialization.planes(); ++plane) {
+  const std::uint64_t row = std::uint64_t{grid.stride} * context_.variant.tile_height;
+  for (std::uint32_t plane = 0; plane < context_.variant.planes(); ++plane) {
     pass(floats_before(grid) + std::uint64_t{plane} * grid.plane_size + tiles.first / across * row,
          (tiles.end - tiles.first) / across * row);
   }

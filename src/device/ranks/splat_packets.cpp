@@ -10,8 +10,8 @@ namespace {
 struct PacketLayout {
   PacketLayout(const StageContext& context, std::uint64_t count)
       : by_depth(context.frame.sort.by == SortOrder::By::depth),
-        splat_bytes(context.specialization.splat_bytes()),
-        extended_bytes(context.specialization.extended_splat_bytes()),
+        splat_bytes(context.variant.splat_bytes()),
+        extended_bytes(context.variant.extended_splat_bytes()),
         ends(keys + count * sizeof(std::uint32_t)),
         // What follows is read as integers of 32 bits.
         splats(ends + (by_depth ? (count + count % 2) * sizeof(std::uint16_t) : 0)),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/opencl/launch.h"
+#include "device/stages/stage_programs.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -26,7 +27,7 @@ std::vector<TileBand> cut_in_bands(const std::vector<std::uint32_t>& lengths,
 
 Binner::Binner(const StageContext& context)
     : context_(context),
-      program_(context.device.programs.get(context.specialization.bin())),
+      program_(context.device.programs.get(bin_program(context.variant))),
       no_order_(context.device.pool.get<std::uint32_t>(0, "unused")),
       no_blocks_(context.device.pool.get<shared::BlockCounts>(0, "unused")) {
   const DeviceTraits& traits = context.device.traits;
@@ -98,8 +99,8 @@ void Binner::cut_in_blocks(CountedSplats& counted) const {
   parameters.length = parameters.stride;
   parameters.block_count = ceil_divide(count, parameters.stride);
   const std::uint64_t slots = std::uint64_t{parameters.block_count} * parameters.stride;
-  counted.in_order = context_.device.pool.get<std::byte>(
-      slots * context_.specialization.splat_bytes(), "splats in order");
+  counted.in_order = context_.device.pool.get<std::byte>(slots * context_.variant.splat_bytes(),
+                                                         "splats in order");
   counted.tiles = context_.device.pool.get<std::uint32_t>(slots, "tiles of splats");
   counted.tile_counts = context_.device.pool.get<std::uint32_t>(
       std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
@@ -171,8 +172,7 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
   lists.segments = device.pool.get<shared::Segment>(parameters.segment_capacity, "segment");
   // Always the same size, so that the pool's serves again; a processor touches what it fills.
   lists.entries = device.pool.get<std::byte>(
-      (entry_capacity_ + ENTRIES_BEHIND) * context_.specialization.tile_splat_bytes(),
-      "tile entries");
+      (entry_capacity_ + ENTRIES_BEHIND) * context_.variant.tile_splat_bytes(), "tile entries");
   Launch(device, "bin", program_.create_kernel("bin_scan_tiles"))
       .value(parameters)
       .arg(counted.tile_lengths)

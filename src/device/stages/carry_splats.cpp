@@ -29,7 +29,7 @@ std::vector<std::uint32_t> numbers_up_to(const MappedValues<const std::uint32_t>
 void carry_splats(const StageContext& context, const SortedSplats& sorted, std::uint32_t first,
                   const KeyedSplats& keyed) {
   DeviceContext& device = context.device;
-  const Program program = device.programs.get(Specialization::carry());
+  const Program program = device.programs.get(program_source("kernels/sort/carry.cl"));
   const auto copy = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
                         std::size_t splat_bytes) {
     Launch(device, "sort", program.create_kernel("carry_splats"))
@@ -44,10 +44,10 @@ void carry_splats(const StageContext& context, const SortedSplats& sorted, std::
         .arg(keyed.order)
         .run_items(sorted.count - first);
   };
-  const Specialization& specialization = context.specialization;
-  copy(sorted.splats.splats, keyed.splats.splats, specialization.splat_bytes());
-  if (specialization.is_extended())
-    copy(sorted.splats.extended, keyed.splats.extended, specialization.extended_splat_bytes());
+  const Variant& variant = context.variant;
+  copy(sorted.splats.splats, keyed.splats.splats, variant.splat_bytes());
+  if (variant.extended)
+    copy(sorted.splats.extended, keyed.splats.extended, variant.extended_splat_bytes());
 }
 
 std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const KeyedSplats& keyed,

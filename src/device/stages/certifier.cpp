@@ -6,6 +6,7 @@
 #include "device/frame/cell_layout.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/plan/splat_limits.h"
@@ -114,10 +115,10 @@ double longest_list(const float* listed, std::size_t tiles, std::size_t cells_pe
 
 Certifier::Certifier(const StageContext& context) : context_(context) {
   if (!context.plan.has_errors_of_splats) return;
-  const Specialization& specialization = context.specialization;
-  program_ = context.device.programs.get(specialization.certify());
+  const Variant& variant = context.variant;
+  program_ = context.device.programs.get(certify_program(variant));
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
-  lay_out_cells(specialization, parameters_);
+  lay_out_cells(variant, parameters_);
   const SplatLimits& limits = context.plan.splats;
   parameters_.widening = limits.widening;
   parameters_.bright_peak = limits.bright_peak;
@@ -206,8 +207,8 @@ CollectedSplats Certifier::collected() const {
 // see which there are, then rows of tiles of these.
 std::vector<PeakCells> Certifier::gathered_cells(const float* values) const {
   const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
-                              static_cast<int>(context_.specialization.tile_width()),
-                              static_cast<int>(context_.specialization.tile_height())};
+                              static_cast<int>(context_.variant.tile_width),
+                              static_cast<int>(context_.variant.tile_height)};
   const std::vector<shared::Grid>& grids = context_.layout.grids;
   std::vector<OctaveOfLevel> octaves = octaves_of_levels(context_.plan.pyramid);
   for_blocks(octaves.size(), 1, [&](std::size_t number, std::size_t) {

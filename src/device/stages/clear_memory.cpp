@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "device/frame/shared.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 
@@ -23,7 +23,8 @@ void clear_together(DeviceContext& device, const char* stage, const compute::buf
                                               static_cast<std::uint32_t>(word >> 32),
                                               static_cast<std::uint32_t>(step / 4)};
   const std::size_t items = ceil_divide<std::size_t>(parameters.words, CLEARED_WORDS);
-  Launch(device, stage, device.programs.get(Specialization::clear()).create_kernel("clear"))
+  Launch(device, stage,
+         device.programs.get(program_source("kernels/common/clear.cl")).create_kernel("clear"))
       .value(parameters)
       .arg(memory)
       .run_items(items);

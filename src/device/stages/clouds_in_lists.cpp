@@ -82,8 +82,8 @@ shared::DirectionCone look_through(const StageContext& context, int left, int to
                                    std::vector<Vec3>& directions) {
   using namespace boost::qvm;
   const shared::Grid& grid = context.layout.grids.front();
-  const int width = static_cast<int>(context.specialization.tile_width());
-  const int height = static_cast<int>(context.specialization.tile_height());
+  const int width = static_cast<int>(context.variant.tile_width);
+  const int height = static_cast<int>(context.variant.tile_height);
   directions.clear();
   Vec3 sum{};
   for (int y = top; y < top + height; ++y) {
@@ -120,8 +120,8 @@ void fill_directions(const StageContext& context, CloudTables& tables) {
   for_blocks(cones.size(), 8, [&](std::size_t first, std::size_t end) {
     std::vector<Vec3> directions;
     for (std::size_t tile = first; tile < end; ++tile) {
-      const auto left = static_cast<int>(tile % columns * context.specialization.tile_width());
-      const auto top = static_cast<int>(tile / columns * context.specialization.tile_height());
+      const auto left = static_cast<int>(tile % columns * context.variant.tile_width);
+      const auto top = static_cast<int>(tile / columns * context.variant.tile_height);
       cones[tile] =
           look_through(context, grid.first_x + left, grid.first_y + top, planes.data(), directions);
     }
@@ -130,28 +130,27 @@ void fill_directions(const StageContext& context, CloudTables& tables) {
 }
 
 // A splat that touches all tiles of the picture's grid and adds no light by itself.
-std::vector<std::uint32_t> splat_words(const Specialization& specialization, std::size_t cloud) {
+std::vector<std::uint32_t> splat_words(const Variant& variant, std::size_t cloud) {
   constexpr float everywhere = 1e18f;
   shared::Splat splat{};
   splat.sigma = -CLOUD_SIGMA * static_cast<float>(cloud + 1);
   splat.radius = everywhere;
   // Beyond what all splats have: widths along x, how ellipses are turned, colors of their own,
   // which weigh nothing here.
-  std::vector<std::uint32_t> words(specialization.splat_bytes() / sizeof(std::uint32_t), all_bits);
+  std::vector<std::uint32_t> words(variant.splat_bytes() / sizeof(std::uint32_t), all_bits);
   std::memcpy(words.data(), &splat, sizeof(splat));
   std::size_t next = sizeof(splat) / sizeof(std::uint32_t);
-  if (specialization.has_ellipses()) {
+  if (variant.ellipses) {
     words[next++] = bits_of(splat.sigma);
     words[next++] = bits_of(everywhere);
   }
-  if (specialization.is_face_of_cube()) {
+  if (variant.face_of_cube) {
     constexpr std::size_t tilt_words = sizeof(shared::Tilt) / sizeof(std::uint32_t);
     std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(next), tilt_words, 0u);
     next += tilt_words;
     words[next++] = bits_of(1);
   }
-  if (specialization.has_vector_colors())
-    std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(next), 3, 0u);
+  if (variant.vector_colors) std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(next), 3, 0u);
   return words;
 }
 
@@ -205,16 +204,15 @@ void CloudsInLists::append_before(std::uint64_t end, KeyedSplats& keyed) {
 
 void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keyed) const {
   if (begin == end) return;
-  const Specialization& specialization = context_->specialization;
-  const std::size_t splat_bytes = specialization.splat_bytes();
+  const Variant& variant = context_->variant;
+  const std::size_t splat_bytes = variant.splat_bytes();
   std::vector<std::uint32_t> keys, order;
   for (std::size_t cloud = begin; cloud < end; ++cloud) {
     const std::size_t i = cloud - begin;
     const std::uint32_t slot = keyed.free_slots.empty()
                                    ? keyed.count + static_cast<std::uint32_t>(i)
                                    : keyed.free_slots[i];
-    write(*context_, splat_words(specialization, cloud), slot * splat_bytes,
-          keyed.splats.splats.memory());
+    write(*context_, splat_words(variant, cloud), slot * splat_bytes, keyed.splats.splats.memory());
     if (keyed.key_ends.size() > 0) {
       const std::vector<std::uint16_t> key_end = {static_cast<std::uint16_t>(keys_[cloud])};
       write(*context_, key_end, slot * sizeof(std::uint16_t), keyed.key_ends.memory());

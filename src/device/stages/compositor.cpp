@@ -6,6 +6,7 @@
 #include "device/frame/float_pair.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "device/stages/stage_programs.h"
 
 namespace splotchcl {
 namespace {
@@ -26,10 +27,11 @@ std::uint64_t rounded_up(std::uint64_t count) {
 
 Compositor::Compositor(const StageContext& context) : context_(context) {
   ProgramCache& programs = context.device.programs;
-  const Specialization& specialization = context.specialization;
-  layers_.composite = programs.get(specialization.composite());
-  if (context.device.traits.rows) programs.get(Specialization::clear());
-  if (context.plan.slabs > 0) slabs_.composite = programs.get(specialization.composite_slab());
+  const Variant& variant = context.variant;
+  layers_.composite = programs.get(composite_program(variant));
+  if (context.device.traits.rows) programs.get(program_source("kernels/common/clear.cl"));
+  if (context.plan.slabs > 0)
+    slabs_.composite = programs.get(composite_program(variant.of_slabs()));
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());
   parameters_.phi_first = context.plan.layers.phi_first;
   parameters_.phi_short = context.plan.layers.phi_short;
@@ -44,7 +46,7 @@ Compositor::Compositor(const StageContext& context) : context_(context) {
 }
 
 void Compositor::take_clouds(const CloudTables& clouds) {
-  layers_.composite = context_.device.programs.get(context_.specialization.composite_with_clouds());
+  layers_.composite = context_.device.programs.get(composite_with_clouds_program(context_.variant));
   layers_.clouds = &clouds;
 }
 
@@ -64,7 +66,7 @@ Planes Compositor::start() const {
 void Compositor::clear_grid(std::size_t g, Planes& planes) const {
   const shared::Grid& grid = context_.layout.grids[g];
   const std::size_t first = floats_before(grid);
-  const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
+  const std::size_t floats = std::size_t{context_.variant.planes()} * grid.plane_size;
   clear_memory(context_.device, "composite", planes.light.memory(), 4 * first, 4 * floats);
   planes.used_grids |= 1u << g;
 }
@@ -76,11 +78,10 @@ Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
     const std::uint32_t bit = 1u << g;
     if ((lists.used_grids & bit) && !(planes.used_grids & bit)) clear_grid(g, planes);
   }
-  const Specialization& specialization = context_.specialization;
-  const auto partials = context_.device.pool.get<float>(std::uint64_t{specialization.planes()} *
-                                                            specialization.tile_pixels() *
-                                                            rounded_up(lists.partial_count),
-                                                        "partial layers");
+  const Variant& variant = context_.variant;
+  const auto partials = context_.device.pool.get<float>(
+      std::uint64_t{variant.planes()} * variant.tile_pixels() * rounded_up(lists.partial_count),
+      "partial layers");
   // Of an ordered plan the picture's own grid has layers, coarse ones have sums.
   const std::uint32_t end_of_layers =
       context_.plan.slabs > 0 ? lists.picture_segments : lists.segment_count;
@@ -100,8 +101,8 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
                       const SplatMemory& splats, const Buffer<float>& partials,
                       const Planes& planes) const {
   if (part.first == part.end) return;
-  const Specialization& specialization = context_.specialization;
-  const std::size_t count = part.end - part.first, tile_pixels = specialization.tile_pixels();
+  const Variant& variant = context_.variant;
+  const std::size_t count = part.end - part.first, tile_pixels = variant.tile_pixels();
   Launch launch(context_.device, "composite", kernels.composite.create_kernel("composite"));
   launch.value(parameters_of(part))
       .arg(context_.grids)
@@ -109,18 +110,18 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
       .arg(lists.entries)
       .arg(planes.light)
       .arg(partials);
-  if (specialization.is_extended()) launch.arg(splats.extended);
+  if (variant.extended) launch.arg(splats.extended);
   if (kernels.clouds) {
     launch.arg(kernels.clouds->entries)
         .arg(kernels.clouds->splats)
         .arg(kernels.clouds->directions)
         .arg(kernels.clouds->cones);
   }
-  if (specialization.has_stencils()) launch.arg(context_.stencils);
-  if (specialization.has_rows()) {
+  if (variant.stencils) launch.arg(context_.stencils);
+  if (variant.has_rows()) {
     launch.run_pieces(count);
   } else {
-    launch.run_groups(count, specialization.is_extended() ? tile_pixels / 8 : tile_pixels);
+    launch.run_groups(count, variant.extended ? tile_pixels / 8 : tile_pixels);
   }
   if (lists.partial_count > 0) join(part, kernels, lists, partials, planes);
 }
@@ -129,14 +130,15 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
 void Compositor::join(const Part& part, const Kernels& kernels, const TileLists& lists,
                       const Buffer<float>& partials, const Planes& planes) const {
   DeviceContext& device = context_.device;
-  const Specialization& specialization = context_.specialization;
-  const bool extended = specialization.is_extended();
+  const Variant& variant = context_.variant;
+  const bool extended = variant.extended;
   const std::size_t count = part.end - part.first;
   const compute::kernel kernel =
-      extended ? kernels.composite.create_kernel("join_extended")
-               : device.programs
-                     .get(&kernels == &slabs_ ? specialization.join_slab() : specialization.join())
-                     .create_kernel("join");
+      extended
+          ? kernels.composite.create_kernel("join_extended")
+          : device.programs
+                .get(&kernels == &slabs_ ? join_program(variant.of_slabs()) : join_program(variant))
+                .create_kernel("join");
   Launch launch(device, "composite", kernel);
   launch.value(parameters_of(part))
       .arg(context_.grids)
@@ -144,11 +146,11 @@ void Compositor::join(const Part& part, const Kernels& kernels, const TileLists&
       .arg(planes.light)
       .arg(partials);
   if (extended) {
-    launch.run_groups(count, specialization.tile_pixels() / 8);
-  } else if (!specialization.has_rows()) {
-    launch.run_groups(count, specialization.tile_pixels());
+    launch.run_groups(count, variant.tile_pixels() / 8);
+  } else if (!variant.has_rows()) {
+    launch.run_groups(count, variant.tile_pixels());
   } else {
-    launch.run_rows(specialization.tile_height(), count);
+    launch.run_rows(variant.tile_height, count);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "device/opencl/launch.h"
 #include "device/stages/binner.h"
 #include "device/stages/clear_memory.h"
+#include "device/stages/stage_programs.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
@@ -57,7 +58,7 @@ std::vector<shared::Segment> cut_in_segments(const std::vector<std::uint32_t>& l
 
 GroupBinner::GroupBinner(const StageContext& context)
     : context_(context),
-      program_(context.device.programs.get(context.specialization.bin())),
+      program_(context.device.programs.get(bin_program(context.variant))),
       scan_(context.device),
       sorter_(context.device) {}
 
@@ -135,7 +136,7 @@ void GroupBinner::make_lists(const CountedSplats& counted, const TileBand& band,
   pairs = sorter_.sort("bin", std::move(pairs), parameters.entry_count,
                        digits_of_bits(bits_of(band.end - band.first - 1)));
   lists.entries = device.pool.get<std::byte>(
-      lists.entry_count * context_.specialization.tile_splat_bytes(), "tile entries");
+      lists.entry_count * context_.variant.tile_splat_bytes(), "tile entries");
   Launch(device, "bin", program_.create_kernel("bin_make_entries"))
       .value(parameters)
       .arg(context_.grids)

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "device/frame/shared.h"
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 
@@ -11,7 +11,7 @@ namespace splotchcl {
 
 GroupScan::GroupScan(DeviceContext& device)
     : device_(device),
-      program_(device.programs.get(Specialization::scan())),
+      program_(device.programs.get(program_source("kernels/scan/scan_groups.cl"))),
       nothing_(device.pool.upload(std::vector<std::uint32_t>{0}, "start of a scan")) {}
 
 void GroupScan::scan(const char* stage, const Buffer<std::uint32_t>& values,

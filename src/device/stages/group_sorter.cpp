@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 
@@ -67,7 +67,7 @@ DigitPlan digits_of_range(const shared::KeyRange& range) {
 GroupSorter::GroupSorter(DeviceContext& device)
     : device_(device),
       scan_(device),
-      program_(device.programs.get(Specialization::sort_groups())) {}
+      program_(device.programs.get(program_source("kernels/sort/sort_groups.cl"))) {}
 
 KeyedValues GroupSorter::sort(const char* stage, KeyedValues pairs, std::uint32_t count,
                               const DigitPlan& plan) const {

@@ -9,7 +9,8 @@ namespace splotchcl {
 void LightAdder::add(const char* kernel, const shared::AddLightParameters& parameters,
                      std::size_t planes, const Buffer<float>& to, const Buffer<float>& from) const {
   Launch(context_.device, "composite",
-         context_.device.programs.get(Specialization::add_light()).create_kernel(kernel))
+         context_.device.programs.get(program_source("kernels/composite/add_light.cl"))
+             .create_kernel(kernel))
       .value(parameters)
       .arg(to)
       .arg(from)
@@ -18,10 +19,10 @@ void LightAdder::add(const char* kernel, const shared::AddLightParameters& param
 
 void LightAdder::add_planes(const Planes& to, const Planes& from, std::size_t g) const {
   const shared::Grid& grid = context_.layout.grids[g];
-  const std::size_t planes = context_.specialization.planes();
+  const std::size_t planes = context_.variant.planes();
   const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
                                                  grid.plane_size};
-  const bool is_pairs = context_.specialization.is_extended();
+  const bool is_pairs = context_.variant.extended;
   if ((to.used_grids >> g & 1) != 0) {
     add(is_pairs ? "add_pairs_of_light" : "add_light", parameters, is_pairs ? planes / 2 : planes,
         to.light, from.light);

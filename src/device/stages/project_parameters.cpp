@@ -163,8 +163,8 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   p.center_y = static_cast<float>(frame.camera.center_y - grid.middle_y);
 
   const Rectangle whole = {0, 0, frame.width, frame.height};
-  const auto tile_width = static_cast<int>(context.specialization.tile_width());
-  const auto tile_height = static_cast<int>(context.specialization.tile_height());
+  const auto tile_width = static_cast<int>(context.variant.tile_width);
+  const auto tile_height = static_cast<int>(context.variant.tile_height);
   const Rectangle drawn = {grid.first_x, grid.first_y,
                            std::min(grid.tiles_x * tile_width, frame.width - grid.first_x),
                            std::min(grid.tiles_y * tile_height, frame.height - grid.first_y)};

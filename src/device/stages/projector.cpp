@@ -11,6 +11,7 @@
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
 #include "device/stages/projector_targets.h"
+#include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
 
@@ -58,14 +59,14 @@ Projector::Projector(const StageContext& context)
   if (!rows) {
     check_blocks_of_groups(context.device.traits);
     scan_.emplace(context.device);
-    programs.get(context.specialization.project(ProjectOutput::counts));
+    programs.get(project_program(context.variant, ProjectOutput::counts));
   } else if (context.plan.needs_sort()) {
-    programs.get(Specialization::compact());
+    programs.get(program_source("kernels/project/compact.cl"));
   }
   if (context.plan.needs_sort()) {
-    programs.get(context.specialization.project(ProjectOutput::splats_and_keys));
+    programs.get(project_program(context.variant, ProjectOutput::splats_and_keys));
   } else {
-    programs.get(context.specialization.project(ProjectOutput::splats));
+    programs.get(project_program(context.variant, ProjectOutput::splats));
   }
 }
 
@@ -82,9 +83,8 @@ Buffer<shared::WidthNeeds> Projector::upload_needs() const {
 SplatMemory Projector::splat_memory(std::uint64_t splats, Filling filling) const {
   BufferPool& pool = context_.device.pool;
   SplatMemory memory;
-  memory.splats =
-      pool.get<std::byte>(splats * context_.specialization.splat_bytes(), "splat", filling);
-  memory.extended = pool.get<std::byte>(splats * context_.specialization.extended_splat_bytes(),
+  memory.splats = pool.get<std::byte>(splats * context_.variant.splat_bytes(), "splat", filling);
+  memory.extended = pool.get<std::byte>(splats * context_.variant.extended_splat_bytes(),
                                         "extended splat", filling);
   return memory;
 }
@@ -114,7 +114,7 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   DeviceContext& device = context_.device;
   parameters.leaves_out_blocks = !left_out.empty();
   const Buffer<std::uint32_t> left_out_buffer = device.pool.upload(left_out, "blocks out of view");
-  const Program program = device.programs.get(context_.specialization.project(output));
+  const Program program = device.programs.get(project_program(context_.variant, output));
   Launch launch(device, "project", program.create_kernel("project"));
   const DrawnComponent& component = context_.frame.components[parameters.component];
   launch.value(parameters).value(make_extended_parameters(context_, component));
@@ -126,8 +126,8 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
       .arg(targets.key_ends);
   if (scan_) launch.arg(targets.order);
   launch.arg(width_needs_).arg(left_out_buffer);
-  if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
-  if (context_.specialization.is_extended()) {
+  if (context_.variant.vector_colors) launch.arg(particles.own_color);
+  if (context_.variant.extended) {
     launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
   }
   if (targets.key_counts) launch.arg(targets.key_counts->counts).arg(targets.key_counts->bins);
@@ -177,8 +177,8 @@ SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
   blocks.counts = pool.get<shared::BlockCounts>(blocks.block_count, "block counts");
   const std::uint64_t slots = std::uint64_t{blocks.block_count} * blocks.stride;
   blocks.splats = splat_memory(slots);
-  blocks.tiles = pool.get<std::uint32_t>(context_.specialization.has_own_tiles() ? 0 : slots,
-                                         "tiles of splats");
+  blocks.tiles =
+      pool.get<std::uint32_t>(context_.variant.has_own_tiles() ? 0 : slots, "tiles of splats");
   blocks.tile_counts = pool.get<std::uint32_t>(
       std::uint64_t{blocks.block_count} * parameters.tile_count, "tile counts");
   std::vector<std::uint32_t> offsets(blocks.block_count);
@@ -311,7 +311,8 @@ void Projector::put_keys_together(const Buffer<std::uint32_t>& keys,
   const auto offsets = pool.get<std::uint32_t>(std::uint64_t{blocks} + 1, "block offsets");
   scan_counts(blocks, counts, offsets);
   Launch(context_.device, "project",
-         context_.device.programs.get(Specialization::compact()).create_kernel("compact_keys"))
+         context_.device.programs.get(program_source("kernels/project/compact.cl"))
+             .create_kernel("compact_keys"))
       .value(stride)
       .arg(counts)
       .arg(offsets)
@@ -411,11 +412,12 @@ std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameter
   launch(ProjectOutput::window_splats, with_gaps, particles, without,
          {offsets, counts, apart.splats, apart.keys, apart.key_ends, unused_});
   scan_counts(blocks, counts, offsets);
-  const Specialization& specialization = context_.specialization;
+  const Variant& variant = context_.variant;
   const auto compact = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
                            std::size_t splat_bytes, bool has_keys) {
     Launch(context_.device, "project",
-           context_.device.programs.get(Specialization::compact()).create_kernel("compact"))
+           context_.device.programs.get(program_source("kernels/project/compact.cl"))
+               .create_kernel("compact"))
         .value(parameters.first_slot)
         .value(stride)
         .value(static_cast<cl_uint>(splat_bytes / sizeof(cl_uint)))
@@ -432,10 +434,9 @@ std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameter
         .arg(keyed.order)
         .run_items(blocks);
   };
-  compact(apart.splats.splats, keyed.splats.splats, specialization.splat_bytes(), true);
-  if (specialization.is_extended()) {
-    compact(apart.splats.extended, keyed.splats.extended, specialization.extended_splat_bytes(),
-            false);
+  compact(apart.splats.splats, keyed.splats.splats, variant.splat_bytes(), true);
+  if (variant.extended) {
+    compact(apart.splats.extended, keyed.splats.extended, variant.extended_splat_bytes(), false);
   }
   return static_cast<std::uint32_t>(download_counts(counts, blocks).visible);
 }
@@ -448,8 +449,9 @@ void Projector::scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCoun
     return;
   }
   DeviceContext& device = context_.device;
-  Launch(device, "project",
-         device.programs.get(Specialization::scan_blocks()).create_kernel("scan_blocks"))
+  Launch(
+      device, "project",
+      device.programs.get(program_source("kernels/project/scan.cl")).create_kernel("scan_blocks"))
       .value(blocks)
       .arg(counts)
       .arg(offsets)

@@ -10,6 +10,7 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/stages/group_scan.h"
+#include "device/stages/stage_programs.h"
 
 namespace splotchcl {
 

@@ -7,6 +7,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
+#include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
@@ -66,7 +67,7 @@ std::size_t refined_strips(const shared::GridPart& part) {
 }  // namespace
 
 Resolver::Resolver(const StageContext& context)
-    : context_(context), program_(context.device.programs.get(context.specialization.resolve())) {
+    : context_(context), program_(context.device.programs.get(resolve_program(context.variant))) {
   const Frame& frame = context.frame;
   parameters_.width = frame.crop.width;
   parameters_.height = frame.crop.height;
@@ -81,12 +82,12 @@ Resolver::Resolver(const StageContext& context)
   if (frame.projection == Projection::fisheye)
     parameters_.circle_diameter = std::min(frame.width, frame.height);
   if (context.layout.grids.size() > 1) {
-    grids_program_ = context.device.programs.get(context.specialization.coarse_grids());
+    grids_program_ = context.device.programs.get(refine_program(context.variant));
     if (context.plan.pyramid.is_blurred())
-      blur_program_ = context.device.programs.get(context.specialization.blur());
+      blur_program_ = context.device.programs.get(blur_program(context.variant));
   }
   if (context.plan.slabs > 0)
-    slab_program_ = context.device.programs.get(context.specialization.lay_slab());
+    slab_program_ = context.device.programs.get(lay_slab_program(context.variant));
 }
 
 CollectingRoom Resolver::room_for_collecting() const {
@@ -102,15 +103,14 @@ CollectingRoom Resolver::room_for_collecting() const {
   }
   BufferPool& pool = context_.device.pool;
   CollectingRoom room;
-  room.columns =
-      pool.get<float>(context_.specialization.planes() * floats, "blurred or refined columns");
+  room.columns = pool.get<float>(context_.variant.planes() * floats, "blurred or refined columns");
   // Of a crop a coarser level may touch more tiles than a finer one.
   std::uint64_t largest_plane = 0;
   for (const shared::Grid& grid : context_.layout.collecting)
     largest_plane = std::max<std::uint64_t>(largest_plane, grid.plane_size);
   for (std::size_t i = 0; i < std::min(room.levels.size(), context_.layout.collecting.size()); ++i)
-    room.levels[i] = pool.get<float>(
-        context_.specialization.planes() * largest_plane + padding_of_rows, "a level of grids");
+    room.levels[i] = pool.get<float>(context_.variant.planes() * largest_plane + padding_of_rows,
+                                     "a level of grids");
   return room;
 }
 
@@ -198,7 +198,7 @@ void Resolver::blur_in_strips(const Planes& planes, const std::vector<std::size_
       .arg(planes.light)
       .arg(*target.memory)
       .run_grid(ceil_divide(width, STRIP), ceil_divide(height, ROWS_OF_BAND),
-                context_.specialization.planes());
+                context_.variant.planes());
 }
 
 // From the source along x, then along y to the target.
@@ -220,7 +220,7 @@ void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
   const std::size_t width_strips = strips_of_eight(part);
   const auto height = static_cast<std::size_t>(part.bottom - part.top);
   const std::size_t source_height = height + 2 * static_cast<std::size_t>(parameters.half_width);
-  const std::size_t plane_count = context_.specialization.planes();
+  const std::size_t plane_count = context_.variant.planes();
   Launch(context_.device, "resolve", blur_program_.create_kernel("blur_columns"))
       .value(parameters)
       .arg(context_.grids)
@@ -251,7 +251,7 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
 
 // Work-items for so many times eight pixels.
 std::size_t Resolver::items_of(std::size_t eights) const {
-  return ceil_divide(eights, context_.specialization.eights_of_item());
+  return ceil_divide(eights, context_.variant.eights_of_item());
 }
 
 // The first axis.
@@ -263,7 +263,7 @@ void Resolver::refine_columns(const LevelLight& coarse, const shared::RefinePara
       .arg(*coarse.memory)
       .arg(columns)
       .run_grid(items_of(refined_strips(parameters.part)), refined_rows(parameters.part),
-                context_.specialization.planes());
+                context_.variant.planes());
 }
 
 // The same from one level to the next.
@@ -277,13 +277,13 @@ void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
       .arg(context_.grids)
       .arg(*fine.memory)
       .arg(columns)
-      .run_grid(items_of(strips_of_eight(part)), row_pairs(part), context_.specialization.planes());
+      .run_grid(items_of(strips_of_eight(part)), row_pairs(part), context_.variant.planes());
 }
 
 SlabLight Resolver::start_slabs() const {
   const shared::Grid& grid = context_.layout.grids.front();
   const shared::GridPart& part = context_.layout.wanted.front();
-  const std::uint64_t floats = std::uint64_t{context_.specialization.planes()} * grid.plane_size;
+  const std::uint64_t floats = std::uint64_t{context_.variant.planes()} * grid.plane_size;
   const std::size_t eights =
       strips_of_eight(part) * static_cast<std::size_t>(part.bottom - part.top);
   SlabLight slab;
@@ -319,7 +319,7 @@ Planes Resolver::lay_slab(Planes light, SlabLight& slab) const {
 void Resolver::begin_slab(const Planes& planes, const SlabLight& slab) const {
   const shared::Grid& grid = context_.layout.grids.front();
   const std::size_t first = floats_before(grid);
-  const std::size_t floats = std::size_t{context_.specialization.planes()} * grid.plane_size;
+  const std::size_t floats = std::size_t{context_.variant.planes()} * grid.plane_size;
   context_.device.timer.add(
       "resolve",
       context_.device.queue.enqueue_copy_buffer(planes.light.memory(), slab.before.memory(),
@@ -397,13 +397,13 @@ void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels)
   const std::size_t width_strips = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   shared::ResolveParameters parameters = parameters_;
   Buffer<float> background;
-  if (context_.specialization.has_background_image()) {
+  if (context_.variant.background_image) {
     parameters.background_stride = static_cast<int>(8 * width_strips);
     background = upload_background(8 * width_strips);
   }
   Launch launch(device, "resolve", program_.create_kernel("resolve"));
   launch.value(parameters).arg(context_.grids).arg(planes.light);
-  if (context_.specialization.has_background_image()) launch.arg(background);
+  if (context_.variant.background_image) launch.arg(background);
   launch.arg(pixels).run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height),
                               1);
 }

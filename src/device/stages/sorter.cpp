@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/frame/specialization.h"
+#include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
 
@@ -34,7 +34,8 @@ shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted
 Sorter::Sorter(DeviceContext& device, bool is_used) : device_(device) {
   if (!is_used) return;
   if (device.traits.rows)
-    device.programs.get(Specialization::sort());  // asked for, with those of other stages
+    device.programs.get(
+        program_source("kernels/sort/sort.cl"));  // asked for, with those of other stages
   else
     groups_.emplace(device);
 }
@@ -48,7 +49,7 @@ Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {
   const bool has_scratch = pairs.scratch.size() > 0;
   if (!has_scratch) pairs.scratch = pool.get<std::uint32_t>(count, "order");
   auto other_keys = pool.get<std::uint32_t>(count, "sort keys");
-  const Program program = device_.programs.get(Specialization::sort());
+  const Program program = device_.programs.get(program_source("kernels/sort/sort.cl"));
   std::uint32_t differing = ~0u;  // until the first pass has seen the keys
   bool is_in_scratch = false;
   for (std::uint32_t shift = 0; shift < 32; shift += SORT_DIGIT_BITS) {
@@ -99,7 +100,7 @@ std::uint32_t Sorter::take_in_ends(const Buffer<std::uint32_t>& keys,
                                    const Buffer<std::uint32_t>& values, std::uint32_t count) const {
   shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
   const auto bits = device_.pool.get<shared::KeyBits>(parameters.block_count, "key bits");
-  const Program program = device_.programs.get(Specialization::sort());
+  const Program program = device_.programs.get(program_source("kernels/sort/sort.cl"));
   Launch(device_, "sort", program.create_kernel("sort_bits"))
       .value(parameters)
       .arg(keys)
@@ -128,7 +129,8 @@ Buffer<std::uint32_t> Sorter::sort_with_ends(Pairs pairs, const Buffer<std::uint
   Pairs sorted = sort_pairs(std::move(pairs), count);
   if (bits_left > 0) {
     const shared::SortParameters parameters = make_parameters(count, device_.traits.sort_blocks);
-    Launch(device_, "sort", device_.programs.get(Specialization::sort()).create_kernel("sort_runs"))
+    Launch(device_, "sort",
+           device_.programs.get(program_source("kernels/sort/sort.cl")).create_kernel("sort_runs"))
         .value(parameters)
         .arg(sorted.keys)
         .arg(ends)

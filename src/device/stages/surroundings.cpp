@@ -12,6 +12,7 @@
 #include "device/stages/clear_memory.h"
 #include "device/stages/layer_planes.h"
 #include "device/stages/project_parameters.h"
+#include "device/stages/stage_programs.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
@@ -75,8 +76,8 @@ double light_error(LightPlan light, double brightest, const double* exact, const
 
 void Surroundings::get_programs() const {
   ProgramCache& programs = context_.device.programs;
-  const Program list = programs.get(context_.specialization.list_around());
-  const Program behind = programs.get(context_.specialization.behind());
+  const Program list = programs.get(list_around_program(context_.variant));
+  const Program behind = programs.get(behind_program(context_.variant));
   programs.compile_all();
   // What an earlier run has compiled is read with its first kernel.
   list.create_kernel("list_around");
@@ -92,14 +93,14 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
-  const Program program = device.programs.get(context_.specialization.list_around());
+  const Program program = device.programs.get(list_around_program(context_.variant));
   Launch launch(device, "surroundings", program.create_kernel("list_around"));
   const Buffer<std::uint32_t> looked_through = device.pool.upload(blocks.blocks, "blocks around");
   pass_columns(launch.value(p), particles)
       .arg(looked_through)
       .arg(listed)
       .value(static_cast<cl_uint>(capacity));
-  if (context_.specialization.has_vector_colors()) launch.arg(particles.own_color);
+  if (context_.variant.vector_colors) launch.arg(particles.own_color);
   launch.run_items(blocks.blocks.size());
   const std::uint32_t count = device.pool.download(listed, 1).front();
   if (count > capacity) refuse(device, most, count);
@@ -281,9 +282,9 @@ void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const Clou
   const bool may_round = SmoothPicture::single_rounding * of_depth * picture.largest() <= allowed;
   const Buffer<float> behind = layer_planes(context_, picture, may_round);
   const auto items =
-      static_cast<std::size_t>(ceil_divide(crop.width, context_.specialization.pixels_behind()));
+      static_cast<std::size_t>(ceil_divide(crop.width, context_.variant.pixels_behind()));
   Launch(device, "surroundings",
-         device.programs.get(context_.specialization.behind()).create_kernel("put_behind"))
+         device.programs.get(behind_program(context_.variant)).create_kernel("put_behind"))
       .value(parameters)
       .arg(context_.grids)
       .arg(planes.light)

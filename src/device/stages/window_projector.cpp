@@ -7,7 +7,7 @@
 
 namespace splotchcl {
 std::uint64_t splat_capacity(const StageContext& context) {
-  return splat_capacity(context.plan, context.specialization, context.layout, context.device.traits,
+  return splat_capacity(context.plan, context.variant, context.layout, context.device.traits,
                         context.device.memory.total);
 }
 

@@ -22,22 +22,6 @@ double gaussian(double distance, double sigma) {
   return std::exp(-distance * distance / (sigma * sigma));
 }
 
-// Of the interpolation a quarter of a pixel right of pixel 0, for a Gaussian at `center`.
-double error_at(const Weights& weights, double sigma, double center) {
-  double interpolated = 0;
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    interpolated += weights[k] * gaussian(static_cast<double>(k) - taps_before - center, sigma);
-  return std::abs(interpolated - gaussian(0.25 - center, sigma));
-}
-
-double largest_error(const Weights& weights, double sigma) {
-  double largest = 0;
-  const double reach = 9 + 4 * sigma, step = 0.002 * sigma;
-  for (double center = -reach; center <= reach; center += step)
-    largest = std::max(largest, error_at(weights, sigma, center));
-  return largest;
-}
-
 // A row of pixels at half their size.
 std::vector<double> refined(const std::vector<double>& pixels, const Weights& weights) {
   constexpr std::size_t before = taps_before, beside = refinement_taps / 2;

@@ -1,6 +1,6 @@
-// The specialization alone writes the #defines that reach a kernel, and knows the sizes that
-// follow from them.
-#include "device/frame/specialization.h"
+// The variant alone writes the #defines that reach a kernel, and knows the sizes that follow from
+// them.
+#include "device/frame/variant.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,7 @@
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "device/stages/stage_programs.h"
 #include "matches.h"
 #include "paths.h"
 
@@ -44,7 +45,7 @@ std::set<std::string> names_in(const std::string& text, const std::string& patte
   return names;
 }
 
-const fs::path specialization = source_folder() / "src/device/frame/specialization.cpp";
+const fs::path variant_file = source_folder() / "src/device/frame/variant.cpp";
 
 std::string kernel_texts() {
   std::string text;
@@ -69,7 +70,13 @@ std::set<std::string> words_of(const std::string& text) {
 }
 
 std::set<std::string> written_macros() {
-  return names_in(text_of(specialization), R"re(define(?:_if)?\([^"]*"([A-Z0-9_]+))re");
+  return names_in(text_of(variant_file), R"re(define(?:_if)?\([^"]*"([A-Z0-9_]+))re");
+}
+
+// What a stage chooses for a program of its own.
+std::set<std::string> chosen_macros() {
+  const fs::path stages = source_folder() / "src/device/stages/stage_programs.cpp";
+  return names_in(text_of(stages), R"re("([A-Z][A-Z0-9_]+)")re");
 }
 
 // What compilers have beyond the language, or do not bear.
@@ -78,33 +85,36 @@ std::set<std::string> macros_of_options() {
                   R"re("-D([A-Z]\w+)")re");
 }
 
-TEST(Defines, AreWrittenByTheSpecializationAlone) {
+TEST(Defines, AreWrittenByTheVariantAlone) {
   for (const fs::path& file : files_below(source_folder() / "src")) {
-    if (file == specialization) continue;
+    if (file == variant_file) continue;
     EXPECT_EQ(text_of(file).find("\"#define"), std::string::npos) << file;
   }
 }
 
 TEST(Defines, ThatKernelsAskForAreWrittenOrTheirOwn) {
   const std::string kernels = kernel_texts();
-  const std::set<std::string> written = written_macros();
+  const std::set<std::string> written = written_macros(), chosen = chosen_macros();
   const std::set<std::string> own = names_in(kernels, R"(#define (\w+))");
   const std::set<std::string> of_options = macros_of_options();
   EXPECT_GE(of_options.size(), 2u);
   for (const std::string& asked : names_in(kernels, R"((?:#ifdef |#ifndef |defined\()(\w+))")) {
     const bool of_the_language = asked.rfind("__", 0) == 0 || asked.rfind("cl_khr_", 0) == 0;
-    EXPECT_TRUE(of_the_language || written.count(asked) || own.count(asked) ||
-                of_options.count(asked))
+    EXPECT_TRUE(of_the_language || written.count(asked) || chosen.count(asked) ||
+                own.count(asked) || of_options.count(asked))
         << asked;
   }
 }
 
 TEST(Defines, ThatAreWrittenAreReadByAKernel) {
   const std::set<std::string> words = words_of(kernel_texts());
-  const std::set<std::string> written = written_macros();
+  const std::set<std::string> written = written_macros(), chosen = chosen_macros();
   EXPECT_GT(written.size(), 15u);
-  for (const std::string& macro : written)
-    EXPECT_EQ(words.count(macro), 1u) << macro;
+  EXPECT_GT(chosen.size(), 5u);
+  for (const std::set<std::string>& macros : {written, chosen}) {
+    for (const std::string& macro : macros)
+      EXPECT_EQ(words.count(macro), 1u) << macro;
+  }
 }
 
 // A structure's name, and its size where the host has it.
@@ -136,12 +146,11 @@ class Sizes : public StageTest {
 
   static void expect_splats_of_equal_sizes(const Frame& frame) {
     const FramePlan plan = make_plan(frame);
-    const Specialization variant(frame, plan, device().traits);
+    const Variant variant(frame, plan, device().traits);
     std::vector<SharedStructure> structures = {{"Splat", variant.splat_bytes()},
                                                {"TileSplat", variant.tile_splat_bytes()}};
-    if (variant.is_extended())
-      structures.push_back({"ExtendedSplat", variant.extended_splat_bytes()});
-    expect_equal_sizes(variant.bin(), "bin/bin.h", structures);
+    if (variant.extended) structures.push_back({"ExtendedSplat", variant.extended_splat_bytes()});
+    expect_equal_sizes(bin_program(variant), "bin/bin.h", structures);
   }
 
   static Frame small_frame() {
@@ -168,8 +177,8 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   Frame frame = small_frame();
   frame.tolerance = 0;
   const FramePlan plan = make_plan(frame);
-  const Specialization variant(frame, plan, device().traits);
-  expect_equal_sizes(variant.project(ProjectOutput::splats), "project/project.h",
+  const Variant variant(frame, plan, device().traits);
+  expect_equal_sizes(project_program(variant, ProjectOutput::splats), "project/project.h",
                      {{"ProjectParameters", sizeof(shared::ProjectParameters)},
                       {"ExtendedParameters", sizeof(shared::ExtendedParameters)},
                       {"ExtendedSplat", sizeof(shared::ExtendedSplat)},
@@ -178,21 +187,22 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
                       {"BlockBox", sizeof(shared::BlockBox)},
                       {"Grid", sizeof(shared::Grid)}});
   expect_equal_sizes(
-      variant.bin(), "bin/bin.h",
+      bin_program(variant), "bin/bin.h",
       {{"BinParameters", sizeof(shared::BinParameters)}, {"Segment", sizeof(shared::Segment)}});
-  expect_equal_sizes(variant.composite(), "composite/composite.h",
+  expect_equal_sizes(composite_program(variant), "composite/composite.h",
                      {{"CompositeParameters", sizeof(shared::CompositeParameters)}});
-  expect_equal_sizes(variant.resolve(), "resolve/resolve.h",
+  expect_equal_sizes(resolve_program(variant), "resolve/resolve.h",
                      {{"ResolveParameters", sizeof(shared::ResolveParameters)}});
-  expect_equal_sizes(variant.blur(), "resolve/resolve.h",
+  expect_equal_sizes(blur_program(variant), "resolve/resolve.h",
                      {{"BlurStripsParameters", sizeof(shared::BlurStripsParameters)}});
-  expect_equal_sizes(variant.coarse_grids(), "resolve/resolve.h",
+  expect_equal_sizes(refine_program(variant), "resolve/resolve.h",
                      {{"BlurParameters", sizeof(shared::BlurParameters)},
                       {"RefineParameters", sizeof(shared::RefineParameters)}});
   expect_equal_sizes(
-      Specialization::sort(), "sort/sort.h",
+      program_source("kernels/sort/sort.cl"), "sort/sort.h",
       {{"SortParameters", sizeof(shared::SortParameters)}, {"KeyBits", sizeof(shared::KeyBits)}});
-  expect_equal_sizes(Specialization::interpolate(true), "interpolate/interpolate.h",
+  expect_equal_sizes(program_source("kernels/interpolate/interpolate.cl", lanes_of(true)),
+                     "interpolate/interpolate.h",
                      {{"InterpolateParameters", sizeof(shared::InterpolateParameters)},
                       {"PathParameters", sizeof(shared::PathParameters)}});
 }

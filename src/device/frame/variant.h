@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "device/opencl/device_traits.h"
+#include "device/opencl/program_text.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
+
+namespace splotchcl {
+
+// What a frame needs of the kernels, and the sizes that follow. Kernels ask for it by macros; a
+// program gets those that its text mentions, so that frames share as many programs as they can.
+struct Variant {
+  Variant(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits);
+
+  LightPlan light;
+  Projection projection;
+  bool rows;            // the shape for processors: eight lanes, and rows of a tile
+  bool rows_of_16;      // registers hold sixteen floats
+  bool double_numbers;  // extended numbers are doubles, else pairs of floats
+  bool extended;        // numbers of 45 bits
+  bool full_precision, fine_places, small_blocks;
+  bool kernel_cut, pixel_means;
+  bool vector_colors, ellipses, copies, face_of_cube;
+  bool keeps_transmittance;
+  bool clouds_around;  // the camera, there may be: they are no splats
+  bool stencils;       // of sums
+  bool background_image;
+  std::uint32_t sums = 3;  // of what is added up: light, of slabs depth as well
+  std::uint32_t tile_width = 16, tile_height = 16;  // pixels
+
+  bool is_ordered() const { return light == LightPlan::ordered; }
+  // Whether a work-item composites rows of a tile, else a group of them its pixels. Pairs of floats
+  // have no rows.
+  bool has_rows() const { return rows && (!extended || double_numbers); }
+  std::size_t tile_pixels() const { return std::size_t{tile_width} * tile_height; }
+  // Floats per pixel of a grid: sums, or 3 sources and 3 opacities; in extended precision a high
+  // and a low part of each.
+  std::uint32_t planes() const { return (is_ordered() ? 6u : sums) * (extended ? 2u : 1u); }
+  // Whether a splat in memory has its tiles with it.
+  bool has_own_tiles() const { return rows && !ellipses && !extended; }
+  bool has_whole_sectors() const;
+  // Bytes of the structures that the variant makes larger or smaller (shared.h).
+  std::size_t splat_bytes() const;
+  std::size_t extended_splat_bytes() const;  // 0 where there are none
+  std::size_t tile_splat_bytes() const;
+  // A work-item that refines grids, lays slabs or makes the picture takes so many times eight
+  // pixels: several on a processor, where it may be a call (common.cl, KERNEL_BODY).
+  std::size_t eights_of_item() const { return rows ? 8 : 1; }
+  int pixels_behind() const { return extended ? 8 : rows ? 64 : 1; }  // of a work-item
+  // Shapes on faces of a cube come eight pixels at a time.
+  bool takes_rows_of_16() const { return rows && rows_of_16 && !face_of_cube; }
+
+  // Of the wide splats in slabs of an ordered frame, which are added up: round ones that are not
+  // cut and take values at pixel centers.
+  Variant of_slabs() const;
+};
+
+// What a program is told beside its variant: "NAME" or "NAME value".
+using Choices = std::vector<std::string>;
+
+ProgramSource program_source(const std::string& file, const Choices& choices = {});
+ProgramSource program_source(const Variant& variant, const std::string& file,
+                             const Choices& choices = {});
+// Of light in layers, which fades to denormal numbers behind many: no picture shows them.
+ProgramSource program_of_layers(const Variant& variant, const std::string& file,
+                                const Choices& choices = {});
+
+// Lanes of a program that does not depend on the frame.
+inline Choices lanes_of(bool rows) {
+  return rows ? Choices{"LANES_8"} : Choices{};
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,98 @@
+#include "device/stages/stage_programs.h"
+
+namespace splotchcl {
+namespace {
+
+Choices choices_of(ProjectOutput output) {
+  switch (output) {
+    case ProjectOutput::counts:
+      return {};
+    case ProjectOutput::splats:
+      return {"OUTPUT_SPLATS"};
+    case ProjectOutput::splats_and_keys:
+      return {"OUTPUT_SPLATS", "OUTPUT_KEYS"};
+    case ProjectOutput::key_counts:
+      return {"KEY_WINDOW", "COUNT_KEYS"};
+    case ProjectOutput::window_counts:
+      return {"KEY_WINDOW"};
+    case ProjectOutput::window_splats:
+      return {"OUTPUT_SPLATS", "OUTPUT_KEYS", "KEY_WINDOW"};
+  }
+  return {};
+}
+
+Choices rows_of_16(const Variant& variant) {
+  return variant.takes_rows_of_16() ? Choices{"ROWS_OF_16"} : Choices{};
+}
+
+// By rows of a tile, or a pixel for each item of a group.
+std::string composite_file(const Variant& variant) {
+  const std::string shape = variant.has_rows() ? "rows.cl" : "groups.cl";
+  return (variant.extended ? "kernels/composite/composite_extended_"
+                           : "kernels/composite/composite_") +
+         shape;
+}
+
+}  // namespace
+
+ProgramSource project_program(const Variant& variant, ProjectOutput output) {
+  Choices choices = choices_of(output);
+  if (!variant.rows) return program_source(variant, "kernels/project/project_groups.cl", choices);
+  if (output == ProjectOutput::splats) choices.emplace_back("COUNT_TILES");
+  // Extended numbers are of one particle at a time.
+  if (variant.rows_of_16 && !variant.extended) choices.emplace_back("LANES_16");
+  return program_source(variant, "kernels/project/project.cl", choices);
+}
+
+ProgramSource bin_program(const Variant& variant) {
+  return program_source(variant, variant.rows ? "kernels/bin/bin.cl" : "kernels/bin/bin_groups.cl");
+}
+
+ProgramSource composite_program(const Variant& variant) {
+  return program_of_layers(variant, composite_file(variant), rows_of_16(variant));
+}
+
+ProgramSource composite_with_clouds_program(const Variant& variant) {
+  Choices choices = rows_of_16(variant);
+  choices.emplace_back("CLOUDS_IN_LISTS");
+  return program_of_layers(variant, composite_file(variant), choices);
+}
+
+ProgramSource join_program(const Variant& variant) {
+  return program_of_layers(
+      variant, variant.rows ? "kernels/composite/join.cl" : "kernels/composite/join_groups.cl");
+}
+
+ProgramSource certify_program(const Variant& variant) {
+  return program_source(
+      variant, variant.rows ? "kernels/certify/collect.cl" : "kernels/certify/collect_groups.cl");
+}
+
+ProgramSource refine_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/refine.cl");
+}
+
+ProgramSource blur_program(const Variant& variant) {
+  if (!variant.rows) return program_source("kernels/resolve/blur.cl");
+  return program_source(variant, "kernels/resolve/blur_strips.cl",
+                        variant.rows_of_16 ? Choices{"LANES_16"} : Choices{});
+}
+
+ProgramSource lay_slab_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/slab.cl");
+}
+
+ProgramSource resolve_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/resolve.cl");
+}
+
+ProgramSource list_around_program(const Variant& variant) {
+  return program_source(variant, "kernels/project/list_around.cl");
+}
+
+ProgramSource behind_program(const Variant& variant) {
+  return program_source(variant, variant.extended ? "kernels/composite/behind_extended.cl"
+                                                  : "kernels/composite/behind.cl");
+}
+
+}  // namespace splotchcl
