@@ -32,7 +32,7 @@ std::vector<double> nearest_squares(double place, double size, double strip) {
   return squares;
 }
 
-constexpr double widest_without_patches = 16;
+constexpr double widest_without_patches = 7;
 
 // Makes the lists of a frame one after the other, and looks at what they hold.
 class ListReader {
@@ -107,7 +107,7 @@ class ListReader {
   Pipeline pipeline_;
 };
 
-// As patch.cl has them for three planes, and narrow_discs.cl leaves discs to them.
+// As patch.cl has them for three planes, and waiting.cl leaves discs to them.
 bool takes_patches(const Frame& frame, const FramePlan& plan, const Variant& variant,
                    const DeviceTraits& traits) {
   return traits.rows && frame.kernel.cut && frame.kernel.sampling == Sampling::center &&

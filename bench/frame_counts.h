@@ -22,7 +22,7 @@ struct Disc {
 // Its row parts in a tile of so many pixels.
 double row_parts_of(const Disc& disc, double tile_width, double tile_height);
 // Patches of the tile that hold a pixel's center within the disc; none of a disc that touches at
-// most sixteen columns and rows, which is drawn without them (kernels/composite/narrow_discs.cl).
+// most seven columns and rows, which is drawn without them (kernels/composite/waiting.cl).
 double patches_of(const Disc& disc, double tile_width, double tile_height, const PatchSize& patch);
 
 }  // namespace splotchcl::bench

@@ -61,8 +61,8 @@ TEST(Patches, ADiscThatCoversTheTileHasAllOfThem) {
   EXPECT_EQ(patches_of({3, -2, 100}, 64, 32, {8, 4}), 64);
 }
 
-TEST(Patches, ADiscOfSixteenPixelsInTheTileHasNone) {
-  EXPECT_EQ(patches_of({0, 0, 8}, 64, 32, {16, 8}), 0);
+TEST(Patches, ADiscOfSevenPixelsInTheTileHasNone) {
+  EXPECT_EQ(patches_of({0.5f, 0.5f, 3.4f}, 64, 32, {16, 8}), 0);
   EXPECT_EQ(patches_of({0, 0, 9}, 64, 32, {16, 8}), 2 * 4);
 }
 

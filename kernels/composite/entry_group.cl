@@ -6,7 +6,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/entry_windows.cl"
-#include "kernels/composite/narrow_discs.cl"
 #include "kernels/composite/narrow_splats.cl"
 
 #ifndef LIGHT_ORDERED
@@ -20,9 +19,6 @@ typedef struct EntryGroup {
   EntryWindows windows;
 #ifdef NARROW_SPLATS
   NarrowSplats narrow;
-#endif
-#ifdef NARROW_DISCS
-  NarrowDiscs discs;
 #endif
 } EntryGroup;
 
@@ -53,7 +49,7 @@ INLINED uint kinds_of(uint count, uint at, const EntryWindows* windows, const IN
                           (load_eight_integers(windows->first_column + at) <=
                            load_eight_integers(windows->last_column + at));
   INTEGER kinds = bits_of_list(count) & touches;
-#if defined(NARROW_SPLATS) || defined(NARROW_DISCS)
+#ifdef NARROW_SPLATS
   const INTEGER bits = BITS_OF_LANES;
   kinds |= (bits << 8) & (narrow == (INTEGER)(SMALLEST));
   kinds |= (bits << 16) & (narrow == (INTEGER)(SMALL));
@@ -71,9 +67,6 @@ INLINED uint find_entries(const EntryLanes lanes, __global const TileSplat* list
   find_windows(lanes, list + first, at, &group->windows);
 #ifdef NARROW_SPLATS
   narrow = find_narrow_splats(lanes, at, mean_sigma, &group->windows, &group->narrow);
-#endif
-#ifdef NARROW_DISCS
-  narrow = find_narrow_discs(lanes, at, &group->windows, &group->discs);
 #endif
   return kinds_of(count, at, &group->windows, narrow);
 }

@@ -14,15 +14,9 @@
 #error "columns of patches and words of splats are taken in eights and whole words"
 #endif
 
-// Bits of 32 splats in each word. Where a register holds a word for each patch, one comparison
-// finds all that a disc reaches into, else words of eight rows are together.
+// Bits of 32 splats in each word; words of eight rows are together.
 #define WORDS_OF_SPLATS (MOST_SHAPES / 32)
-#if defined(ROWS_OF_16) && PATCH_COLUMNS * PATCH_ROWS == 16
-#define REACH_IN_ONE
-#define ROWS_OF_WORDS PATCH_ROWS
-#else
 #define ROWS_OF_WORDS ((PATCH_ROWS + 7) / 8 * 8)
-#endif
 typedef struct PatchReach {
   uint touched[WORDS_OF_SPLATS][PATCH_COLUMNS][ROWS_OF_WORDS] __attribute__((aligned(64)));
 } PatchReach;
@@ -46,21 +40,6 @@ static inline void clear_reach(PatchReach* reach) {
 
 // Sets the bit of splat `number` of these axes, cut at this radius, squared. Squares of distances
 // are tested as those of pixels are, so that no pixel that is drawn is missed.
-#ifdef REACH_IN_ONE
-INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, const AxisOfSplats* y,
-                       float cut2, float squeeze) {
-  const int16 patch = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const float16 left = convert_float16(patch / PATCH_ROWS * PATCH_WIDTH) + FIRST_X;
-  const float16 top = convert_float16(patch % PATCH_ROWS * PATCH_HEIGHT) + FIRST_Y;
-  const float16 near_x = NEAREST_OF(DISTANCE_ALONG(x, number, left),
-                                    DISTANCE_ALONG(x, number, left + (float)(PATCH_WIDTH - 1)));
-  const float16 near_y = NEAREST_OF(DISTANCE_ALONG(y, number, top),
-                                    DISTANCE_ALONG(y, number, top + (float)(PATCH_HEIGHT - 1)));
-  const int16 reached = SQUEEZED(near_x) * SQUEEZED(near_x) <= cut2 - near_y * near_y;
-  uint16* const words = (uint16*)reach->touched[number / 32];
-  *words |= as_uint16(reached) & (uint16)(1u << number % 32);
-}
-#else
 INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, const AxisOfSplats* y,
                        float cut2, float squeeze) {
   const float8 each = (float8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -81,7 +60,6 @@ INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, co
       *(uint8*)(reach->touched[word][column] + row) |= as_uint8(squares[column] <= limits) & bit;
   }
 }
-#endif
 
 // Those that touch a patch.
 INLINED ShapeBits splats_of_patch(const PatchReach* reach, int column, int row) {

@@ -9,7 +9,6 @@
 #include "kernels/composite/composite.h"
 #include "kernels/composite/entry_group.cl"
 #include "kernels/composite/entry_windows.cl"
-#include "kernels/composite/narrow_discs.cl"
 #include "kernels/composite/narrow_splats.cl"
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/rows.cl"
@@ -71,16 +70,8 @@ INLINED void make_room_in_block(SummedList* list, uint count) {
 INLINED void draw_other(SummedList* list, int i, __global const TileSplat* entry) {
   const int2 rows = rows_of_entry(&list->group.windows, i);
   const int2 columns = columns_of_entry(&list->group.windows, i);
-#ifdef NARROW_DISCS
-  // Discs that are not narrow are wide, and wait.
-  if (entry->sigma > 0.0f) {
-    let_wait(list->tile, &list->waiting, rows, columns, entry, list->mean_sigma, 0);
-    return;
-  }
-#else
   if (let_wait_if_it_does(list->tile, &list->waiting, rows, columns, entry, list->mean_sigma, 0))
     return;
-#endif
   add_splat(list->tile, entry, rows, columns, &list->of_tile, 0);
 }
 
@@ -104,11 +95,6 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
 #ifdef MIDDLE_SPLATS
   EACH_ENTRY(kinds.middle, add_middle_splat(tile, &group->narrow, i, entry);)
 #endif
-#endif
-#ifdef NARROW_DISCS
-  EACH_ENTRY(kinds.smallest, add_dot(tile, &group->discs, i, entry);)
-  EACH_ENTRY(kinds.small, add_disc(tile, &group->discs, i, 8, entry);)
-  EACH_ENTRY(kinds.middle, add_disc(tile, &group->discs, i, 16, entry);)
 #endif
   const ulong all = ~0ul >> (ENTRIES_OF_GROUP - kinds.count);
   EACH_ENTRY(all & ~(kinds.smallest | kinds.small | kinds.middle), draw_other(list, i, entry);)

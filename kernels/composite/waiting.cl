@@ -39,8 +39,7 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
 }
 
 // Splats up to so many pixels are drawn row by row, of those whose rows have no loop over columns
-// (narrow_splats.cl): in patches they would fill too few pixels. Discs have their own
-// (narrow_discs.cl).
+// (narrow_splats.cl): in patches they would fill too few pixels.
 #if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED) && \
                             (defined(ELLIPSES) || defined(FINE_PLACES) || SUMMED == 6))
 #define WIDEST_ALONE 7
