@@ -129,8 +129,10 @@ class Sizes : public StageTest {
   // does. A header declares them; compiling kernels, too, would take most of the time.
   static void expect_equal_sizes(ProgramSource source, const std::string& header,
                                  const std::vector<SharedStructure>& structures) {
-    source.file = "kernels/" + header;
-    source.more = "__kernel void sizes(__global uint* result) {\n";
+    source.file = {};
+    for (const std::string& name : {"common/splat.h", "extended/extended_splat.h", header.c_str()})
+      source.more += "#include \"kernels/" + name + "\"\n";
+    source.more += "__kernel void sizes(__global uint* result) {\n";
     for (std::size_t i = 0; i < structures.size(); ++i) {
       source.more += "  result[" + std::to_string(i) + "] = sizeof(" + structures[i].name + ");\n";
     }
