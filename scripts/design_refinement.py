@@ -34,7 +34,7 @@ PIXELS = np.arange(-4, 6)
 NEW_PIXEL = 0.25
 LIMIT_AT_4 = 4e-5
 
-# What docs/accuracy.md states, of the peak and for one axis: the largest error of one refinement
+# What docs/dev/accuracy.md states, of the peak and for one axis: the largest error of one refinement
 # for splats that are at least so many old pixels wide, ...
 STATED_ERRORS = {2: 1.74e-4, 4: 4.01e-5, 8: 3.06e-5, 16: 1.30e-5}
 # ... and the sum of the errors of all refinements after the first.

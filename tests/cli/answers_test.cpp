@@ -19,7 +19,7 @@ std::string section(const char* page, const std::string& start) {
 }
 
 TEST(Answers, TellWhatABillionParticlesTake) {
-  EXPECT_THAT(section("performance.md", "## A billion particles"),
+  EXPECT_THAT(section("dev/performance.md", "## A billion particles"),
               AllOf(HasSubstr("GB"), HasSubstr(" s |"), HasSubstr("--max-particles")));
 }
 

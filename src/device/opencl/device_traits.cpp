@@ -20,7 +20,7 @@ void take_sizes_of_rows(DeviceTraits& traits) {
   traits.bin_blocks = 64;
   traits.sort_blocks = 32;
   // A part is sorted in a core's caches, and blocks that are projected at a time lie in all cores'.
-  // The splats of fewer parts are sorted as fast all at once (docs/tuning.md).
+  // The splats of fewer parts are sorted as fast all at once (docs/dev/tuning.md).
   traits.splats_of_part = 1u << 15;
   traits.fewest_parts = 96;
   traits.blocks_apart = 64;
