@@ -82,9 +82,8 @@ TEST(Arguments, TellTheVersion) {
                                 HasSubstr("HDF5 1."), HasSubstr("OpenEXR ")));
 }
 
-TEST(Arguments, AreNeeded) {
+TEST(Arguments, OfCommandsAreNeeded) {
   const TemporaryFolder folder;
-  expect_wrong_call(splotchcl_in(folder, ""));
   expect_wrong_call(splotchcl_in(folder, "render"));
   expect_wrong_call(splotchcl_in(folder, "info"));
   expect_wrong_call(splotchcl_in(folder, "compare a.png"));
