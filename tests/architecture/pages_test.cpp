@@ -1,4 +1,4 @@
-// Links between pages lead to files, and to headings in them, that are there.
+// Pages: their links lead to what is there, the site has all of them, and they are not too long.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -103,6 +103,26 @@ TEST(PageLinks, LeadToWhatIsThere) {
     }
   }
   EXPECT_GT(links, 100U);
+}
+
+TEST(Pages, AreAllInTheNavigationOfTheSite) {
+  const std::string site = text_of(source_folder() / "mkdocs.yml");
+  for (const fs::path& page : pages()) {
+    const std::string name = fs::relative(page, source_folder() / "docs").generic_string();
+    if (name.rfind("..", 0) == 0) continue;
+    EXPECT_NE(site.find(": " + name + '\n'), std::string::npos) << name;
+  }
+}
+
+TEST(Pages, AreFewEnoughWordsToBeRead) {
+  std::size_t words = 0;
+  for (const fs::path& page : pages()) {
+    if (page.filename() == "CHANGELOG.md" || page.filename() == "SECURITY.md") continue;
+    std::istringstream text(text_of(page));
+    for (std::string word; text >> word;)
+      ++words;
+  }
+  EXPECT_LT(words, 50'000U);
 }
 
 }  // namespace
