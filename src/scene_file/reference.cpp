@@ -52,6 +52,51 @@ std::string row(const Key& key, const std::string& name) {
                      key.meaning);
 }
 
+// Keys that are like others but for their meaning share a row.
+struct Family {
+  std::string stem, model, meaning;
+};
+
+const Family* family_of(const std::string& path) {
+  static const Family families[] = {
+      {"component.exclude", "select", "Particles that fulfil all of these are left out."},
+      {"component.intensity", "color",
+       "A field that becomes I, a factor on emission and absorption."},
+      {"finish.label", "title", "Another text, at the top right."},
+      {"finish.caption", "title", "A third text, at the bottom right."},
+  };
+  for (const Family& family : families)
+    if (path.rfind(family.stem + ".", 0) == 0) return &family;
+  return nullptr;
+}
+
+std::string row(const Family& family) {
+  std::string names;
+  for (const Key& key : all_keys()) {
+    if (family_of(key.path) != &family) continue;
+    const std::string name = key.path.substr(family.stem.size());
+    names += names.empty() ? "`" + family.stem.substr(family.stem.find('.') + 1) + name + "`"
+                           : ", `" + name + "`";
+  }
+  return fmt::format("| {} | as `{}.*` | not used | {} |\n", names, family.model, family.meaning);
+}
+
+std::string rows_of_table(const std::string& table) {
+  std::string text;
+  const Family* last = nullptr;
+  for (const Key& key : all_keys()) {
+    const std::size_t dot = key.path.find('.');
+    const std::string key_table = dot == std::string::npos ? "" : key.path.substr(0, dot);
+    if (key_table != table) continue;
+    const Family* const family = family_of(key.path);
+    if (family == nullptr)
+      text += row(key, key.path.substr(dot == std::string::npos ? 0 : dot + 1));
+    if (family != nullptr && family != last) text += row(*family);
+    last = family;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string key_reference() {
@@ -60,13 +105,7 @@ std::string key_reference() {
                                   "path", "movie", "periodic", "finish", "map", "component"}) {
     text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
                         heading(table));
-    for (const Key& key : all_keys()) {
-      const std::size_t dot = key.path.find('.');
-      const std::string key_table = dot == std::string::npos ? "" : key.path.substr(0, dot);
-      if (key_table != table) continue;
-      text += row(key, dot == std::string::npos ? key.path : key.path.substr(dot + 1));
-    }
-    text += "\n";
+    text += rows_of_table(table) + "\n";
   }
   return text;
 }
