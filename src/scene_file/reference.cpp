@@ -47,9 +47,23 @@ std::string value_of(const Key& key) {
   return key.unit.empty() ? value : value + "; " + key.unit;
 }
 
+// Names of pages become links.
+std::string with_links(std::string text) {
+  const std::string ending = ".md";
+  for (std::size_t end = text.find(ending); end != std::string::npos;
+       end = text.find(ending, end)) {
+    const std::size_t begin = text.find_last_of(" (", end) + 1;
+    const std::string page = text.substr(begin, end + ending.size() - begin);
+    const std::string link = "[" + page + "](" + page + ")";
+    text.replace(begin, page.size(), link);
+    end = begin + link.size();
+  }
+  return text;
+}
+
 std::string row(const Key& key, const std::string& name) {
-  return fmt::format("| `{}` | {} | {} | {} |\n", name, value_of(key), default_of(key),
-                     key.meaning);
+  return fmt::format("| `{}` | {} | {} | {} |\n", name, value_of(key), with_links(default_of(key)),
+                     with_links(key.meaning));
 }
 
 // Keys that are like others but for their meaning share a row.
