@@ -83,9 +83,9 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--max-particles", options.max_particles,
                  wrapped("Draw at most N particles, chosen at random, brighter likewise"))
       ->type_name("N");
-  sub.add_flag("--cache-smoothing-lengths", options.cache_smoothing_lengths,
-               wrapped("Keep smoothing lengths that had to be computed in a file beside the "
-                       "snapshot, for the next time"));
+  sub.add_flag(
+      "--cache-smoothing-lengths", options.cache_smoothing_lengths,
+      wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
   sub.add_flag(
       "--reference", options.reference,
       wrapped("Draw with the slow reference renderer in double precision instead of a device"));

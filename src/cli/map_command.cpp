@@ -69,15 +69,15 @@ void add_drawing_options(CLI::App& sub, MapOptions& options) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub.add_option("--tolerance", options.tolerance,
-                 wrapped("Largest relative error of each sum, or of map.floor if that is larger; "
-                         "0: 1e-6. Default: the scene's, or 0.001"))
+                 wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
+                         "below that; 0: 1e-6. Default: the scene's, or 0.001"))
       ->type_name("X");
   sub.add_option("--every", options.every, wrapped("Read every N-th particle"))->type_name("N");
   sub.add_option("--max-particles", options.max_particles, wrapped("Read at most N, at random"))
       ->type_name("N");
-  sub.add_flag("--cache-smoothing-lengths", options.cache_smoothing_lengths,
-               wrapped("Keep smoothing lengths that had to be computed in a file beside the "
-                       "snapshot, for the next time"));
+  sub.add_flag(
+      "--cache-smoothing-lengths", options.cache_smoothing_lengths,
+      wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
   sub.add_flag("--reference", options.reference,
                wrapped("Draw with the slow reference renderer in double precision"));
 }

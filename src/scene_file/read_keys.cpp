@@ -38,7 +38,8 @@ Keys read_keys() {
       key("read.neighbours", integer(1, most_neighbors), &ReadSettings::neighbors,
           {"If the file has no smoothing lengths: how many particles their spheres hold."}),
       key("read.cache_smoothing_lengths", boolean(), &ReadSettings::cache_smoothing_lengths,
-          {"Keep smoothing lengths that had to be found in a file beside the snapshot."}),
+          {"Store smoothing lengths that had to be found in a file beside the snapshot, for "
+           "reuse."}),
   };
 }
 
