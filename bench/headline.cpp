@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The yardstick in the hour in which the original was measured, in ns per pixel update,
-// geometric means of 5 and 20 pixels (docs/performance.md).
+// geometric means of 5 and 20 pixels (docs/dev/performance.md).
 constexpr double additive_ns_then = 0.340, ordered_ns_then = 0.614;
 
 // Seconds on 2 cores: the original program's, and what this project aims at. `inner` is

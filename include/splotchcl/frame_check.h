@@ -42,7 +42,7 @@ struct BlockErrors {
 };
 
 // What was found of a frame's errors after it had been drawn, from all of its splats
-// (docs/accuracy.md, "Checked after drawing").
+// (docs/dev/accuracy.md, "Checked after drawing").
 struct FrameCheck {
   bool is_bound = false;  // else an estimate
   // The largest error of any pixel over what is promised, of each drawing in turn. The frame is

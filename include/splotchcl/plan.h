@@ -9,7 +9,7 @@
 
 // What a frame needs, decided once from the structure of its light, its tolerance and its
 // particles. Every stage of the renderer takes its limits from here; nothing else reads
-// Frame::tolerance. docs/accuracy.md derives the numbers.
+// Frame::tolerance. docs/dev/accuracy.md derives the numbers.
 namespace splotchcl {
 
 // Follows from the structure of the scene, never from comparing floats:
@@ -28,7 +28,7 @@ enum class Precision {
 constexpr double extended_tolerance = 1e-6;
 
 // How the promise is shared out. The shares add up to it; each bounds (or estimates, where
-// docs/accuracy.md says so) one approximation's part of max(1, |reference|).
+// docs/dev/accuracy.md says so) one approximation's part of max(1, |reference|).
 struct ToleranceShares {
   double promise = 0;       // Frame::tolerance, or extended_tolerance
   double truncation = 0;    // light left out by ending a splat
@@ -208,7 +208,7 @@ struct FramePlan {
   GridPyramid pyramid;
   // Ordered: splats are drawn in so many slabs of depth, each of as many of them. The wide ones of
   // a slab are added up on coarse grids and laid among its narrow ones, which are in order
-  // (docs/accuracy.md, "Slabs"). 0: all splats are in order.
+  // (docs/dev/accuracy.md, "Slabs"). 0: all splats are in order.
   int slabs = 0;
   LayerLimits layers;
 
@@ -225,7 +225,7 @@ struct PlanOptions {
   bool coarse_grids = true;
   // FramePlan::slabs of an ordered frame that can be drawn so; below 0: as many as seem to pay.
   int slabs = -1;
-  // What is found after drawing is a bound, not an estimate (docs/accuracy.md).
+  // What is found after drawing is a bound, not an estimate (docs/dev/accuracy.md).
   bool certify = false;
 };
 

@@ -34,8 +34,8 @@ struct Splat {
   bool is_around = false;
   double ray_part = 0, splat_part = 1;
   Vec3 center{};  // from the camera along right, down and forward, as the eye sees it, in its sigma
-  // By which splats are sorted: the depth as 48 bits (docs/accuracy.md), or the bits of the field's
-  // binary32 value, turned so that integers have the order of the values and -0 is +0.
+  // By which splats are sorted: the depth as 48 bits (docs/dev/accuracy.md), or the bits of the
+  // field's binary32 value, turned so that integers have the order of the values and -0 is +0.
   std::uint64_t key = 0;
   std::uint64_t particle = 0;  // index over all components, in component and file order
 };

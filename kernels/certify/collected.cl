@@ -167,7 +167,7 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   const VALUE lacking = choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
   m.width2 = larger_of(sigma * sigma, area) + choose(lacking, (VALUE)(0.0f), is_stencil);
   // On a grid that is blurred a splat is drawn narrower and brighter than it is in the picture, and
-  // what it leaves out is spread as well (docs/accuracy.md, "Checked after drawing").
+  // what it leaves out is spread as well (docs/dev/accuracy.md, "Checked after drawing").
   if (grid.blur > 0.0f) m.peak *= area / m.width2;
   m.ending = choose(m.peak, (VALUE)(0.0f), is_stencil);
   const INTEGER octave = (((AS_INTEGER(m.width2) >> 23) - 127) >> 1) + 1;

@@ -1,7 +1,7 @@
 // Numbers of at least 45 bits for extended precision: the device's double
 // precision where it has one (DOUBLE_NUMBERS), else a pair of floats whose sum is the
 // number, the second at most half a unit in the last place of the first. What follows needs
-// no more than the pairs give, so both have the same bounds (docs/accuracy.md). In memory
+// no more than the pairs give, so both have the same bounds (docs/dev/accuracy.md). In memory
 // numbers are pairs always.
 #include "kernels/common/grid.h"
 

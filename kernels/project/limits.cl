@@ -1,5 +1,5 @@
 // What a particle weighs, how far its splat is drawn, whether its pixels take means, and on
-// which grid it lies (docs/accuracy.md), on VALUEs (lanes.cl).
+// which grid it lies (docs/dev/accuracy.md), on VALUEs (lanes.cl).
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"

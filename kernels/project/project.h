@@ -16,7 +16,7 @@
 #define WEIGHT_CONSTANT 2
 
 // Single precision ends where columns do not: a mass in a width of 1e-20 is more than it holds, and
-// infinite light less infinite light, or times no width, is not a number (docs/accuracy.md).
+// infinite light less infinite light, or times no width, is not a number (docs/dev/accuracy.md).
 // Narrower splats are drawn so wide, in pixels, with the same light: places are not known better.
 #define NARROWEST_SIGMA 0x1p-20f
 #define NARROWEST_EXTENDED_SIGMA 0x1p-28f
@@ -115,7 +115,7 @@ struct ProjectParameters {
   float bright_mean_sigma;  // from this one on (limits.cl)
   int octaves_in_need, has_bright_octaves;  // whose needs are not 0; whether any is of light
 
-  // sharp_places.cl, docs/accuracy.md
+  // sharp_places.cl, docs/dev/accuracy.md
   float place_error, place_error_per_pixel;  // roundings of places in single precision
   float sharp_width;                         // sigma per slope and rounding below which they show
   float too_sharp_width;  // sigma per slope below which the integers of a splat show

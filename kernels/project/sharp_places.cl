@@ -13,13 +13,14 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// What a pixel by which its centre is off does to a splat, at most, per sigma (docs/accuracy.md).
+// What a pixel by which its centre is off does to a splat, at most, per sigma
+// (docs/dev/accuracy.md).
 static inline VALUE slope_of_peak(VALUE peak) {
   return 0.86f * min(peak, (VALUE)(20.0f));
 }
 
 // Faint ones may be a crowd at one place, whose places err alike; its light is allowed for where it
-// is above 1 (docs/accuracy.md, "Single precision").
+// is above 1 (docs/dev/accuracy.md, "Single precision").
 #define LEAST_PEAK_OF_CROWD 0.015f
 
 INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,

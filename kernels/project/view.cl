@@ -34,7 +34,7 @@ typedef struct ViewLanes {
   VALUE depth;               // along the view direction; in wide angles the distance
   VALUE x, x_low, y, y_low;  // pixels from the picture's middle
   VALUE scale;               // pixels per length of a width
-  VALUE place_error;         // of x and y, in roundings: 2^-24 pixels (docs/accuracy.md)
+  VALUE place_error;         // of x and y, in roundings: 2^-24 pixels (docs/dev/accuracy.md)
 #ifdef WIDE_ANGLE
   INTEGER seen;
   VALUE cos_latitude, sine_latitude;  // equirectangular

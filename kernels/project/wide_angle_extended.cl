@@ -30,7 +30,7 @@ static inline Extended extended_minor(Extended a, Extended b, Extended c, Extend
 
 // A GPU's compiler would put the parameters that a call is handed in memory of each work-item's
 // own. Inlined into fisheye projections of work-groups, the turn crashes LLVM 15 for AVX2
-// (docs/portability.md).
+// (docs/dev/portability.md).
 #ifdef CALLS_TURN
 #define TURN __attribute__((noinline)) static
 #else

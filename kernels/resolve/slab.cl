@@ -121,7 +121,7 @@ KERNEL_BODY void lay_pixels(const RefineParameters* refined, __global const Grid
 // Work-item (pixels, pair of rows) of the part: sums interpolated along y from `columns`
 // (refine_columns), then laid. `before` has the planes as they were before the slab, and takes what
 // they are after it; `errors` the most that any order of the slab's splats could change of eight
-// pixels (docs/accuracy.md, "Slabs").
+// pixels (docs/dev/accuracy.md, "Slabs").
 __kernel void lay_slab(const RefineParameters p, __global const Grid* grids, __global float* planes,
                        __global const float* columns, __global float* before,
                        __global float* errors) {

@@ -38,7 +38,7 @@ struct Part {
 
 // The part of itself by which every splat may err: the polynomial of exp, means of bright splats,
 // and the roundings of sums. These have either sign: 6.5 standard deviations are passed once in
-// 1e10 (docs/accuracy.md).
+// 1e10 (docs/dev/accuracy.md).
 double part_of_all_splats(const CollectedSplats& splats, const FramePlan& plan) {
   const double rounding = 0x1p-24, deviations = 6.5;
   const double of_sums = deviations * rounding * std::sqrt((splats.longest_list + 1) / 3);

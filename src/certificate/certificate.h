@@ -31,7 +31,7 @@ struct CollectedSplats {
   double around = 0;  // the part of the promise that clouds around the camera spend
 };
 
-// docs/accuracy.md ("Checked after drawing") derives it and says what is a bound.
+// docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan);
 

@@ -16,7 +16,7 @@ struct ExpectedEnds {
 };
 
 // Of all clouds of a frame that has no grid but the picture's own, by the sums of the check
-// (docs/accuracy.md, "Checked after drawing").
+// (docs/dev/accuracy.md, "Checked after drawing").
 ExpectedEnds expected_ends(const std::vector<SampledCloud>& clouds, const Frame& frame,
                            const FramePlan& plan, const BlockLoop& loop = one_after_the_other);
 

@@ -35,7 +35,7 @@ struct GridsOfSplats {
 };
 
 // The sampled splats of one octave of widths on the grid that they are drawn on, in cells as those
-// of the check (docs/accuracy.md, "Checked after drawing").
+// of the check (docs/dev/accuracy.md, "Checked after drawing").
 struct OctaveSample {
   OctaveSample(int octave_of_widths, GridsOfSplats drawn_on)
       : octave(octave_of_widths),

@@ -92,7 +92,7 @@ double error_of_peak(int octave, const PeakCells& cells, const Frame& frame,
   return error / std::max(1.0, light_of(octave, plan));
 }
 
-// 0.86 of a peak for each sigma by which a splat is off (docs/accuracy.md, "Single precision").
+// 0.86 of a peak for each sigma by which a splat is off (docs/dev/accuracy.md, "Single precision").
 double place_error_of(int octave, const Frame& frame, const FramePlan& plan) {
   const double farthest = 0.5 * std::max(frame.width, frame.height);
   const double roundings = static_cast<double>(plan.places.error) +
@@ -357,7 +357,7 @@ double OctaveErrors::part_of_itself(double light) const {
 }
 
 double OctaveErrors::of_places(const PixelBlock& block) const {
-  // Bounds are at least four standard deviations (docs/accuracy.md).
+  // Bounds are at least four standard deviations (docs/dev/accuracy.md).
   constexpr double bounds = 6.5 / 4;
   const double light = peaks_.over_near(cells_of(block, peak_side_).widened(peak_reach_));
   return bounds * std::sqrt(place_share_ * place_error_ * light);

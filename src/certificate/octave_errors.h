@@ -33,8 +33,8 @@ struct EndingWindow {
 };
 
 // What the approximations of one octave of splats on one grid do to a block of pixels, as errors
-// of a sum of splats (light or optical depth). docs/accuracy.md ("Checked after drawing") derives
-// them.
+// of a sum of splats (light or optical depth). docs/dev/accuracy.md ("Checked after drawing")
+// derives them.
 class OctaveErrors {
  public:
   OctaveErrors(const PeakCells& cells, const Frame& frame, const FramePlan& plan);

@@ -36,7 +36,7 @@ struct PeakCells {
   int octave = 0;         // sigma in the picture's pixels: 2^(octave - 1) to twice that; 0: below 1
   // Of the splats' peaks: the largest channel of light or optical depth; below a pixel its flux.
   // Of bright splats on the picture's own grid only what a splat may be without being bright,
-  // since the errors of bright ones are relative to what is there (docs/accuracy.md).
+  // since the errors of bright ones are relative to what is there (docs/dev/accuracy.md).
   CellSums peaks;
   // What they have fallen to where they end, times exp(least extent^2 + farther).
   CellSums endings;

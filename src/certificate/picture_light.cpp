@@ -42,7 +42,7 @@ Response of_proportional(const Range& light, double source, double contrast) {
 // neither is negative. Absorption counts as `expected` of emission (plan.h, light_behind). Errors
 // of a part of every splat do no more than to a single source, and no more than where all light
 // lies as deep as it may, which over the light falls as that grows; of either sign what all take
-// away, and what they add (docs/accuracy.md).
+// away, and what they add (docs/dev/accuracy.md).
 Response of_ordered(double light, double opacity, double brightest_behind, double expected) {
   constexpr double euler = 2.718281828459045, deep = 60;
   const double depth = opacity < 1 ? std::min(-std::log1p(-opacity), deep) : deep;

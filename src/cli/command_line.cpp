@@ -1,6 +1,7 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <string>
@@ -62,20 +63,18 @@ const CLI::Validator not_negative(
 
 // What render and movie take alike.
 void add_draw_options(CLI::App& sub, DrawOptions& options) {
-  sub.add_option(
-         "--device", options.device,
-         wrapped("A part of an OpenCL device's name, see splotchcl devices. Default: a GPU, "
-                 "else the CPU"))
+  sub.add_option("--device", options.device,
+                 wrapped("Part of an OpenCL device's name; splotchcl devices lists them. Default: "
+                         "a GPU if there is one"))
       ->type_name("NAME");
-  sub.add_option("--set", options.settings, wrapped("Override a key of the scene; can be repeated"))
+  sub.add_option("--set", options.settings, wrapped("Set a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub.add_option("--size", options.size, wrapped("Width and height of the picture, in pixels"))
       ->type_name("WIDTHxHEIGHT");
-  sub.add_option(
-         "--tolerance", options.tolerance,
-         wrapped("Largest error of a pixel, in units of the display's white; 0: as exact as "
-                 "the device can. Default: the scene's, 0.001"))
+  sub.add_option("--tolerance", options.tolerance,
+                 wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
+                         "as possible. Default: the scene's, or 0.001"))
       ->type_name("X");
   sub.add_option("--every", options.every,
                  wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
@@ -84,21 +83,18 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--max-particles", options.max_particles,
                  wrapped("Draw at most N particles, chosen at random, brighter likewise"))
       ->type_name("N");
-  sub.add_flag("--cache-smoothing-lengths", options.cache_smoothing_lengths,
-               wrapped("Keep smoothing lengths that had to be found in a file beside the "
-                       "snapshot, and use those that are there"));
+  sub.add_flag(
+      "--cache-smoothing-lengths", options.cache_smoothing_lengths,
+      wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
   sub.add_flag(
       "--reference", options.reference,
       wrapped("Draw with the slow reference renderer in double precision instead of a device"));
   sub.add_flag("--explain", options.explain,
-               wrapped("Print how it is drawn, the memory and the time that it will take, and the "
-                       "equivalent scene file; draws nothing unless there is an --output"));
-  sub.add_option(
-         "--memory", options.memory_bytes,
-         wrapped(
-             "Memory of the device for drawing, such as 1500MB or 2GiB. Ordered pictures of more "
-             "particles than fit are drawn in parts of their depth. Default: what there "
-             "is room for"))
+               wrapped("Print the plan, the memory and time it needs, and the complete scene file; "
+                       "draw nothing unless --output is given"));
+  sub.add_option("--memory", options.memory_bytes,
+                 wrapped("Device memory to use, such as 1500MB or 2GiB; what does not fit is drawn "
+                         "in several passes. Default: what is available"))
       ->transform(size_in_bytes)
       ->type_name("SIZE");
   sub.add_option("--stats", options.stats,
@@ -114,31 +110,32 @@ void add_render(CLI::App& app, Run& run, Console& console) {
   sub->add_option(
          "SCENE", options->scene,
          wrapped("A scene file (.toml), a parameter file of the original Splotch (.par), or a "
-                 "snapshot: then camera, palette and ranges are chosen from the data"))
+                 "snapshot; for a snapshot camera, palettes and ranges are chosen from the data"))
       ->required();
   sub->add_option(
          "-o,--output", options->output,
-         wrapped("The picture; its ending chooses the format: .png .jpg .tga ... hold 8 bits, "
-                 ".exr and .tif linear floats and alpha. Default: the scene's name with .png, "
-                 "in the current folder"))
+         wrapped(
+             "The picture; its ending chooses the format: .png, .jpg and others hold 8 bits, .exr "
+             "and .tif linear floats. Default: the scene's name with .png, in the current folder"))
       ->type_name("FILE");
   add_draw_options(*sub, *options);
   sub->add_option("--crop", options->crop, wrapped("Draw only this part of the picture, in pixels"))
       ->type_name("X,Y,W,H");
-  sub->add_flag("--certify", options->certify,
-                wrapped("Draw until a bound, not an estimate, says that the picture keeps its "
-                        "tolerance"));
+  sub->add_flag(
+      "--certify", options->certify,
+      wrapped(
+          "Prove the tolerance by a bound instead of an estimate; takes 5 to 20 times as long"));
   sub->add_option("--shape", options->shape,
-                  wrapped("Which kernels draw: rows, those for processors, or groups, those for "
-                          "GPUs. Default: automatic, by the device's type"))
+                  wrapped("Kernels to draw with: rows (for processors) or groups (for GPUs). "
+                          "Default: automatic, by the device's type"))
       ->transform(shape_by_name)
       ->type_name("SHAPE");
   sub->add_option("--error-map", options->error_map,
-                  wrapped("Certify, and write the bound of each pixel's error, over its light "
-                          "where that is more than 1, as an image: an .exr has the numbers"))
+                  wrapped("Certify, and write the error bound of each pixel as an image; .exr "
+                          "holds the numbers"))
       ->type_name("FILE");
   sub->footer(
-      "Started by mpirun or srun, several processes draw the picture together, to the same bits.\n"
+      "Started by mpirun or srun, several processes draw one picture together.\n"
       "Examples:\n"
       "  splotchcl render snapshot_006 -o universe.png\n"
       "  splotchcl render snapshot_006 --size 1920x1080\n"
@@ -150,18 +147,17 @@ void add_render(CLI::App& app, Run& run, Console& console) {
 void add_convert(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* const sub = add_command<ConvertOptions>(
-      app, run, "convert", "Make a scene file of a parameter file of the original Splotch", options,
-      [&console](const ConvertOptions& o) { return run_convert(o, console); });
+      app, run, "convert", "Convert a parameter file of the original Splotch to a scene file",
+      options, [&console](const ConvertOptions& o) { return run_convert(o, console); });
   sub->add_option("FILE", options->par, wrapped("A parameter file (.par)"))->required();
   sub->add_option("-o,--output", options->output, wrapped("The scene file (.toml)"))
       ->required()
       ->type_name("FILE");
-  sub->add_option("--set", options->settings,
-                  wrapped("Override a key of the scene; can be repeated"))
+  sub->add_option("--set", options->settings, wrapped("Set a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub->footer(
-      "Keys without a counterpart are named. render and movie take a .par file as it is, too.\n"
+      "Keys without a counterpart are listed. render and movie also read .par files directly.\n"
       "Example:\n"
       "  splotchcl convert demo.par -o demo.toml");
 }
@@ -169,55 +165,54 @@ void add_convert(CLI::App& app, Run& run, Console& console) {
 void add_movie(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<MovieOptions>();
   CLI::App* const sub = add_command<MovieOptions>(
-      app, run, "movie", "Draw the frames of a film", options,
+      app, run, "movie", "Make a film", options,
       [&console](const MovieOptions& o) { return run_movie(o, console); });
   sub->add_option("SCENE", options->scene,
                   wrapped("A scene file (.toml) with a [path], or a snapshot and settings"))
       ->required();
   sub->add_option("-o,--output", options->output,
-                  wrapped("The film (.mp4 .mov .mkv .webm, made by ffmpeg), or numbered images: a "
-                          "name with %d or %04d and the ending of a picture"))
+                  wrapped("The film (.mp4 .mov .mkv .webm, encoded by ffmpeg), or numbered images "
+                          "such as frame_%04d.png"))
       ->type_name("FILE");
   add_draw_options(*sub, *options);
   sub->add_option("--frames", options->frames,
-                  wrapped("Only these frames, from 0: FIRST:END:STEP, END left out; 100:200:2 is "
-                          "100, 102, ... 198"))
+                  wrapped("Only these frames, counted from 0: FIRST:END:STEP without END; "
+                          "100:200:2 is 100, 102, ... 198"))
       ->type_name("RANGE");
-  sub->add_option("--part", options->part,
-                  wrapped("Draw the K-th of N shares of the frames, for N processes; the one that "
-                          "ends last makes the film"))
+  sub->add_option(
+         "--part", options->part,
+         wrapped(
+             "Draw the K-th of N shares of the frames; the process that ends last makes the film"))
       ->type_name("K/N");
   sub->add_flag("--join", options->join,
-                wrapped("Draw nothing: make the film of frames that are all there"));
+                wrapped("Only make the film from frames that are already drawn"));
   sub->footer(
-      "A film that was interrupted is continued by the same command: its frames are kept in\n"
-      "FILE.frames until it is complete. Started by mpirun or srun, several processes draw each\n"
-      "frame together.\n"
+      "The same command continues an interrupted film: frames are kept in FILE.frames until it is\n"
+      "complete. Started by mpirun or srun, several processes draw each frame together.\n"
       "Examples:\n"
       "  splotchcl movie flight.toml -o flight.mp4\n"
       "  splotchcl movie flight.toml --explain\n"
-      "  splotchcl movie snapshot_006 --set path.orbit.degrees=360 --set movie.frames=250 "
-      "-o turn.mp4\n"
+      "  splotchcl movie snapshot_006 --set path.orbit.degrees=360 --set movie.frames=250 -o "
+      "turn.mp4\n"
       "  splotchcl movie flight.toml -o frame_%04d.exr --frames 0:100 --part 3/8");
 }
 
 void add_path(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<PathOptions>();
   CLI::App* const sub =
-      add_command<PathOptions>(app, run, "path", "Plot the set-up of a film", options,
+      add_command<PathOptions>(app, run, "path", "Plot the camera path of a film", options,
                                [&console](const PathOptions& o) { return run_path(o, console); });
   sub->add_option("SCENE", options->scene, wrapped("A scene file (.toml) with a [path]"))
       ->required();
-  sub->add_option("-o,--output", options->output, wrapped("The picture of it"))
+  sub->add_option("-o,--output", options->output, wrapped("The picture"))
       ->required()
       ->type_name("FILE");
-  sub->add_option("--set", options->settings,
-                  wrapped("Override a key of the scene; can be repeated"))
+  sub->add_option("--set", options->settings, wrapped("Set a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub->footer(
-      "Shows, from two sides, the particles and their densest places, the camera's way with what\n"
-      "it looks at, its sky and its view at some frames, and the second eye of a pair.\n"
+      "Shows from two sides the particles and their densest places, the camera's path, what it\n"
+      "looks at, its sky and view at some frames, and the second eye of a stereo pair.\n"
       "Example:\n"
       "  splotchcl path flight.toml -o path.png");
 }
@@ -225,23 +220,22 @@ void add_path(CLI::App& app, Run& run, Console& console) {
 void add_compare(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* const sub = add_command<CompareOptions>(
-      app, run, "compare", "Tell how far two pictures differ", options,
+      app, run, "compare", "Measure how far two pictures differ", options,
       [&console](const CompareOptions& o) { return run_compare(o, console); });
   sub->add_option("A", options->image, wrapped("A picture"))->required();
-  sub->add_option("B", options->reference, wrapped("The picture it should be, of the same size"))
+  sub->add_option("B", options->reference, wrapped("The picture to compare with, of the same size"))
       ->required();
   sub->add_option("--limit", options->limit,
-                  wrapped("Count the pixels where |A - B| > X max(1, |B|) in any channel; 1 is the "
+                  wrapped("Count the pixels with |A - B| > X max(1, |B|) in any channel; 1 is the "
                           "display's white"))
       ->type_name("X");
-  sub->add_option(
-         "--diff", options->difference,
-         wrapped("Write a picture of A - B: grey where they are equal, up to white where A is "
-                 "brighter, down to black where it is darker by the largest difference"))
+  sub->add_option("--diff", options->difference,
+                  wrapped("Write a picture of A - B: grey if equal, brighter where A is brighter, "
+                          "darker where A is darker"))
       ->type_name("FILE");
-  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->add_flag("--json", options->json, wrapped("Print JSON"));
   sub->footer(
-      "Exit code 1 when a pixel lies beyond the limit, 2 for pictures of different sizes.\n"
+      "Exit code 1 if a pixel exceeds the limit, 2 for pictures of different sizes.\n"
       "Examples:\n"
       "  splotchcl compare device.exr reference.exr --limit 0.001\n"
       "  splotchcl compare old.png new.png --diff difference.png");
@@ -252,30 +246,31 @@ void add_devices(CLI::App& app, Run& run) {
   CLI::App* const sub =
       add_command<DevicesOptions>(app, run, "devices", "List the OpenCL devices", options,
                                   [](const DevicesOptions& o) { return run_devices(o); });
-  sub->add_flag("--json", options->json, wrapped("For programs rather than people"));
+  sub->add_flag("--json", options->json, wrapped("Print JSON"));
   sub->footer("Example:\n  splotchcl devices");
 }
 
 void add_generate(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<GenerateOptions>();
   CLI::App* const sub = add_command<GenerateOptions>(
-      app, run, "generate", "Make up a snapshot to try things on", options,
+      app, run, "generate", "Make a snapshot to try things on", options,
       [&console](const GenerateOptions& o) { return run_generate(o, console); });
   sub->add_option("WHAT", options->what,
                   wrapped("universe: cosmic web and haloes in a box of 50000 kpc/h; cluster: a "
-                          "cluster of galaxies, with groups and cold streams that fall in; halo: a "
+                          "cluster of galaxies with infalling groups and cold streams; halo: a "
                           "spiral galaxy with satellites in hot gas"))
       ->required()
       ->check(CLI::IsMember({"universe", "cluster", "halo"}));
   sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget format 2"))
       ->required()
       ->type_name("FILE");
-  sub->add_option("--particles", options->settings.particles, wrapped("Gas and stars together"))
+  sub->add_option("--particles", options->settings.particles,
+                  wrapped("Number of gas and star particles"))
       ->type_name("N")
       ->check(not_negative)
       ->capture_default_str();
   sub->add_option("--stars", options->settings.star_fraction,
-                  wrapped("The part of them that are stars"))
+                  wrapped("The fraction of them that are stars"))
       ->type_name("FRACTION")
       ->capture_default_str();
   sub->add_option("--seed", options->settings.seed,
@@ -370,8 +365,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
 // Taken before the command and after it.
 void add_verbosity(CLI::App& app, bool& is_verbose, bool& is_quiet) {
   app.add_flag("-v,--verbose", is_verbose,
-               wrapped("Say on standard error what is being done, and when"));
-  app.add_flag("-q,--quiet", is_quiet, wrapped("Say nothing but errors: no notes, no progress"));
+               wrapped("Report each step on standard error, with times"));
+  app.add_flag("-q,--quiet", is_quiet, wrapped("Print errors only: no notes, no progress"));
 }
 
 Verbosity chosen_verbosity(bool is_verbose, bool is_quiet) {
@@ -411,11 +406,17 @@ int run_command_line(int argc, char** argv, Console& console) {
   for (CLI::App* const sub : app.get_subcommands([](const CLI::App*) { return true; }))
     add_verbosity(*sub, is_verbose, is_quiet);
   app.footer(
-      "splotchcl COMMAND --help tells more. Off a terminal, what takes long says every 30 s how "
-      "far\n"
-      "it is.\n"
-      "Exit codes: 0 done; 1 the data or the device failed; 2 the call or the scene is wrong.");
-  if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);
+      "splotchcl COMMAND --help shows a command's options. Exit codes: 0 done; 1 the data or the\n"
+      "device failed; 2 the call or the scene is wrong.\n"
+      "Examples:\n"
+      "  splotchcl info snapshot_006                       what the file holds\n"
+      "  splotchcl render snapshot_006 -o picture.png      a first picture\n"
+      "  splotchcl view snapshot_006                       find camera and colours in a browser");
+  if (argc <= 1) {
+    std::cout << app.help();
+    return 0;
+  }
+  if (argv[1][0] != '-') check_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

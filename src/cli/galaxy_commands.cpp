@@ -23,8 +23,8 @@ void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
       ->type_name("DEG")
       ->capture_default_str();
   sub.add_option("--radius", s.radius_pixels,
-                 wrapped("Where the galaxy ends, in pixels along its longest diameter; keeps a "
-                         "companion out. Default: the whole picture"))
+                 wrapped("Radius of the galaxy in pixels along its longest diameter; excludes "
+                         "companions. Default: the whole picture"))
       ->type_name("PIXELS");
   sub.add_option("--size", s.size_kpc, wrapped("Length of the picture's longer side, in kpc"))
       ->type_name("KPC")
@@ -32,14 +32,15 @@ void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
   sub.add_option("--gamma", options.gamma,
                  wrapped("Light = value^gamma. Default: 2.2 for whole numbers, 1 for floats"))
       ->type_name("G");
-  sub.add_option("--threshold", s.threshold,
-                 wrapped("Pixels count that exceed the sky, the median of the picture's border, by "
-                         "so many deviations of its noise"))
+  sub.add_option(
+         "--threshold", s.threshold,
+         wrapped(
+             "How far a pixel must exceed the sky, in standard deviations of the border's noise"))
       ->type_name("K")
       ->capture_default_str();
   sub.add_flag_callback(
       "--keep-stars", [&s] { s.removes_stars = false; },
-      wrapped("Keep the points of light that are taken for stars of the Milky Way"));
+      wrapped("Keep points of light that look like foreground stars"));
 }
 
 void add_matter_options(CLI::App& sub, GalaxySettings& s) {
@@ -48,23 +49,24 @@ void add_matter_options(CLI::App& sub, GalaxySettings& s) {
   };
   add("--gas-height", s.gas_height_kpc, "KPC", "Standard deviation of the gas clouds' heights");
   add("--cloud-points", s.cloud_points, "N", "Gas particles for each pixel");
-  add("--cloud-radius", s.cloud_radius_pixels, "PIXELS", "How far colours of pixels reach");
+  add("--cloud-radius", s.cloud_radius_pixels, "PIXELS",
+      "How far away, in pixels, a particle's colour may come from");
   add("--dust", s.dust, "FACTOR", "How much dust; 0 is none");
-  add("--dust-height", s.dust_height_kpc, "KPC", "Standard deviation of its heights");
+  add("--dust-height", s.dust_height_kpc, "KPC", "Standard deviation of the dust's heights");
   add("--dust-points", s.dust_points, "N", "Dust particles for each pixel");
   add("--disk-stars", s.disk_stars, "N", "Stars of the disk");
   add("--disk-width", s.disk_width, "FRACTION",
-      "Standard deviation of their places, of the galaxy's radius");
+      "Standard deviation of their positions, as a fraction of the galaxy's radius");
   add("--disk-height", s.disk_height_kpc, "KPC", "Standard deviation of their heights");
-  add("--disk-light", s.disk_light, "FRACTION", "Their part of the picture's light");
+  add("--disk-light", s.disk_light, "FRACTION", "Their fraction of the picture's light");
   add("--bulge-stars", s.bulge_stars, "N", "Stars of the bulge");
   add("--bulge-radius", s.bulge_radius_kpc, "KPC", "Its Plummer radius");
-  add("--bulge-light", s.bulge_light, "FRACTION", "Its part of the light at the centre");
+  add("--bulge-light", s.bulge_light, "FRACTION", "Its fraction of the light at the centre");
   add("--clusters", s.clusters, "N", "Globular clusters");
-  add("--cluster-stars", s.cluster_stars, "N", "Stars of one, as a median: the number is random");
-  add("--cluster-light", s.cluster_light, "FRACTION", "Their part of the picture's light");
+  add("--cluster-stars", s.cluster_stars, "N", "Median number of stars per cluster");
+  add("--cluster-light", s.cluster_light, "FRACTION", "Their fraction of the picture's light");
   add("--detail", s.detail, "FACTOR",
-      "Factor on the numbers of all particles but the clusters': more for views from close by");
+      "Factor on the number of particles other than the clusters'; more for close views");
   add("--seed", s.seed, "N", "The same seed makes the same galaxy");
 }
 
@@ -72,12 +74,11 @@ void add_rotation_options(CLI::App& sub, GalaxyOptions& options) {
   sub.add_option("--speed", options.speed, wrapped("Speed of the flat rotation curve"))
       ->type_name("KM/S")
       ->capture_default_str();
-  sub.add_option("--core", options.core,
-                 wrapped("Radius inside of which it turns like a solid body"))
+  sub.add_option("--core", options.core, wrapped("Radius within which it turns like a solid body"))
       ->type_name("KPC")
       ->capture_default_str();
   sub.add_option("--rotation-curve", options.rotation_curve,
-                 wrapped("A file of two columns, kpc and km/s, instead"))
+                 wrapped("Use a rotation curve from a file of two columns, kpc and km/s"))
       ->type_name("FILE");
   sub.add_flag("--clockwise", options.settings.turns_clockwise,
                wrapped("Turn clockwise in the picture"));
@@ -88,7 +89,7 @@ void add_rotation_options(CLI::App& sub, GalaxyOptions& options) {
 void add_galaxy(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<GalaxyOptions>();
   CLI::App* const sub = add_command<GalaxyOptions>(
-      app, run, "galaxy", "Make a galaxy in three dimensions from a picture of one", options,
+      app, run, "galaxy", "Make a 3D galaxy from a picture of one", options,
       [&console](const GalaxyOptions& o) { return run_galaxy(o, console); });
   sub->add_option("IMAGE", options->image,
                   wrapped("A picture of a spiral galaxy, in any format; averaged down to 1024 "
@@ -97,16 +98,15 @@ void add_galaxy(CLI::App& app, Run& run, Console& console) {
   sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget HDF5"))
       ->required()
       ->type_name("FILE");
-  sub->add_option("--scene", options->scene,
-                  wrapped("Write a scene file that draws it from any side, too"))
+  sub->add_option("--scene", options->scene, wrapped("Also write a scene file that draws it"))
       ->type_name("FILE");
   add_picture_options(*sub, *options);
   add_matter_options(*sub, options->settings);
   add_rotation_options(*sub, *options);
   sub->footer(
       "Makes gas (type 0), disk stars (2), a bulge (3) and globular clusters (4), each particle\n"
-      "with a Color, and dust (5) with an Opacity, around the origin, in kpc and km/s.\n"
-      "docs/galaxy.md says how.\n"
+      "with a Color, and dust (5) with an Opacity, around the origin, in kpc and km/s;\n"
+      "see docs/galaxy.md.\n"
       "Example:\n"
       "  splotchcl galaxy m51.jpg -o m51.hdf5 --scene m51.toml --radius 700 --size 25\n"
       "  splotchcl render m51.toml -o m51.png");
@@ -115,28 +115,28 @@ void add_galaxy(CLI::App& app, Run& run, Console& console) {
 void add_evolve(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<EvolveOptions>();
   CLI::App* const sub = add_command<EvolveOptions>(
-      app, run, "evolve", "Turn a galaxy and draw it as it turns", options,
+      app, run, "evolve", "Rotate a galaxy and draw it", options,
       [&console](const EvolveOptions& o) { return run_evolve(o, console); });
-  sub->add_option("GALAXY", options->galaxy, wrapped("A snapshot that splotchcl galaxy made"))
+  sub->add_option("GALAXY", options->galaxy, wrapped("A snapshot made by splotchcl galaxy"))
       ->required();
   sub->add_option("SCENE", options->scene,
-                  wrapped("A scene file that draws it, as its snapshot or as that of a component. "
-                          "Not needed for --snapshots alone"));
+                  wrapped("A scene file that draws it, as its snapshot or a component's. Not "
+                          "needed with --snapshots alone"));
   sub->add_option("-o,--output", options->output,
                   wrapped("Numbered pictures, such as turn_%04d.png"))
       ->type_name("FILES");
   sub->add_option("--snapshots", options->snapshots,
-                  wrapped("Write the galaxy of each frame, too, such as turn_%04d.hdf5"))
+                  wrapped("Write a snapshot of each frame, such as turn_%04d.hdf5"))
       ->type_name("FILES");
   sub->add_option("--duration", options->duration_myr,
-                  wrapped("From the first frame to the last, in million years. Default: as long as "
-                          "the arms hold, or one turn of the pattern"))
+                  wrapped("Time from the first frame to the last, in Myr. Default: until the arms "
+                          "wind up, or one turn of the pattern"))
       ->type_name("MYR");
-  sub->add_option("--frames", options->frames, wrapped("How many frames"))
+  sub->add_option("--frames", options->frames, wrapped("Number of frames"))
       ->type_name("N")
       ->capture_default_str();
   sub->add_flag("--first-order", options->first_order,
-                wrapped("Steps along the tangent, as in the paper, instead of exact circles"));
+                wrapped("Take steps along the tangent, as in the paper, instead of exact circles"));
   sub->add_option("--step", options->step_myr,
                   wrapped("Length of such a step. Default: from one frame to the next"))
       ->type_name("MYR");
@@ -144,24 +144,20 @@ void add_evolve(CLI::App& app, Run& run, Console& console) {
                   wrapped("Speed of a flat rotation curve. Default: the galaxy's own velocities"))
       ->type_name("KM/S");
   sub->add_option("--core", options->core,
-                  wrapped("Radius inside of which that curve is that of a solid body. Default: 1"))
+                  wrapped("Radius within which that curve is a solid body's. Default: 1"))
       ->type_name("KPC");
   sub->add_option("--rotation-curve", options->rotation_curve,
-                  wrapped("A file of two columns, kpc and km/s, instead"))
+                  wrapped("Use a rotation curve from a file of two columns, kpc and km/s"))
       ->type_name("FILE");
-  sub->add_option(
-         "--pattern-speed", options->pattern_speed,
-         wrapped("Turn the arms as a whole, at this speed; for films that last longer than "
-                 "the arms hold"))
+  sub->add_option("--pattern-speed", options->pattern_speed,
+                  wrapped("Turn the arms as a whole at this speed, for long films"))
       ->type_name("KM/S/KPC");
-  sub->add_option("--part", options->part,
-                  wrapped("Make only the K-th of N shares of the frames, so that N processes share "
-                          "the work"))
+  sub->add_option("--part", options->part, wrapped("Make only the K-th of N shares of the frames"))
       ->type_name("K/N");
-  sub->add_option("--device", options->device, wrapped("A part of an OpenCL device's name"))
+  sub->add_option("--device", options->device,
+                  wrapped("Part of an OpenCL device's name; splotchcl devices lists them"))
       ->type_name("NAME");
-  sub->add_option("--set", options->settings,
-                  wrapped("Override a key of the scene; can be repeated"))
+  sub->add_option("--set", options->settings, wrapped("Set a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub->footer(

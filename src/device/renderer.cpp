@@ -118,7 +118,7 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
 // all that are: all particles are projected anew. Where the whole would be drawn in order, in place
 // of slabs, its list entries are not known.
 double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
-  // Nanoseconds of two cores (docs/tuning.md, "Slabs").
+  // Nanoseconds of two cores (docs/dev/tuning.md, "Slabs").
   constexpr double start = 1e6, pixel = 50, pixel_in_order = 1000;
   constexpr double part_in_order = 10, part_of_sum = 20;  // for each particle
   constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20;
@@ -195,7 +195,7 @@ struct Renderer::State {
   double check_seconds = 0;  // of the frame, by the thread that draws
   PlanOptions plan_options;
   // Every slab is a launch of each stage, too small for a GPU to be busy: it draws as fast in order
-  // (docs/gpu.md).
+  // (docs/dev/gpu.md).
   bool draws_slabs = true;
   std::function<void(double)> progress;
   std::shared_ptr<Communicator> ranks;  // null: one process

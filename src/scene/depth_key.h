@@ -6,7 +6,8 @@
 
 // Depths as integers. They decide which of two particles lies in front and who is within the near
 // and far limits, in both renderers: kernels/project/depth_key.cl and src/reference/depth_key.cpp
-// compute them, bit for bit alike, from what is made here. docs/accuracy.md derives the numbers.
+// compute them, bit for bit alike, from what is made here. docs/dev/accuracy.md derives the
+// numbers.
 //
 // Lengths are counted in units of 2^unit. A particle's place from the camera, per axis, is
 //   D = (origin - camera) + offset      both in units, the offset truncated, |D| < 2^60

@@ -36,15 +36,14 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
             return field_map.field.empty() ? std::nullopt : std::optional(field_map.scaling);
           },
           [map](Component& component, Scaling value) { (component.*map).scaling = value; },
-          {"`log` is log10; values that are not positive count as the lowest.", "",
-           "`\"linear\"`"}),
+          {"`log` is log10; values <= 0 count as the lowest.", "", "`\"linear\"`"}),
       key<Component, double>(path + ".min", number(), optional_number(&FieldMap::minimum),
                              set_number(&FieldMap::minimum),
-                             {"The value, before scaling, that becomes 0. Lower ones do too.",
+                             {"The value, before scaling, that becomes 0, as lower ones do.",
                               "the field's", "a percentile of the data"}),
       key<Component, double>(path + ".max", number(), optional_number(&FieldMap::maximum),
                              set_number(&FieldMap::maximum),
-                             {"The value, before scaling, that becomes 1. Higher ones do too.",
+                             {"The value, before scaling, that becomes 1, as higher ones do.",
                               "the field's", "a percentile of the data"}),
       key<Component, Percentiles>(
           path + ".percentiles", percentiles(),
@@ -55,9 +54,8 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
           [map](Component& component, const Percentiles& value) {
             (component.*map).percentiles = value;
           },
-          {"Which percentiles of the component's particles stand for a missing min or max. 0 and "
-           "100 are the smallest and the largest value.",
-           "per cent", "`[0.5, 99.5]`"}),
+          {"Percentiles of the component's particles for a missing min or max.", "per cent",
+           "`[0.5, 99.5]`"}),
   };
 }
 
@@ -101,8 +99,8 @@ Keys absorption_keys() {
                            : std::optional(component.absorption);
               },
               [](Component& component, const Absorption& value) { component.absorption = value; },
-              {"What the matter absorbs. `\"emission\"`: as much as it emits, A = E. "
-               "`\"none\"` or 0: nothing. A number: A = number * palette_A."}),
+              {"What matter absorbs. `\"emission\"`: as much as it emits, A = E. `\"none\"`: "
+               "nothing. A number: A = number * palette_A."}),
           {"component.gray_absorption"}),
       key<Component, double>(
           "component.gray_absorption", number(light()),
@@ -114,10 +112,8 @@ Keys absorption_keys() {
           [](Component& component, double value) {
             component.absorption = {Kind::gray, value};
           },
-          {"Instead of `absorption`, the original program's rule: the source fades where a cloud "
-           "is "
-           "faint against gray_absorption; see the model of light.",
-           "", "not used"}),
+          {"Instead of `absorption`, the original program's rule; see the model of light.", "",
+           "not used"}),
   };
 }
 
@@ -131,14 +127,13 @@ Keys component_keys() {
             return component.name.empty() ? std::nullopt : std::optional(component.name);
           },
           [](Component& component, const std::string& value) { component.name = value; },
-          {"A name of its own, for messages and for settings such as `component.NAME.palette`. "
-           "Not only digits.",
-           "", "none"}),
+          {"For messages and settings such as `component.NAME.palette`. Not only digits.", "",
+           "none"}),
   };
   append(keys, particle_keys());
   append(keys, size_keys());
   append(keys, field_map_keys("component.color", &Component::color,
-                              {"The field that is looked up in the palette.", "",
+                              {"The field looked up in the palette.", "",
                                "none: the palette's first colour for all, black in many"}));
   keys.push_back(key<Component, std::string>(
       "component.color.vector", text(),
@@ -147,8 +142,8 @@ Keys component_keys() {
                                               : std::optional(component.color_vector);
       },
       [](Component& component, const std::string& value) { component.color_vector = value; },
-      {"A field of three values per particle, its own red, green and blue >= 0, in place of the "
-       "palette's emission. `palette` is not used then.",
+      {"A field of three values, each particle's own red, green and blue, instead of the palette's "
+       "emission.",
        "", "none"}));
   append(keys, field_map_keys("component.intensity", &Component::intensity,
                               {"The field that becomes I, a factor on emission and absorption.", "",
@@ -166,8 +161,7 @@ Keys component_keys() {
                  {"The column w that counts as 1: w is divided by it.", "that of w",
                   "a percentile of the data"}),
              key("component.palette", text(), &Component::palette,
-                 {"The name of a palette, or a palette file; see palettes.md. A relative "
-                  "path starts at the scene file's folder."}),
+                 {"A palette's name, or a file; see palettes.md."}),
              key<Component, std::string>(
                  "component.absorption_palette", text(),
                  [](const Component& component) {
@@ -178,9 +172,7 @@ Keys component_keys() {
                  [](Component& component, const std::string& value) {
                    component.absorption_palette = value;
                  },
-                 {"The palette whose colours are palette_A: its own absorption, or its emission "
-                  "where it has none.",
-                  "", "what `palette` says"}),
+                 {"The palette that gives palette_A.", "", "what `palette` says"}),
              key("component.brightness", number(light()), &Component::brightness,
                  {"Factor on the palette's colours."}),
          });

@@ -55,7 +55,7 @@ ValueType<double> text_height() {
 }
 
 Text where(const std::string& what) {
-  return {"Where " + what + ". Things at the same place stand below each other."};
+  return {"Where " + what + "."};
 }
 
 // Unset: found from the picture.
@@ -75,21 +75,19 @@ Keys tone_keys() {
   return {
       finish_key("exposure", number_or_auto(between(-100, 100)),
                  [](auto& f) -> auto& { return f.exposure; },
-                 {"Light is multiplied by 2^exposure. `\"auto\"`: by as much as lifts a quarter of "
-                  "the picture above 2 % of white, or what matter fills of it; see finish.md.",
+                 {"Light is multiplied by 2^exposure. `\"auto\"`: from the picture; see finish.md.",
                   "stops"}),
-      finish_key(
-          "tone",
-          choice<ToneCurve>({{"linear", ToneCurve::linear},
-                             {"asinh", ToneCurve::asinh},
-                             {"filmic", ToneCurve::filmic}}),
-          [](auto& f) -> auto& { return f.tone; },
-          {"How exposed light becomes what a display shows. `linear`: light / white. `asinh` and "
-           "`filmic` keep details in bright and in dark places; hues hold. See finish.md."}),
+      finish_key("tone",
+                 choice<ToneCurve>({{"linear", ToneCurve::linear},
+                                    {"asinh", ToneCurve::asinh},
+                                    {"filmic", ToneCurve::filmic}}),
+                 [](auto& f) -> auto& { return f.tone; },
+                 {"The curve that fits light to a display; `asinh` and `filmic` keep detail in "
+                  "bright and dark. See finish.md."}),
       finish_key("white", number_or_auto(between(1e-30, 1e30)),
                  [](auto& f) -> auto& { return f.white; },
-                 {"Light, after exposure, that becomes the display's white. `\"auto\"`: so "
-                  "much that no more than 0.3 % of what matter fills is white; see finish.md.",
+                 {"Light, after exposure, that becomes the display's white. `\"auto\"`: from the "
+                  "picture; see finish.md.",
                   "white is 1"}),
   };
 }
@@ -97,9 +95,7 @@ Keys tone_keys() {
 Keys light_keys() {
   return {
       finish_key("saturation", number(between(0, 100)),
-                 [](auto& f) -> auto& { return f.saturation; },
-                 {"0 is gray, 1 as drawn: each channel becomes Y + saturation (channel - Y), at "
-                  "least 0, with the luminance Y = 0.2126 red + 0.7152 green + 0.0722 blue."}),
+                 [](auto& f) -> auto& { return f.saturation; }, {"0 is grey, 1 as drawn."}),
       finish_key("contrast", number(between(0, 100)), [](auto& f) -> auto& { return f.contrast; },
                  {"A display value v becomes pivot (v / pivot)^contrast."}),
       finish_key("contrast_pivot", number(between(0.001, 1000)),
@@ -113,7 +109,7 @@ Keys text_keys(const std::string& name, Member member, const std::string& what,
                const std::string& size) {
   return {
       text_key(name + ".text", shown_words(), [member](auto& f) -> auto& { return member(f).text; },
-               {what + " Placeholders such as `{redshift:.2f}` take values of the snapshot.", "",
+               {what + " Placeholders such as `{redshift:.2f}` are filled in; see finish.md.", "",
                 "none"}),
       finish_key(
           name + ".at", anchor(), [member](auto& f) -> auto& { return member(f).at; },
@@ -126,9 +122,9 @@ Keys text_keys(const std::string& name, Member member, const std::string& what,
 
 Keys all_text_keys() {
   Keys keys = {
-      text_key("font", text(), [](auto& f) -> auto& { return f.font; },
-               {"The font of all text: a name such as DejaVuSans-Bold, or a font file (.ttf, "
-                ".otf). A relative path starts at the scene file's folder."}),
+      text_key(
+          "font", text(), [](auto& f) -> auto& { return f.font; },
+          {"The font of all text: a name such as DejaVuSans-Bold, or a font file (.ttf, .otf)."}),
       finish_key("text_size", text_height(), [](auto& f) -> auto& { return f.text_size; },
                  {"Size of letters.", "shorter side"}),
       finish_key("text_color", display_color(), [](auto& f) -> auto& { return f.text_color; },
@@ -152,15 +148,13 @@ Keys all_text_keys() {
 Keys bar_keys() {
   return {
       finish_key("color_bar.show", boolean(), [](auto& f) -> auto& { return f.color_bar.show; },
-                 {"Draw the components' palettes with the values of their fields."}),
+                 {"Draw the components' palettes with their values."}),
       finish_key(
           "color_bar.at", anchor(), [](auto& f) -> auto& { return f.color_bar.at; },
           where("the bars lie")),
       finish_key("color_bar.length", number(between(0.05, 1)),
                  [](auto& f) -> auto& { return f.color_bar.length; },
-                 {"Length of all bars together. They stand upright at the left and right side and "
-                  "in the corners, and lie at the top and bottom.",
-                  "height or width"}),
+                 {"Length of all bars together.", "height or width"}),
       finish_key("color_bar.components", texts(),
                  [](auto& f) -> auto& { return f.color_bar.components; },
                  {"Names of the components that have a bar.", "", "all with a color.field"}),
@@ -183,8 +177,7 @@ Keys inset_keys() {
   const std::string same = "the picture's";
   return {
       finish_key("inset.show", boolean(), [](auto& f) -> auto& { return f.inset.show; },
-                 {"Draw the scene a second time, as another camera sees it, into a part of the "
-                  "picture."}),
+                 {"Draw the scene as another camera sees it into a part of the picture."}),
       finish_key(
           "inset.at", anchor(), [](auto& f) -> auto& { return f.inset.at; },
           where("the inset lies")),
@@ -214,10 +207,7 @@ Keys inset_keys() {
 Keys fade_keys() {
   return {
       text_key("cross_fade.scene", text(), [](auto& f) -> auto& { return f.cross_fade.scene; },
-               {"A scene file whose picture is mixed into this one. It is drawn in this scene's "
-                "size, and with this scene's camera where it has none. A relative path starts at "
-                "the scene file's folder.",
-                "", "none"}),
+               {"A scene file whose picture is mixed into this one; see finish.md.", "", "none"}),
       finish_key("cross_fade.amount", number(between(0, 1)),
                  [](auto& f) -> auto& { return f.cross_fade.amount; },
                  {"0 is this scene alone, 1 the other alone."}),

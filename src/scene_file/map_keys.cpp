@@ -56,14 +56,14 @@ Keys quantity_keys() {
                                 {"dispersion", MapStatistic::dispersion},
                                 {"integral", MapStatistic::integral}}),
           &MapSettings::statistic,
-          {"What is done with a field along each line of sight: its weighted mean, its standard "
-           "deviation about that mean, or its integral over the length."}),
+          {"Along each line of sight: the field's weighted mean, its standard deviation, or its "
+           "integral."}),
       text_key("weight", &MapSettings::weight,
                {"The weights of means: `mass`, `volume`, `constant` (all particles alike), or a "
                 "field of values >= 0.",
                 "", "`\"mass\"`; of a slice `\"volume\"`"}),
       key("map.slice", boolean(), &MapSettings::slice,
-          {"In the plane through the center, instead of along the line of sight."}),
+          {"In the plane through the centre, instead of along the line of sight."}),
   };
 }
 
@@ -83,22 +83,19 @@ Keys view_keys() {
                              {"mass", MapCenter::mass},
                              {"densest", MapCenter::densest}}),
           &MapSettings::center_at,
-          {"Without a `center`: the middle of the box (without one, of the particles), the center "
-           "of mass, or the densest particle. With the view `camera`, `box` is the point that it "
-           "looks at."}),
+          {"Without a `center`: the middle of the box or of the particles, the centre of mass, or "
+           "the densest particle. With the view `camera`, `box` is its look-at point."}),
       key("map.width", number(more_than(0)), &MapSettings::width,
           {"Between the left and right edges.", "length", "all of the box, or of the particles"}),
       key("map.depth", number(more_than(0)), &MapSettings::depth,
-          {"Particles whose centers lie farther than half of it from the center along the line of "
-           "sight are left out.",
+          {"Only particles whose centres lie within half of it from the centre along the line of "
+           "sight.",
            "length", "one side of a periodic box; otherwise no limit"}),
       key("map.periodic", boolean(), &MapSettings::periodic,
-          {"Whether every image of a particle in the periodic box is drawn that the map shows.", "",
+          {"Draw every periodic image of a particle that the map shows.", "",
            "whether the snapshot has a box that its particles lie in"}),
       key("map.size_factor", number(more_than(0)), &MapSettings::size_factor,
-          {"Smoothing lengths are multiplied by it. `component.size.factor` is for pictures and "
-           "does "
-           "not count in maps."}),
+          {"Factor on smoothing lengths; `component.size.factor` does not count in maps."}),
   };
 }
 
@@ -108,15 +105,15 @@ Keys number_keys() {
                {"The map's unit, such as `Msun/pc^2`; `a` and `h` are the snapshot's.", "",
                 "what the snapshot's units give"}),
       text_key("length_unit", &MapSettings::length_unit,
-               {"The snapshot's unit of length, where it does not say it: `a kpc/h`.", "",
+               {"The snapshot's unit of length if the file names none: `a kpc/h`.", "",
                 "the snapshot's"}),
       text_key("mass_unit", &MapSettings::mass_unit,
                {"Likewise: `1e10 Msun/h`.", "", "the snapshot's"}),
       text_key("velocity_unit", &MapSettings::velocity_unit,
                {"Likewise: `km/s`.", "", "the snapshot's"}),
       key("map.floor", number(between(1e-12, 1)), &MapSettings::floor,
-          {"Where the column of the weights is below this part of its mean, a mean is not a "
-           "number. The tolerance is relative to this column where there is less."}),
+          {"If the column of the weights is below this fraction of its mean, a mean is NaN, and "
+           "the tolerance is relative to this column."}),
       key("map.noise", boolean(), &MapSettings::noise,
           {"A second plane: the effective number of particles."}),
   };
@@ -125,11 +122,11 @@ Keys number_keys() {
 Keys sky_keys() {
   return {
       text_key("distance", &MapSettings::distance,
-               {"From where the center is seen: a length with its unit, such as `16.5 Mpc`, or "
-                "`redshift`. FITS and HDF5 files then have coordinates on the sky.",
+               {"From where the centre is seen, such as `16.5 Mpc` or `redshift`: adds coordinates "
+                "on the sky to FITS and HDF5.",
                 "", "not on the sky"}),
       key("map.sky", sky_place(), &MapSettings::sky,
-          {"Right ascension and declination of the center. Up is north.", "degrees"}),
+          {"Right ascension and declination of the centre. North is up.", "degrees"}),
   };
 }
 
@@ -141,27 +138,26 @@ Keys figure_keys() {
                               {"asinh", MapScaling::asinh},
                               {"power", MapScaling::power}}),
           &MapSettings::scaling,
-          {"Of figures: from values to the palette.", "",
+          {"In figures: from values to the palette.", "",
            "`log`; of values of both signs `linear` or `asinh` (maps.md)"}),
       key("map.softening", number(more_than(0)), &MapSettings::softening,
           {"Below it asinh is linear.", "the map's",
            "a thousandth of the limit farther from 0, down to a power of ten"}),
       key("map.exponent", number(between(0.01, 10)), &MapSettings::exponent,
-          {"Of the scaling `power`: 0.5 takes the root."}),
+          {"For the scaling `power`: 0.5 is the square root."}),
       key("map.min", number(), &MapSettings::minimum,
-          {"The value of the palette's first color.", "the map's",
+          {"The value of the palette's first colour.", "the map's",
            "a percentile of the map; of a logarithm no less than the map's floor"}),
       key("map.max", number(), &MapSettings::maximum,
-          {"The value of its last color.", "the map's", "a percentile of the map"}),
+          {"The value of its last colour.", "the map's", "a percentile of the map"}),
       key("map.percentiles", percentiles(), &MapSettings::percentiles,
-          {"Which percentiles of the map stand for a missing min or max.", "per cent",
-           "`[1, 99.9]`"}),
+          {"Percentiles of the map for a missing min or max.", "per cent", "`[1, 99.9]`"}),
       text_key("palette", &MapSettings::palette, {"The name of a palette, or a file."}),
       excluding(key("map.contours", numbers(), &MapSettings::contours,
                     {"Lines at these values of the map.", "the map's", "none"}),
                 {"map.contour_count"}),
       key("map.contour_count", integer(0, 100), &MapSettings::contour_count,
-          {"So many lines, at values that are even in the palette."}),
+          {"This many lines, evenly spaced in the palette."}),
   };
 }
 

@@ -39,15 +39,19 @@ ValueType<Texts> conditions() {
   return {condition_form, read_conditions, write_conditions};
 }
 
-// select.* and exclude.*.
-Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::string& effect) {
+// select.* and exclude.*. The latter's words refer to the former's.
+Keys set_keys(const std::string& path, ParticleSet Component::*set) {
+  const bool leaves_out = path == "component.exclude";
+  const auto meaning = [=](const std::string& name, const std::string& text) {
+    return leaves_out ? "As `select" + name + "`, of particles that are left out." : text;
+  };
   const auto optional_vector = [&](const std::string& name,
                                    std::optional<Vec3> ParticleSet::*member,
-                                   const std::string& meaning) {
+                                   const std::string& text) {
     return key<Component, Vec3>(
         path + name, vector(), [=](const Component& component) { return component.*set.*member; },
         [=](Component& component, const Vec3& value) { component.*set.*member = value; },
-        {meaning, "length", "not used"});
+        {meaning(name, text), "length", "not used"});
   };
   return {
       key<Component, Texts>(
@@ -57,8 +61,7 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::s
             return where.empty() ? std::nullopt : std::optional(where);
           },
           [=](Component& component, const Texts& value) { (component.*set).where = value; },
-          {effect + " whose fields fulfil this. A value that is not a number fulfils nothing.", "",
-           "not used"}),
+          {meaning(".where", "Only particles whose fields fulfil this."), "", "not used"}),
       key<Component, std::string>(
           path + ".ids", text(),
           [=](const Component& component) {
@@ -66,16 +69,17 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::s
             return file.empty() ? std::nullopt : std::optional(file);
           },
           [=](Component& component, const std::string& value) { (component.*set).id_file = value; },
-          {effect + " whose identifiers this file lists: a text, one on a line (what follows a `#` "
-                    "does not count), or a NumPy array (.npy). A relative path starts at the scene "
-                    "file's folder.",
+          {meaning(".ids",
+                   "Only particles whose ids this file lists: text, one per line, or a NumPy array "
+                   "(.npy)."),
            "", "not used"}),
       key<Component, int>(
           path + ".halo", integer(0, most_haloes),
           [=](const Component& component) { return (component.*set).halo; },
           [=](Component& component, int value) { (component.*set).halo = value; },
-          {effect + " that belong to this halo, by its number in the snapshot's group ids or in "
-                    "the catalog; see formats.md.",
+          {meaning(".halo",
+                   "Only particles of this halo, by its number in the snapshot or in the catalog; "
+                   "see formats.md."),
            "", "not used"}),
       key<Component, std::string>(
           path + ".catalog", text(),
@@ -86,19 +90,18 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set, const std::s
           [=](Component& component, const std::string& value) {
             (component.*set).halo_catalog = value;
           },
-          {"The catalog that `halo` is looked up in. A relative path starts at the scene file's "
-           "folder.",
-           "", "the snapshot's group ids, else a catalog beside it"}),
+          {meaning(".catalog", "The catalog for `halo`."), "",
+           "the snapshot's group ids, else a catalog beside it"}),
       optional_vector(".box.min", &ParticleSet::box_minimum,
-                      effect + " from this corner of a box to `box.max`, both included."),
+                      "Only particles from this corner of a box to `box.max`."),
       optional_vector(".box.max", &ParticleSet::box_maximum, "The other corner."),
       optional_vector(".sphere.center", &ParticleSet::sphere_center,
-                      effect + " at most `sphere.radius` from here."),
+                      "Only particles within `sphere.radius` of here."),
       key<Component, double>(
           path + ".sphere.radius", number(more_than(0)),
           [=](const Component& component) { return (component.*set).sphere_radius; },
           [=](Component& component, double value) { (component.*set).sphere_radius = value; },
-          {"The sphere's radius.", "length", "not used"}),
+          {meaning(".sphere.radius", "The sphere's radius."), "length", "not used"}),
   };
 }
 
@@ -116,8 +119,8 @@ Keys placement_keys() {
                                                                : std::optional(component.center);
           },
           [](Component& component, const Vec3& value) { component.center = value; },
-          {"A point in the coordinates of the component's snapshot: the field `radius` is measured "
-           "from it, it is what `origin` places, and turning and scaling leave it where it is.",
+          {"A point in the snapshot's coordinates: `radius` is measured from it, `origin` places "
+           "it, and turning and scaling leave it in place.",
            "length", "`[0, 0, 0]`"}),
       key<Component, Vec3>(
           "component.origin", vector(),
@@ -132,7 +135,7 @@ Keys placement_keys() {
             return equal(axis, Placement().axis) ? std::nullopt : std::optional(axis);
           },
           [](Component& component, const Vec3& value) { component.placement.axis = value; },
-          {"The axis through `center` about which the component is turned.", "", "`[0, 0, 1]`"}),
+          {"The axis through `center` about which it is turned.", "", "`[0, 0, 1]`"}),
       key<Component, double>(
           "component.rotation.angle", number(),
           [](const Component& component) {
@@ -148,8 +151,8 @@ Keys placement_keys() {
             return scale == 1 ? std::nullopt : std::optional(scale);
           },
           [](Component& component, double value) { component.placement.scale = value; },
-          {"A length of 1 in the component's snapshot becomes this length in the scene. Sizes h "
-           "are scaled, too, except `size.fixed`; masses and densities stay.",
+          {"A length of 1 in its snapshot becomes this length in the scene. Sizes h too, except "
+           "`size.fixed`.",
            "", "`1`"}),
   };
 }
@@ -164,15 +167,12 @@ Keys particle_keys() {
             return component.snapshot.empty() ? std::nullopt : std::optional(component.snapshot);
           },
           [](Component& component, const std::string& value) { component.snapshot = value; },
-          {"A snapshot of its own, from which the component's particles are taken, as `[read]` "
-           "says. A relative path starts at the scene file's folder.",
-           "", "the scene's"}),
+          {"A snapshot of its own, read as `[read]` says.", "", "the scene's"}),
       key("component.types", particle_types(), &Component::types,
-          {"The particle types that are drawn as this component."}),
+          {"The particle types drawn as this component."}),
   };
-  append(keys, set_keys("component.select", &Component::select, "Only particles are drawn"));
-  append(keys, set_keys("component.exclude", &Component::exclude,
-                        "Particles that fulfil everything in `exclude` are left out: those"));
+  append(keys, set_keys("component.select", &Component::select));
+  append(keys, set_keys("component.exclude", &Component::exclude));
   append(keys, placement_keys());
   return keys;
 }

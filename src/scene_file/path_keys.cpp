@@ -54,11 +54,10 @@ Key fly_key(const std::string& path, const ValueType<V>& type, Member FlyThrough
 
 Keys orbit_keys() {
   return {
-      orbit_key("path.orbit.degrees", number(), &Orbit::degrees,
-                {"How far the camera turns about the axis over the film, counterclockwise seen "
-                 "from the axis' tip. A full turn of n frames leaves out the n-th, which would be "
-                 "the first again.",
-                 "degrees", "no orbit; 360 where another key of it is given"}),
+      orbit_key(
+          "path.orbit.degrees", number(), &Orbit::degrees,
+          {"How far the camera turns over the film, counterclockwise seen from the axis' tip.",
+           "degrees", "no orbit; 360 if another key of it is set"}),
       orbit_key("path.orbit.center", vector(), &Orbit::center,
                 {"What the camera turns about.", "length", "the camera's look-at point"}),
       orbit_key("path.orbit.axis", vector(), &Orbit::axis,
@@ -71,14 +70,13 @@ Keys orbit_keys() {
 Keys fly_keys() {
   return {
       fly_key("path.fly.through", points(), &FlyThrough::through,
-              {"The camera flies through these points at constant speed, on a smooth curve, from "
-               "the first to the last.",
+              {"The camera flies through these points on a smooth curve at constant speed.",
                "length", "no fly-through; required for one"}),
       fly_key("path.fly.look_at", vector(), &FlyThrough::look_at,
-              {"What it looks at all the time.", "length", "ahead, along the curve"}),
+              {"What it looks at.", "length", "ahead, along the curve"}),
       fly_key("path.fly.ease", choice<bool>({{"none", false}, {"both", true}}),
               &FlyThrough::is_eased,
-              {"`both`: the flight speeds up in its beginning and slows down in its end.", "",
+              {"`both`: the flight speeds up at its start and slows down at its end.", "",
                "`\"none\"`"}),
   };
 }
@@ -98,9 +96,7 @@ Keys path_keys() {
                 path.fly.reset();
                 path.file = value;
               },
-              {"A text file with a row of values for each frame; see movies.md. A relative path "
-               "starts at the scene file's folder.",
-               "", "none"}),
+              {"A text file with a row of values for each frame; see movies.md.", "", "none"}),
           both(orbit_paths, fly_paths)),
   };
   append(keys, orbit_keys());
@@ -115,22 +111,17 @@ Keys path_keys() {
                  [](PathSettings& path, const std::vector<Keyframe>& value) {
                    path.keyframes = value;
                  },
-                 {"`[[path.keyframes]]`: the values of keys of the scene at some frames; the "
-                  "film's first frame is 0. In between they are interpolated, before and after "
-                  "they stay. "
-                  "`position`, `look_at` and `sky` are short for the camera's.",
+                 {"`[[path.keyframes]]`: values of keys at some frames, counted from 0; see "
+                  "movies.md.",
                   "", "none"}),
              key("path.interpolation", choice<bool>({{"smooth", true}, {"linear", false}}),
                  &PathSettings::is_smooth,
-                 {"How keyframes are joined: by straight lines, or by curves without corners, "
-                  "which for all but points in space never leave the interval between two "
-                  "keyframes."}),
+                 {"Keyframes are joined by smooth curves or straight lines."}),
              key("path.look",
                  choice<PathSettings::Look>({{"point", PathSettings::Look::point},
                                              {"direction", PathSettings::Look::direction}}),
                  &PathSettings::look,
-                 {"What is interpolated between keyframes' `look_at`: the point itself, or the "
-                  "view's direction, as a rotation, and its distance."}),
+                 {"What moves between keyframes: the look-at point, or the view's direction."}),
          });
   return keys;
 }
@@ -147,12 +138,10 @@ Keys movie_keys() {
           &MovieSettings::codec,
           {"How the film is encoded.", "", "`\"vp9\"` for .webm, else `\"h264\"`"}),
       key("movie.rate_factor", integer(0, 51), &MovieSettings::rate_factor,
-          {"The encoder's constant rate factor. 18 looks like the frames themselves; 6 more halve "
-           "the file."}),
+          {"The encoder's constant rate factor: 18 looks lossless; 6 more halve the file."}),
       key("movie.bits", bits({8, 10}), &MovieSettings::bits,
-          {"Bits of each channel. 10 hold faint light without steps, where ffmpeg's encoder can; "
-           "many "
-           "players of `h264` cannot."}),
+          {"Bits per channel. 10 avoid steps in faint light; many players cannot show 10-bit "
+           "`h264`."}),
   };
 }
 

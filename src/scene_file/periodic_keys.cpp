@@ -21,8 +21,7 @@ ValueType<BoxSides> box_sides() {
 Keys periodic_keys() {
   return written_if_set({
       key("periodic.wrap", boolean(), &PeriodicSettings::wrap,
-          {"Draw each particle at its periodic image nearest to `camera.look_at`, so that the "
-           "point looked at is the middle of the box."}),
+          {"Draw each particle at its periodic image nearest to `camera.look_at`."}),
       key("periodic.box", box_sides(), &PeriodicSettings::box,
           {"Side of the periodic box, or one for each axis.", "length",
            "as the snapshot's header says"}),

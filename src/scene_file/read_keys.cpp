@@ -12,22 +12,20 @@ Keys read_keys() {
             return read.columns.empty() ? std::nullopt : std::optional(read.columns);
           },
           [](ReadSettings& read, const std::vector<std::string>& value) { read.columns = value; },
-          {"Names for the columns of a text table or a plain NumPy array, in their order; `-` for "
-           "one that is not needed. See formats.md.",
+          {"Names for the columns of a text table or plain NumPy array, in order; `-` skips one. "
+           "See formats.md.",
            "", "those in the file"}),
-      excluding(
-          key<ReadSettings, int>(
-              "read.every", integer(1, most),
-              [](const ReadSettings& read) {
-                return read.max_particles ? std::nullopt : std::optional(read.every);
-              },
-              [](ReadSettings& read, int value) {
-                read.every = value;
-                read.max_particles.reset();
-              },
-              {"Only every N-th particle of each type is drawn, brighter by as much as is left "
-               "out."}),
-          {"read.max_particles"}),
+      excluding(key<ReadSettings, int>(
+                    "read.every", integer(1, most),
+                    [](const ReadSettings& read) {
+                      return read.max_particles ? std::nullopt : std::optional(read.every);
+                    },
+                    [](ReadSettings& read, int value) {
+                      read.every = value;
+                      read.max_particles.reset();
+                    },
+                    {"Draw every N-th particle of each type, brighter by as much as is left out."}),
+                {"read.max_particles"}),
       key<ReadSettings, int>(
           "read.max_particles", integer(1, most),
           [](const ReadSettings& read) { return read.max_particles; },
@@ -35,16 +33,13 @@ Keys read_keys() {
             read.max_particles = value;
             read.every = 1;
           },
-          {"At most this many particles are drawn, chosen at random and brighter by as much as is "
-           "left out.",
-           "", "all"}),
-      key("read.seed", integer(0, most), &ReadSettings::seed,
-          {"Another seed chooses other particles for `max_particles`."}),
+          {"Draw at most this many particles, chosen at random and brighter likewise.", "", "all"}),
+      key("read.seed", integer(0, most), &ReadSettings::seed, {"The seed of that choice."}),
       key("read.neighbours", integer(1, most_neighbors), &ReadSettings::neighbors,
-          {"Where the file has no smoothing lengths: how many particles their spheres hold."}),
+          {"If the file has no smoothing lengths: how many particles their spheres hold."}),
       key("read.cache_smoothing_lengths", boolean(), &ReadSettings::cache_smoothing_lengths,
-          {"Whether smoothing lengths that had to be found are kept in a file beside the "
-           "snapshot, for the next time."}),
+          {"Store smoothing lengths that had to be found in a file beside the snapshot, for "
+           "reuse."}),
   };
 }
 

@@ -7,24 +7,23 @@ Keys stereo_keys() {
   angle.at_most = 45;
   return {
       key("stereo.angle", number(angle), &Stereo::angle_degrees,
-          {"Two pictures, one for each eye, are drawn where there is a `[stereo]`. The eyes are "
-           "this angle times the distance from `camera.position` to `camera.look_at` apart.",
+          {"A `[stereo]` draws two pictures. The eyes are this angle times the look-at distance "
+           "apart.",
            "degrees"}),
       key("stereo.mode",
           choice<StereoMode>({{"off_axis", StereoMode::off_axis},
                               {"parallel", StereoMode::parallel},
                               {"toe_in", StereoMode::toe_in}}),
           &Stereo::mode,
-          {"`off_axis`: parallel view directions, the pictures shifted so that what lies at the "
-           "look-at distance is at the same place in both. `parallel`: not shifted, as headsets "
-           "expect it of 360 degrees. `toe_in`: each eye looks at `camera.look_at`; needs a "
-           "perspective or orthographic camera, and is the only one for the latter."}),
+          {"`off_axis`: parallel views, shifted to agree at the look-at distance. `parallel`: not "
+           "shifted, for headsets. `toe_in`: each eye looks at `look_at`; the only one for "
+           "orthographic cameras, and not for wide angles."}),
       key("stereo.eyes",
           choice<StereoEyes>(
               {{"right_shifted", StereoEyes::right_shifted}, {"centered", StereoEyes::centered}}),
           &Stereo::eyes,
-          {"`right_shifted`: the left eye is at `camera.position`. `centered`: each eye is half a "
-           "step to its side of it."}),
+          {"`right_shifted`: the left eye is at `camera.position`. `centered`: both are half a "
+           "step beside it."}),
       key("stereo.layout",
           choice<StereoLayout>({{"files", StereoLayout::files},
                                 {"side_by_side", StereoLayout::side_by_side},
@@ -33,11 +32,8 @@ Keys stereo_keys() {
                                 {"anaglyph_half_color", StereoLayout::anaglyph_half_color},
                                 {"anaglyph_gray", StereoLayout::anaglyph_gray}}),
           &Stereo::layout,
-          {"`files`: two files whose names end in _left and _right. `side_by_side` and "
-           "`top_bottom`: "
-           "one picture, left eye left or on top, twice as large as `image.size`. The others are "
-           "for "
-           "glasses of red (left) and cyan; see projections.md."}),
+          {"Two files, NAME_left and NAME_right; one picture, left eye left or on top; or one for "
+           "glasses of red and cyan. See projections.md."}),
   };
 }
 

@@ -57,9 +57,8 @@ Keys time_keys() {
             time.snapshots = names.list;
             time.pattern = names.pattern;
           },
-          {"Instead of `snapshot`: snapshots of one run that follow each other. Relative paths "
-           "start at the scene file's folder; see time.md.",
-           "", "none: a single snapshot"}),
+          {"Instead of `snapshot`: successive snapshots of one run; see time.md.", "",
+           "none: a single snapshot"}),
       key("time.first", integer(0, largest), &SequenceSettings::first,
           {"The lowest number of a pattern. Numbers without a file are left out.", "", "0"}),
       key("time.last", integer(0, largest), &SequenceSettings::last,
@@ -67,8 +66,8 @@ Keys time_keys() {
       key<SequenceSettings, double>(
           "time.index", number(), if_set(&SequenceSettings::index),
           [](SequenceSettings& time, double value) { time.index = value; },
-          {"The moment that is drawn: the number of a snapshot, counted from 0 in a list, as in "
-           "the name with a pattern. 2.25 is a quarter of the way from 2 to 3.",
+          {"The moment drawn: a snapshot's number in a pattern, or its place in a list, from 0. "
+           "2.25 is a quarter of the way from 2 to 3.",
            "", "`0.0`"}),
       key<SequenceSettings, Interpolation>(
           "time.interpolation",
@@ -77,18 +76,15 @@ Keys time_keys() {
                                  {"hermite", Interpolation::hermite}}),
           if_set(&SequenceSettings::interpolation),
           [](SequenceSettings& time, Interpolation value) { time.interpolation = value; },
-          {"Between two snapshots: the earlier one, straight lines, or cubic curves along the "
-           "velocities.",
+          {"Between snapshots: the earlier one, straight lines, or cubics along the velocities.",
            "", "`\"linear\"`"}),
       number_key("omega_matter", at_least(0), &SequenceSettings::omega_matter,
-                 {"For `hermite`: density of matter today, instead of the snapshots'.", "",
-                  "the snapshots'"}),
+                 {"For `hermite`: density of matter today.", "", "the snapshots'"}),
       number_key("omega_lambda", {}, &SequenceSettings::omega_lambda,
-                 {"For `hermite`: density of dark energy today, instead of the snapshots'.", "",
-                  "the snapshots'"}),
-      number_key("hubble_rate", more_than(0), &SequenceSettings::hubble_rate,
-                 {"For `hermite`: H0, instead of the snapshots'. 0.1 for km/s and kpc/h.",
-                  "velocity / length", "the snapshots'"}),
+                 {"For `hermite`: density of dark energy today.", "", "the snapshots'"}),
+      number_key(
+          "hubble_rate", more_than(0), &SequenceSettings::hubble_rate,
+          {"For `hermite`: H0; 0.1 for km/s and kpc/h.", "velocity / length", "the snapshots'"}),
   };
 }
 

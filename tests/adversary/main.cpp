@@ -1,4 +1,4 @@
-// Looks for scenes whose pictures break the promise of their tolerance: docs/contributing.md.
+// Looks for scenes whose pictures break the promise of their tolerance: docs/dev/contributing.md.
 // usage: adversary [--minutes M] [--pictures N] [--seeds A..B] [--class NAME] [--findings FOLDER]
 //                  [--light NAME] [--tolerance X] [--from FILE] [--csv FILE]
 //        adversary --measure FILE...
@@ -254,7 +254,7 @@ int search_all(const Options& options) {
   if (broken == 0) return 0;
   std::printf(
       "\n%d of %zu classes break their promise. The same search with --findings FOLDER\n"
-      "writes the scenes; docs/contributing.md says how one becomes a hard case.\n",
+      "writes the scenes; docs/dev/contributing.md says how one becomes a hard case.\n",
       broken, kinds.size());
   return 1;
 }

@@ -30,6 +30,20 @@ TEST(Arguments, NamesEveryCommandInItsHelp) {
                                 HasSubstr("palettes")));
 }
 
+TEST(Arguments, AreNotNeededForHelp) {
+  const TemporaryFolder folder;
+  const ProgramResult result = splotchcl_in(folder, "");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, splotchcl_in(folder, "--help").out);
+  EXPECT_THAT(result.out, HasSubstr("  splotchcl render snapshot_006 -o picture.png"));
+}
+
+TEST(Arguments, AreNotOnlyVerbosity) {
+  const TemporaryFolder folder;
+  expect_wrong_call(splotchcl_in(folder, "--quiet"));
+}
+
 class Commands : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Arguments, Commands,
                          ::testing::Values("render", "info", "fields", "palettes", "compare",
@@ -68,9 +82,8 @@ TEST(Arguments, TellTheVersion) {
                                 HasSubstr("HDF5 1."), HasSubstr("OpenEXR ")));
 }
 
-TEST(Arguments, AreNeeded) {
+TEST(Arguments, OfCommandsAreNeeded) {
   const TemporaryFolder folder;
-  expect_wrong_call(splotchcl_in(folder, ""));
   expect_wrong_call(splotchcl_in(folder, "render"));
   expect_wrong_call(splotchcl_in(folder, "info"));
   expect_wrong_call(splotchcl_in(folder, "compare a.png"));

@@ -152,7 +152,7 @@ double contribution(const Drawn& splat, int x, int y) {
   return splat.amplitude * reference::shape(on_pixels, x, y, kernel);
 }
 
-// docs/accuracy.md: where a splat ends, it adds less than 1/24 of the truncation's share.
+// docs/dev/accuracy.md: where a splat ends, it adds less than 1/24 of the truncation's share.
 // A centre is known to 1e-5 pixels here (orthographic, 150 pixels: 5 roundings of 150), by
 // which contributions err by 2 k / sigma of it: 1.3e-3 for k = 3 and sigma = 0.05.
 TEST_P(Bin, ListsHoldEverySplatThatMattersToAPixel) {

@@ -12,7 +12,7 @@ namespace {
 
 // A sum of emission may lose or gain the tolerance, as a part of itself. Behind absorption
 // the same tolerance allows a part e of every splat with 0.37 e <= tolerance, since depths
-// x show as 1 - exp(-x), whose error is e x exp(-x) (docs/accuracy.md).
+// x show as 1 - exp(-x), whose error is e x exp(-x) (docs/dev/accuracy.md).
 double flux_bound(const Frame& frame, LightPlan plan) {
   return plan == LightPlan::emission ? frame.tolerance : frame.tolerance / 0.367;
 }

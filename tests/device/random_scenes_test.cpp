@@ -14,7 +14,7 @@
 namespace splotchcl::test {
 namespace {
 
-// docs/accuracy.md, what single precision of places does to each pixel, in its brightest
+// docs/dev/accuracy.md, what single precision of places does to each pixel, in its brightest
 // colour: a splat that moves by `known_to` pixels changes a pixel's light by as much as it
 // slopes there, and the pixels on the edge of a cut disc may be in or out. Places are known to
 // 2e-4 pixels in these pictures of up to 70.

@@ -1,4 +1,4 @@
-// What a frame of the same data costs once there was one (docs/performance.md, "Films").
+// What a frame of the same data costs once there was one (docs/dev/performance.md, "Films").
 #include <gtest/gtest.h>
 
 #include <cstdint>

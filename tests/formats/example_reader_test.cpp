@@ -1,4 +1,4 @@
-// The reader of docs/add-a-reader.md.
+// The reader of docs/dev/add-a-reader.md.
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_format.h"
 #include "temporary_folder.h"

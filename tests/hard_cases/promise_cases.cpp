@@ -1,5 +1,5 @@
 // Scenes that the adversary found, or that follow one of its findings: each broke the promise of
-// the tolerance once (docs/contributing.md).
+// the tolerance once (docs/dev/contributing.md).
 #include <string>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // How well places and widths in wide angles are known, in single precision and in extended
-// numbers: the bounds of docs/accuracy.md.
+// numbers: the bounds of docs/dev/accuracy.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -166,7 +166,7 @@ class WideAnglePlaces : public StageTest,
     return parts;
   }
 
-  // The bounds of docs/accuracy.md, "Wide angles".
+  // The bounds of docs/dev/accuracy.md, "Wide angles".
   static Errors known_to(const Frame& frame, const reference::Splat& splat, double direction) {
     const CameraFrame& camera = frame.camera;
     const double f = camera.focal_pixels;

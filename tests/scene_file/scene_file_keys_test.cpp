@@ -85,13 +85,10 @@ TEST(SceneDocumentation, HoldsTheReferenceOfAllKeysAsItIs) {
             scene_file::key_reference());
 }
 
-TEST(SceneDocumentation, ShowsTheExamplesAsTheyAre) {
-  const std::string page = read("docs/scene.md");
-  for (const char* name : {"gas.toml", "gas_and_stars.toml", "light_only.toml"}) {
-    const std::string example = read(std::string("examples/") + name);
-    ASSERT_FALSE(example.empty()) << name;
-    EXPECT_THAT(page, HasSubstr("```toml\n" + example + "```")) << name;
-  }
+TEST(SceneDocumentation, ShowsAnExampleAsItIs) {
+  const std::string example = read("examples/gas_and_stars.toml");
+  ASSERT_FALSE(example.empty());
+  EXPECT_THAT(read("docs/scene.md"), HasSubstr("```toml\n" + example + "```"));
 }
 
 TEST(Examples, AreScenesWithPalettesThatExist) {

@@ -178,7 +178,7 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   const int tile = is_whole ? 0 : std::max(tile_width, tile_height);
   p.beside = static_cast<float>(plan.pyramid.grids.back().guard + 1 + tile);
   // There a splat has fallen to 2e-9 of its peak. In order slabs of fewer splats are thicker ones,
-  // which takes longer than the splats that this leaves out (docs/tuning.md, "Slabs").
+  // which takes longer than the splats that this leaves out (docs/dev/tuning.md, "Slabs").
   constexpr float faded = 4.5f;
   p.sigmas_shown = plan.needs_sort() ? std::numeric_limits<float>::infinity() : faded;
   // Seven sigma reach beyond the truncation of any amplitude that single precision can hold. No

@@ -11,7 +11,7 @@ namespace splotchcl {
 
 // The sigma^2 by which a grid of splats of sigma >= `smallest_sigma` (pixels of the grid)
 // may be blurred, as large as the error allows: sampling what is drawn, and sampling the
-// weights of the blur, adds at most `error` of a splat's peak (docs/accuracy.md).
+// weights of the blur, adds at most `error` of a splat's peak (docs/dev/accuracy.md).
 double largest_blur(double smallest_sigma, double error);
 
 // The smallest sigma for which a blur gains anything within the error.

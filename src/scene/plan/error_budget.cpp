@@ -61,7 +61,7 @@ ToleranceShares share_out(double tolerance, LightPlan light, bool coarse_grids) 
   shares.phi = (ordered ? 0.2 : 0.25) * arithmetic;
   shares.pixel_mean = arithmetic - shares.phi - shares.early_stop;
   if (tolerance < small_blocks_tolerance) {
-    // Bright means take nearly all that ends leave (docs/accuracy.md), and series are exact at
+    // Bright means take nearly all that ends leave (docs/dev/accuracy.md), and series are exact at
     // little cost.
     constexpr double of_phi = 0.2, of_early_stop = 0.4;
     shares.phi *= of_phi;

@@ -17,13 +17,13 @@ constexpr int smallest_coarse_side = 16;
 constexpr int most_levels = 12;
 constexpr std::size_t most_grids = 32;  // bits of used_grids (records.h)
 
-// Stencils do not come closer than that (docs/accuracy.md).
+// Stencils do not come closer than that (docs/dev/accuracy.md).
 constexpr double least_stencil_error = 8e-5;
 
 // Where the scene cuts the kernel, a coarse grid blurs the step at the disc's edge, which
 // is exp(-cut^2) of the peak. Where many such edges cross, their errors have either sign:
 // at optical depth 1 there are 1 / peak splats, and the sum errs by about half the step
-// times sqrt(peak). An estimate, not a bound (docs/accuracy.md).
+// times sqrt(peak). An estimate, not a bound (docs/dev/accuracy.md).
 double brightest_coarse_peak(const KernelSettings& kernel, double error) {
   if (!kernel.cut) return std::numeric_limits<float>::max();
   const double step = std::exp(-*kernel.cut * *kernel.cut);

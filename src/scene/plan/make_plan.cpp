@@ -20,7 +20,7 @@ constexpr int splats_with_copies = 11;
 
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames
-// are drawn again (docs/tuning.md, "The check after drawing").
+// are drawn again (docs/dev/tuning.md, "The check after drawing").
 std::array<double, 6> first_farther(const FramePlan& plan) {
   if (!plan.needs_sort()) return {1.9, 1.4, 0.6, 0.0, 0.0, 0.0};
   // On coarse grids, which have few pixels, as far as in sums (choose_splat_limits).
@@ -62,7 +62,7 @@ void add_needs_of_light(double brightness, FramePlan& plan) {
 }
 
 // The more grids share out a level's widths, the narrower their splats are drawn, and the more
-// there is to blur for each pixel: in slabs once for each of them (docs/tuning.md).
+// there is to blur for each pixel: in slabs once for each of them (docs/dev/tuning.md).
 int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
   constexpr int few = 2;
   const auto pixels =
@@ -74,7 +74,7 @@ int choose_blurs_of_level(const Frame& frame, const FramePlan& plan) {
 // A stencil takes a third of the time of a narrower Gaussian, and a quarter of a splat that is
 // drawn as wide as it is. Four grids of the picture's own pixels take as long to blur as half as
 // many splats take, and as much memory as six pictures, which takes a first frame longer than that
-// (docs/tuning.md).
+// (docs/dev/tuning.md).
 void set_use_of_stencils(const WideSplats& splats, PyramidNeeds& needs) {
   constexpr double fewest_of_own_pixels = 3, fewest = 0.1;
   const bool own_pixels = splats.of_one_octave >= fewest_of_own_pixels;
@@ -157,9 +157,9 @@ void set_limits(const Frame& frame, FramePlan& plan) {
 constexpr double first_part_certified = 0.05;
 
 // Slabs pay in large frames that are not bright: the light that wide splats may change by their
-// order is that of the picture (docs/accuracy.md, "Slabs"). What is guessed wrong here costs time.
-// Laying ten slabs, and drawing in order where they do not suffice, takes as long for a pixel as
-// some thousand wide splats do in order (docs/tuning.md, "Slabs").
+// order is that of the picture (docs/dev/accuracy.md, "Slabs"). What is guessed wrong here costs
+// time. Laying ten slabs, and drawing in order where they do not suffice, takes as long for a pixel
+// as some thousand wide splats do in order (docs/dev/tuning.md, "Slabs").
 int choose_slabs(const Frame& frame, const FramePlan& plan, double wide_layers,
                  const PlanOptions& options) {
   constexpr int first_slabs = 10;

@@ -1,5 +1,5 @@
 // How well the places of splats are known, in pixels, and what follows for sharp ones
-// (docs/accuracy.md, "Single precision").
+// (docs/dev/accuracy.md, "Single precision").
 #include "scene/plan/place_limits.h"
 
 #include <algorithm>
@@ -67,7 +67,8 @@ constexpr double part_in_single = 0.02, part_in_extended = 0.5;
 }  // namespace
 
 PlaceLimits choose_place_limits(const Frame& frame, const FramePlan& plan, double response) {
-  // What one splat may spend by its place; errors were a fifth of their bounds (docs/accuracy.md).
+  // What one splat may spend by its place; errors were a fifth of their bounds
+  // (docs/dev/accuracy.md).
   const double allowed = plan.drawn_for_tolerance / std::max(1.0, response);
   PlaceLimits limits;
   set_single_errors(frame, limits);

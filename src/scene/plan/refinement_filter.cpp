@@ -96,7 +96,7 @@ TapWeights least_squares_weights(double sigma) {
 }
 
 // Six refinements, one after the other, of both axes together: measured at all phases, and rounded
-// up (docs/accuracy.md). Of wider ones the last is the largest.
+// up (docs/dev/accuracy.md). Of wider ones the last is the largest.
 struct ErrorFrom {
   double sigma, error;
 };

@@ -5,7 +5,7 @@
 namespace splotchcl {
 
 // The filter for the narrowest splats whose relative error, over both axes and all further
-// refinements, stays below `error` of a splat's peak (docs/accuracy.md).
+// refinements, stays below `error` of a splat's peak (docs/dev/accuracy.md).
 RefinementFilter choose_refinement(double error);
 
 // The filter that does best by splats from `sigma` on, in old pixels, and the largest relative

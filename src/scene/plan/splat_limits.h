@@ -6,7 +6,7 @@
 namespace splotchcl {
 
 // Even light of splats on a lattice, seen along its axis, loses a row of them beyond each side
-// of their squares: up to this times exp(-k^2) of itself (docs/accuracy.md).
+// of their squares: up to this times exp(-k^2) of itself (docs/dev/accuracy.md).
 constexpr double lattice_rows = 2;
 
 // By how much of its peak the widened center value of a splat errs at most, from sigma 2 on.

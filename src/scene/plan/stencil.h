@@ -6,7 +6,7 @@ namespace splotchcl {
 
 // Splats of a grid that is blurred need not be Gaussians: whatever weights of a few pixels become
 // one when they are blurred serve as well, and the fewest pixels take weights that no formula of a
-// narrower Gaussian has (docs/accuracy.md, "Stencils"). So all splats of a grid, whose widths
+// narrower Gaussian has (docs/dev/accuracy.md, "Stencils"). So all splats of a grid, whose widths
 // differ by little, take the same number of pixels.
 
 // Of a grid that is blurred by `blur_weights` (blur_filter.h), for splats of sigma from `smallest`

@@ -1,4 +1,4 @@
-// The weights by which grids are refined err by no more than docs/accuracy.md and the budget of
+// The weights by which grids are refined err by no more than docs/dev/accuracy.md and the budget of
 // coarse grids say.
 #include "scene/plan/refinement_filter.h"
 

@@ -1,5 +1,5 @@
-// Stencils become Gaussians when their grid is blurred, with no more error than docs/accuracy.md
-// states.
+// Stencils become Gaussians when their grid is blurred, with no more error than
+// docs/dev/accuracy.md states.
 #include "scene/plan/stencil.h"
 
 #include <gtest/gtest.h>
