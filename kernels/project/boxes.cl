@@ -27,10 +27,10 @@ static inline float least_of(VALUE values) {
 __kernel void find_boxes(const ProjectParameters p, __global const float* positions,
                          __global const float* smoothing_lengths, __global const float* weights,
                          __global const float* colors, __global const float* intensities,
-                         __global const float* sort_fields OWN_COLORS_PARAMETER,
+                         __global const float* sort_fields, __global const float* own_colors,
                          __global BlockBox* boxes) {
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields OWN_COLORS_ARGUMENT);
+                                     sort_fields, own_colors);
   const uint block = get_global_id(0);
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);

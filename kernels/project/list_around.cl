@@ -43,9 +43,9 @@ KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of
 __kernel void list_around(const ProjectParameters p, __global const float* positions,
                           __global const float* smoothing_lengths, __global const float* weights,
                           __global const float* colors, __global const float* intensities,
-                          __global const float* sort_fields, __global const uint* blocks,
-                          __global uint* listed, const uint capacity OWN_COLORS_PARAMETER) {
+                          __global const float* sort_fields, __global const float* own_colors,
+                          __global const uint* blocks, __global uint* listed, const uint capacity) {
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields OWN_COLORS_ARGUMENT);
+                                     sort_fields, own_colors);
   list_block(&p, &columns, blocks[get_global_id(0)], listed, capacity);
 }

@@ -68,28 +68,16 @@ INLINED Vectors load_colors(__global const float* colors, uint i, uint end, int 
 }
 #endif
 
-// The columns of one component. The particles' own colors are a parameter only where a
-// component has some.
+// The columns of one component.
 typedef struct Columns {
   __global const float *positions, *smoothing_lengths, *weights, *colors, *intensities,
-      *sort_fields;
-#ifdef VECTOR_COLORS
-  __global const float* own_colors;
-#endif
+      *sort_fields, *own_colors;
 } Columns;
-
-#ifdef VECTOR_COLORS
-#define OWN_COLORS_PARAMETER , __global const float* own_colors
-#define OWN_COLORS_ARGUMENT , own_colors
-#else
-#define OWN_COLORS_PARAMETER
-#define OWN_COLORS_ARGUMENT
-#endif
 
 INLINED Columns columns_of(__global const float* positions, __global const float* smoothing_lengths,
                            __global const float* weights, __global const float* colors,
-                           __global const float* intensities,
-                           __global const float* sort_fields OWN_COLORS_PARAMETER) {
+                           __global const float* intensities, __global const float* sort_fields,
+                           __global const float* own_colors) {
   Columns columns;
   columns.positions = positions;
   columns.smoothing_lengths = smoothing_lengths;
@@ -97,9 +85,7 @@ INLINED Columns columns_of(__global const float* positions, __global const float
   columns.colors = colors;
   columns.intensities = intensities;
   columns.sort_fields = sort_fields;
-#ifdef VECTOR_COLORS
   columns.own_colors = own_colors;
-#endif
   return columns;
 }
 

@@ -25,15 +25,6 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#define PROJECT_PARAMETERS                                                                    \
-  __global const float *positions, __global const float *smoothing_lengths,                   \
-      __global const float *weights, __global const float *colors,                            \
-      __global const float *intensities, __global const float *sort_fields,                   \
-      __global const uint *offsets, __global BlockCounts *counts, __global Splat *splats,     \
-      __global uint *keys, __global ushort *key_ends, __global const WidthNeeds *width_needs, \
-      __global const uint *left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS   \
-          TILE_PARAMETERS
-
 #define SPLATS_WRITTEN_AHEAD 64
 
 static inline uint blocks_of(const ProjectParameters p) {
@@ -161,13 +152,16 @@ INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
 
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
-__attribute__((noinline)) static void project_block(uint block, const ProjectParameters* of_frame,
-                                                    const ExtendedParameters* extended_of_frame,
-                                                    INTEGER lane, PROJECT_PARAMETERS) {
+__attribute__((noinline)) static void project_block(
+    uint block, const ProjectParameters* of_frame, const ExtendedParameters* extended_of_frame,
+    INTEGER lane, const Columns* of_component, __global const uint* offsets,
+    __global const WidthNeeds* width_needs, __global const uint* left_out,
+    __global const ComponentColors* component_colors, __global const float* knots,
+    __global const Grid* grids, const ProjectTargets* targets) {
   const ProjectParameters p = *of_frame;
   const ExtendedParameters e = *extended_of_frame;
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields OWN_COLORS_ARGUMENT);
+  const Columns columns = *of_component;
+  const ProjectTargets to = *targets;
   const uint begin = p.first_particle + block * p.block_particles;
   const uint end = min(begin + p.block_particles, p.end_particle);
   const uint first_slot = p.first_slot + offsets[p.first_block + block];
@@ -177,7 +171,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
   KeyBins bins = no_bins();
 #endif
 #ifdef COUNT_TILES
-  __global uint* count = tile_counts + (size_t)block * p.tile_count;
+  __global uint* count = to.tile_counts + (size_t)block * p.tile_count;
   for (uint t = 0; t < p.tile_count; ++t)
     count[t] = 0;
   WaitingCounts waiting = no_waiting_counts();
@@ -189,7 +183,7 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
     if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
 #ifdef COUNTS_ALL_LANES
     if (found.has_known_tiles) {
-      slot = list_all_lanes(&found, slot, splats, grids, count);
+      slot = list_all_lanes(&found, slot, to.splats, grids, count);
       continue;
     }
 #endif
@@ -232,26 +226,26 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 #else
         const Splat listed = splat;
 #endif
-        __global Splat* kept = splats + slot;
+        __global Splat* kept = to.splats + slot;
         ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
         STORE_SPLAT(found, k, listed, kept);
 #ifdef EXTENDED_NUMBERS
 #ifdef COPIES
-        extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+        to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
 #else
-        extended_splats[slot] = extended;
+        to.extended_splats[slot] = extended;
 #endif
 #endif
 #endif
 #ifdef OUTPUT_KEYS
-        keys[slot] = (uint)(key >> 16);
-        if (!p.sort_by_field) key_ends[slot] = (ushort)key;
+        to.keys[slot] = (uint)(key >> 16);
+        if (!p.sort_by_field) to.key_ends[slot] = (ushort)key;
 #endif
 #ifdef COUNT_KEYS
-        count_key(bin_of(key, p), key_counts, &bins);
+        count_key(bin_of(key, p), to.key_counts, &bins);
 #endif
 #ifdef COUNT_TILES
-        list_splat(listed, kept, grids + grid_of(listed), is_visible, count, tiles + slot,
+        list_splat(listed, kept, grids + grid_of(listed), is_visible, count, to.tiles + slot,
                    &waiting);
 #endif
         slot += is_visible;
@@ -264,9 +258,9 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
   count_waiting(&waiting, count);
 #endif
   of_block.visible = slot - first_slot;
-  counts[p.first_block + block] = of_block;
+  to.counts[p.first_block + block] = of_block;
 #ifdef COUNT_KEYS
-  key_bins[block] = bins;
+  to.key_bins[block] = bins;
 #endif
 }
 
@@ -278,10 +272,24 @@ __attribute__((noinline)) static void project_block(uint block, const ProjectPar
 // COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
 // a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
 // more, else 0.
-__kernel void project(const ProjectParameters p, const ExtendedParameters e, PROJECT_PARAMETERS) {
+__kernel void project(const ProjectParameters p, const ExtendedParameters e,
+                      __global const float* positions, __global const float* smoothing_lengths,
+                      __global const float* weights, __global const float* colors,
+                      __global const float* intensities, __global const float* sort_fields,
+                      __global const float* own_colors, __global const uint* offsets,
+                      __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
+                      __global ushort* key_ends, __global uint* order,
+                      __global const WidthNeeds* width_needs, __global const uint* left_out,
+                      __global const ComponentColors* component_colors, __global const float* knots,
+                      __global ExtendedSplat* extended_splats, __global uint* key_counts,
+                      __global KeyBins* key_bins, __global const Grid* grids,
+                      __global uint* tile_counts, __global uint* tiles) {
   const uint block = piece_of_item(blocks_of(p));
   if (block == NO_PIECE) return;
-  project_block(block, &p, &e, NUMBERS_OF_LANES, positions, smoothing_lengths, weights, colors,
-                intensities, sort_fields, offsets, counts, splats, keys, key_ends, width_needs,
-                left_out OWN_COLORS_ARGUMENT EXTENDED_ARGUMENTS KEY_ARGUMENTS TILE_ARGUMENTS);
+  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
+                                     sort_fields, own_colors);
+  const ProjectTargets targets = {counts,          splats,     keys,     key_ends,    order,
+                                  extended_splats, key_counts, key_bins, tile_counts, tiles};
+  project_block(block, &p, &e, NUMBERS_OF_LANES, &columns, offsets, width_needs, left_out,
+                component_colors, knots, grids, &targets);
 }

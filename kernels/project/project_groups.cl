@@ -50,10 +50,13 @@ __kernel OF_GROUPS void project(
     const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
     __global const float* colors, __global const float* intensities,
-    __global const float* sort_fields, __global uint* offsets, __global BlockCounts* counts,
-    __global Splat* splats, __global uint* keys, __global ushort* key_ends, __global uint* order,
-    __global const WidthNeeds* width_needs,
-    __global const uint* left_out OWN_COLORS_PARAMETER EXTENDED_PARAMETERS KEY_PARAMETERS) {
+    __global const float* sort_fields, __global const float* own_colors, __global uint* offsets,
+    __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
+    __global ushort* key_ends, __global uint* order, __global const WidthNeeds* width_needs,
+    __global const uint* left_out, __global const ComponentColors* component_colors,
+    __global const float* knots, __global ExtendedSplat* extended_splats, __global uint* key_counts,
+    __global KeyBins* key_bins, __global const Grid* grids, __global uint* tile_counts,
+    __global uint* tiles) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
@@ -70,7 +73,7 @@ __kernel OF_GROUPS void project(
     of_group.bad = bad_and_one > 0 ? bad_and_one - 1 : 0;
   }
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields OWN_COLORS_ARGUMENT);
+                                     sort_fields, own_colors);
   const uint i = p.first_particle + get_global_id(0);
   SplatLanes lanes = no_splat();
   if (i < p.end_particle && bad_and_one == 0)

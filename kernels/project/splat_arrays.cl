@@ -1,4 +1,4 @@
-// LANES splats, to be written one by one, and what kernels that write them take.
+// LANES splats, to be written one by one, and where they are written to.
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
@@ -205,32 +205,16 @@ static inline uint count_true(INTEGER mask) {
   return count;
 }
 
-// What extended precision needs beyond the columns (project_extended.cl).
-#ifdef EXTENDED_NUMBERS
-#define EXTENDED_PARAMETERS                                                        \
-  , __global const ComponentColors *component_colors, __global const float *knots, \
-      __global ExtendedSplat *extended_splats
-#define EXTENDED_ARGUMENTS , component_colors, knots, extended_splats
-#else
-#define EXTENDED_PARAMETERS
-#define EXTENDED_ARGUMENTS
-#endif
-
-// Where sort keys are counted (sort_keys.cl).
-#ifdef COUNT_KEYS
-#define KEY_PARAMETERS , __global uint *key_counts, __global KeyBins *key_bins
-#define KEY_ARGUMENTS , key_counts, key_bins
-#else
-#define KEY_PARAMETERS
-#define KEY_ARGUMENTS
-#endif
-
-// Where splats are binned as they come.
-#ifdef COUNT_TILES
-#define TILE_PARAMETERS \
-  , __global const Grid *grids, __global uint *tile_counts, __global uint *tiles
-#define TILE_ARGUMENTS , grids, tile_counts, tiles
-#else
-#define TILE_PARAMETERS
-#define TILE_ARGUMENTS
-#endif
+// Where a program writes: to one word each what it does not write.
+typedef struct ProjectTargets {
+  __global BlockCounts* counts;
+  __global Splat* splats;
+  __global uint* keys;        // the upper 32 bits of sort keys
+  __global ushort* key_ends;  // the 16 bits below, of depths
+  __global uint* order;       // in the shape for GPUs
+  __global ExtendedSplat* extended_splats;
+  __global uint* key_counts;   // of each bin (sort_keys.cl)
+  __global KeyBins* key_bins;  // of each block
+  __global uint* tile_counts;  // of each block: how many of its splats touch a tile
+  __global uint* tiles;        // of each splat, where it does not hold them
+} ProjectTargets;

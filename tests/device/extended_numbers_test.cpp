@@ -40,7 +40,7 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
     std::string defines = "#define FUNCTION " + function + "\n#define COPIES\n#define WIDE_ANGLE\n";
     if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
     const Program program =
-        device().programs.get({defines, "kernels/project/wide_angle_extended.cl",
+        device().programs.get({"kernels/project/wide_angle_extended.cl", defines, "",
                                std::string("#include \"kernels/extended/precise.cl\"\n") + kernel});
     const auto results = device().pool.get<float>(2 * x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))

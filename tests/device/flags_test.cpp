@@ -15,7 +15,7 @@ constexpr std::size_t flags_of_word = 32, words_of_group = 8;
 class FlagsTest : public StageTest {
  protected:
   static ProgramSource source(const std::string& kernel) {
-    return {"", "kernels/common/flags.cl", kernel};
+    return {"kernels/common/flags.cl", "", "", kernel};
   }
 };
 

@@ -30,9 +30,9 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
   std::vector<float> evaluate(const std::string& function, const std::string& defines,
                               const std::vector<float>& x) {
     const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
-    const Program program =
-        device().programs.get({"#define FUNCTION " + function + "\n" + lanes + defines,
-                               "kernels/composite/shape.cl", shape_kernel});
+    const Program program = device().programs.get(
+        {"kernels/composite/shape.cl", "#define FUNCTION " + function + "\n" + lanes + defines, "",
+         shape_kernel});
     const auto results = device().pool.get<float>(x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))
@@ -182,8 +182,8 @@ class DoubleLanes : public StageTest {
   double largest_part(const std::string& function, const std::vector<float>& x,
                       const std::function<double(double)>& exact) {
     const Program program = device().programs.get(
-        {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n",
-         "kernels/extended/double_lanes.cl",
+        {"kernels/extended/double_lanes.cl",
+         "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n", "",
          R"(
 __kernel void evaluate(__global const float* x, __global double* results) {
   const uint i = get_global_id(0);
@@ -218,8 +218,8 @@ class WideMeans : public StageTest {
  protected:
   std::vector<double> means(float first, float sigma, std::size_t pixels) {
     const Program program = device().programs.get(
-        {"#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define TILE_WIDTH 64\n",
-         "kernels/composite/extended_means.cl",
+        {"kernels/composite/extended_means.cl",
+         "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define TILE_WIDTH 64\n", "",
          R"(
 __kernel void evaluate(float first, float sigma, int pixels, __global double* results) {
   double values[TILE_WIDTH];

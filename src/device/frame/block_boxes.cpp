@@ -37,7 +37,6 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
       device.programs.get(program_source("kernels/project/boxes.cl", choices));
   Launch launch(device, "boxes", find_boxes.create_kernel("find_boxes"));
   pass_columns(launch.value(p), buffers);
-  if (has_own_colors) launch.arg(buffers.own_color);
   launch.arg(boxes).run_items(count);
   return device.pool.download(boxes, count);
 }

@@ -17,7 +17,8 @@ Launch& pass_columns(Launch& launch, const ParticleBuffers& particles) {
       .arg(particles.weight)
       .arg(particles.color)
       .arg(particles.intensity)
-      .arg(particles.sort_field);
+      .arg(particles.sort_field)
+      .arg(particles.own_color);
 }
 
 }  // namespace splotchcl

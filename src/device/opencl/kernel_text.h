@@ -11,7 +11,7 @@ namespace splotchcl {
 // Throws DeviceError for a file that is not part of this build.
 std::string flattened(const std::string& source);
 
-// The lines "#define NAME ..." whose names the text mentions, if only in a comment.
+// Those lines of #defines whose names the text mentions, if only in a comment.
 std::string mentioned(const std::string& defines, const std::string& text);
 
 }  // namespace splotchcl

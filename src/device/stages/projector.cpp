@@ -123,17 +123,21 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
       .arg(targets.counts)
       .arg(targets.splats.splats)
       .arg(targets.keys)
-      .arg(targets.key_ends);
-  if (scan_) launch.arg(targets.order);
-  launch.arg(width_needs_).arg(left_out_buffer);
-  if (context_.variant.vector_colors) launch.arg(particles.own_color);
-  if (context_.variant.extended) {
-    launch.arg(context_.colors.components).arg(context_.colors.knots).arg(targets.splats.extended);
-  }
-  if (targets.key_counts) launch.arg(targets.key_counts->counts).arg(targets.key_counts->bins);
-  if (targets.blocks) {
-    launch.arg(context_.grids).arg(targets.blocks->tile_counts).arg(targets.blocks->tiles);
-  }
+      .arg(targets.key_ends)
+      .arg(targets.order)
+      .arg(width_needs_)
+      .arg(left_out_buffer)
+      .arg(context_.colors.components)
+      .arg(context_.colors.knots)
+      .arg(targets.splats.extended)
+      .arg(targets.key_counts ? targets.key_counts->counts : unused_);
+  if (targets.key_counts)
+    launch.arg(targets.key_counts->bins);
+  else
+    launch.arg(unused_);
+  launch.arg(context_.grids)
+      .arg(targets.blocks ? targets.blocks->tile_counts : unused_)
+      .arg(targets.blocks ? targets.blocks->tiles : unused_);
   if (scan_) {
     launch.run_groups(block_count(parameters), GROUP_ITEMS);
   } else {

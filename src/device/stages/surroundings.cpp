@@ -100,7 +100,6 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
       .arg(looked_through)
       .arg(listed)
       .value(static_cast<cl_uint>(capacity));
-  if (context_.variant.vector_colors) launch.arg(particles.own_color);
   launch.run_items(blocks.blocks.size());
   const std::uint32_t count = device.pool.download(listed, 1).front();
   if (count > capacity) refuse(device, most, count);
