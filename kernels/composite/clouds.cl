@@ -7,11 +7,18 @@
 #include "kernels/composite/gaussian.cl"
 #include "kernels/composite/shape.cl"
 
-#ifdef CLOUDS_IN_LISTS
-#define CLOUDS_PARAMETERS                                                       \
-  , __global const CloudEntry *clouds, __global const CloudSplat *cloud_splats, \
-      __global const float *directions, __global const DirectionCone *cones
-#define CLOUDS_ARGUMENTS , clouds, cloud_splats, directions, cones
+// Hardly any frame has some.
+#ifndef CLOUDS_IN_LISTS
+#define CLOUDS_IN_LISTS 0
+#endif
+
+// Of all tiles.
+typedef struct CloudTables {
+  __global const CloudEntry* entries;
+  __global const CloudSplat* splats;
+  __global const float* directions;
+  __global const DirectionCone* cones;
+} CloudTables;
 
 #ifdef LANES_8
 #define PIXEL_RAMP (float8)(0, 1, 2, 3, 4, 5, 6, 7)
@@ -125,25 +132,18 @@ INLINED VALUE column_of_cloud(__global const CloudEntry* cloud, const TileClouds
   return column;
 }
 
-INLINED TileClouds clouds_of_tile(__global const CloudEntry* clouds,
-                                  __global const CloudSplat* splats,
-                                  __global const float* directions,
-                                  __global const DirectionCone* cones, const Grid grid, uint tile) {
+INLINED TileClouds clouds_of_tile(const CloudTables clouds, const Grid grid, uint tile) {
   const uint in_grid = tile - grid.first_tile;
   const int left = (int)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   const int top = (int)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT;
   TileClouds of;
-  of.entries = clouds;
-  of.splats = splats;
-  of.directions = directions + (size_t)top * grid.stride + left;
+  of.entries = clouds.entries;
+  of.splats = clouds.splats;
+  of.directions = clouds.directions + (size_t)top * grid.stride + left;
   of.plane = grid.plane_size;
   of.stride = grid.stride;
-  of.cone = cones[in_grid];
+  of.cone = clouds.cones[in_grid];
   of.x = (float)(grid.first_x + left - grid.middle_x) + 0.5f;
   of.y = (float)(grid.first_y + top - grid.middle_y) + 0.5f;
   return of;
 }
-#else
-#define CLOUDS_PARAMETERS
-#define CLOUDS_ARGUMENTS
-#endif

@@ -216,7 +216,9 @@ static inline ExtendedLanes column_on_face(const __local ExtendedSplat* splat, f
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes, __global float* partials,
-    __global const ExtendedSplat* splats) {
+    __global const ExtendedSplat* extended_splats, __global const CloudEntry* clouds,
+    __global const CloudSplat* cloud_splats, __global const float* directions,
+    __global const DirectionCone* cones, __global const Stencil* stencils) {
   __local Batch batch;
   const uint item = get_local_id(0);
   const Segment segment = segments[p.first_segment + get_group_id(0)];
@@ -229,7 +231,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   Pixels pixels = segment.partial == NO_PARTIAL ? load_pixels(own, grid.plane_size) : no_pixels();
   for (uint first = segment.begin; first < segment.end; first += BATCH) {
     const uint count = min((uint)BATCH, segment.end - first);
-    if (item < count) batch.splats[item] = splats[entries[first + item].slot];
+    if (item < count) batch.splats[item] = extended_splats[entries[first + item].slot];
     barrier(CLK_LOCAL_MEM_FENCE);
 #ifndef FACE_OF_CUBE
     for (uint place = item; place < count * AXES; place += GROUP) {

@@ -171,9 +171,12 @@ KERNEL_BODY void composite_segment(const Segment segment, const CompositeParamet
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
                         __global float* planes, __global float* partials,
-                        __global const ExtendedSplat* splats) {
+                        __global const ExtendedSplat* extended_splats,
+                        __global const CloudEntry* clouds, __global const CloudSplat* cloud_splats,
+                        __global const float* directions, __global const DirectionCone* cones,
+                        __global const Stencil* stencils) {
   const uint piece = piece_of_item(p.end_segment - p.first_segment);
   if (piece == NO_PIECE) return;
   composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes, partials,
-                    splats);
+                    extended_splats);
 }

@@ -15,6 +15,7 @@
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/tile_batch.cl"
+#include "kernels/extended/extended_splat.h"
 
 #ifdef FACE_OF_CUBE
 #define TILE_PARAMETER , const TileOnFace* on_face
@@ -121,8 +122,8 @@ INLINED float shape_at(const __local Batch* batch, const __local Listed* listed,
 
 // The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
 INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed* listed, uint bits,
-                  uint x, uint y,
-                  const CompositeParameters p TILE_PARAMETER TILE_CLOUDS_PARAMETER) {
+                  uint x, uint y, const CompositeParameters p TILE_PARAMETER,
+                  const TileClouds* clouds) {
 #ifdef LIGHT_ORDERED
 #ifdef KEEP_TRANSMITTANCE
   const int all_thin = 0;
@@ -131,14 +132,10 @@ INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed
 #endif
   while (!all_thin && bits != 0) {
     const uint k = take_first(&bits);
-#ifdef CLOUDS_IN_LISTS
     const float sigma = listed->splats[k].sigma;
-    const float shape = is_cloud(sigma)
+    const float shape = CLOUDS_IN_LISTS && is_cloud(sigma)
                             ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
                             : shape_at(batch, listed, k, x, y TILE_PASSED);
-#else
-    const float shape = shape_at(batch, listed, k, x, y TILE_PASSED);
-#endif
     if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
   }
 #endif
@@ -171,8 +168,10 @@ static inline int shows_behind(const float* front, float stop) {
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-    __global const TileSplat* entries, __global float* planes,
-    __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
+    __global const TileSplat* entries, __global float* planes, __global float* partials,
+    __global const ExtendedSplat* extended_splats, __global const CloudEntry* clouds,
+    __global const CloudSplat* cloud_splats, __global const float* directions,
+    __global const DirectionCone* cones, __global const Stencil* stencils) {
   __local Listed listed[2];
   __local Batch batch;
   __local uint shows;  // whether anything behind shows in any pixel
@@ -181,19 +180,16 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const Segment segment = segments[p.first_segment + get_group_id(0)];
   const uint grid_number = grid_of_tile(grids, p.grid_count, segment.tile);
   const Grid grid = grids[grid_number];
-#ifdef STENCILS
-  __global const Stencil* const stencil = stencil_of_grid(stencils, grid_number);
-#endif
+  __global const Stencil* const stencil = STENCILS ? stencil_of_grid(stencils, grid_number) : 0;
   const uint in_grid = segment.tile - grid.first_tile;
   const uint x = part % PARTS_ACROSS * PART_WIDTH + item % PART_WIDTH;
   const uint y = part / PARTS_ACROSS * PART_HEIGHT + item % PART_ITEMS / PART_WIDTH;
   __global float* own = planes + first_float(grid) +
                         ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + y) * grid.stride +
                         (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH + x;
-#ifdef CLOUDS_IN_LISTS
-  const TileClouds of_tile =
-      clouds_of_tile(clouds, cloud_splats, directions, cones, grid, segment.tile);
-#endif
+  const CloudTables tables = {clouds, cloud_splats, directions, cones};
+  TileClouds of_tile;
+  if (CLOUDS_IN_LISTS) of_tile = clouds_of_tile(tables, grid, segment.tile);
 #ifdef FACE_OF_CUBE
   const TileOnFace on_face = tile_on_face(p.face, grid, segment.tile);
 #endif
@@ -215,8 +211,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     turn ^= 1u;
     fetch(own_listed, entries, first, count, grid.mean_sigma);
     barrier(CLK_LOCAL_MEM_FENCE);
-    prepare(&batch, own_listed, count, grid.mean_sigma,
-            p TILE_CLOUDS_ARGUMENT TILE_STENCIL_ARGUMENT);
+    prepare(&batch, own_listed, count, grid.mean_sigma, p, &of_tile, stencil);
     if (item == 0) shows = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = bits_of_flags(&batch.touching);
@@ -224,12 +219,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
     // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
     const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    draw(pixel, &batch, own_listed, drawn & ~of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
+    draw(pixel, &batch, own_listed, drawn & ~of_next, x, y, p TILE_ARGUMENT, &of_tile);
     in_block += popcount(touching);
     if (ends_block) {
       add_block(pixel, front);
       if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
-      draw(pixel, &batch, own_listed, drawn & of_next, x, y, p TILE_ARGUMENT TILE_CLOUDS_ARGUMENT);
+      draw(pixel, &batch, own_listed, drawn & of_next, x, y, p TILE_ARGUMENT, &of_tile);
       in_block -= SPLATS_OF_BLOCK;
       barrier(CLK_LOCAL_MEM_FENCE);
       if (!shows) end = first;

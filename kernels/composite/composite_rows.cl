@@ -16,29 +16,34 @@
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/summed_list.cl"
 #include "kernels/composite/tile_planes.cl"
+#include "kernels/extended/extended_splat.h"
 
 // A call: of a kernel itself PoCL makes three copies. Its last argument tells the compiler that it
 // may use registers of sixteen floats (lanes.cl).
 __attribute__((noinline)) static void composite_segment(
     const Segment segment, const CompositeParameters* p, __global const Grid* grids,
-    __global const TileSplat* entries, __global float* planes,
-    __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS, PATCH lanes) {
+    __global const TileSplat* entries, __global float* planes, __global float* partials,
+    const CloudTables* clouds, __global const Stencil* stencils, PATCH lanes) {
   const CompositeParameters parameters = *p;
   const uint number = grid_of_tile(grids, parameters.grid_count, segment.tile);
   const TileInPlanes place = tile_in_planes(planes, grids[number], segment.tile);
   float memory_of_tile[BEFORE_TILE + PLANES * TILE_PIXELS] __attribute__((aligned(64)));
   float* const tile = memory_of_tile + BEFORE_TILE;
   clear_planes(tile);
-  draw_list(tile, segment, &place, grids + number, number, entries, partials,
-            &parameters CLOUDS_ARGUMENTS STENCIL_ARGUMENTS, lanes);
+  draw_list(tile, segment, &place, grids + number, number, entries, partials, &parameters, clouds,
+            stencils, lanes);
 }
 
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes,
-                        __global float* partials CLOUDS_PARAMETERS STENCIL_PARAMETERS) {
+                        __global float* planes, __global float* partials,
+                        __global const ExtendedSplat* extended_splats,
+                        __global const CloudEntry* clouds, __global const CloudSplat* cloud_splats,
+                        __global const float* directions, __global const DirectionCone* cones,
+                        __global const Stencil* stencils) {
   const uint piece = piece_of_item(p.end_segment - p.first_segment);
   if (piece == NO_PIECE) return;
-  composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes,
-                    partials CLOUDS_ARGUMENTS STENCIL_ARGUMENTS, PATCH_LANES);
+  const CloudTables tables = {clouds, cloud_splats, directions, cones};
+  composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes, partials,
+                    &tables, stencils, PATCH_LANES);
 }

@@ -66,7 +66,6 @@ static inline void add_block_to_planes(const float* block, const TileInPlanes* p
   }
 }
 
-#ifdef CLOUDS_IN_LISTS
 #define CLOUD_ROWS(CHANNELS)                                     \
   for (int y = 0; y < TILE_HEIGHT; ++y) {                        \
     for (int x = 0; x < TILE_WIDTH; x += 8) {                    \
@@ -96,7 +95,6 @@ __attribute__((noinline)) static int add_cloud(float* tile, __global const Cloud
   }
   return 1;
 }
-#endif
 
 // Nothing behind shows any more: every channel of every pixel of the block behind the front is
 // opaque enough. The front is what is in the planes where it is null. The first row that is not
@@ -128,9 +126,7 @@ typedef struct BlockOfLayers {
   const SplatTile* of_tile;
   float* depth;  // the most that the depths of its splats come to
   float mean_sigma;
-#ifdef CLOUDS_IN_LISTS
   const TileClouds* clouds;
-#endif
 } BlockOfLayers;
 
 // What eight entries of the list are drawn by.
@@ -153,13 +149,11 @@ INLINED void find_layers(__global const TileSplat* entries, float mean_sigma, La
 // crop other ones.
 INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entry,
                        const LayerBatch* batch, int in_batch, const CompositeParameters* p) {
-#ifdef CLOUDS_IN_LISTS
-  const float sigma = entry->sigma;
-  if (is_cloud(sigma)) {
+  if (CLOUDS_IN_LISTS && is_cloud(entry->sigma)) {
     add_waiting(block.tile, block.waiting);
-    return add_cloud(block.tile, cloud_of(sigma, block.clouds), block.clouds, block.depth, p);
+    return add_cloud(block.tile, cloud_of(entry->sigma, block.clouds), block.clouds, block.depth,
+                     p);
   }
-#endif
   const int2 rows = rows_of_entry(&batch->windows, in_batch);
   const int2 columns = columns_of_entry(&batch->windows, in_batch);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
@@ -181,8 +175,8 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
 INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* place,
                        __global const Grid* grid, uint grid_number,
                        __global const TileSplat* entries, __global float* partials,
-                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS,
-                       PATCH lanes) {
+                       const CompositeParameters* p, const CloudTables* clouds,
+                       __global const Stencil* stencils, PATCH lanes) {
   const SplatTile of_tile = splat_tile(*grid, segment.tile, p);
   // Most lists of a large frame's many chunks: they need no front of their own.
   const int is_one_block =
@@ -200,11 +194,9 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
   block.of_tile = &of_tile;
   block.depth = &depth;
   block.mean_sigma = grid->mean_sigma;
-#ifdef CLOUDS_IN_LISTS
-  const TileClouds clouds_here =
-      clouds_of_tile(clouds, cloud_splats, directions, cones, *grid, segment.tile);
+  TileClouds clouds_here;
+  if (CLOUDS_IN_LISTS) clouds_here = clouds_of_tile(*clouds, *grid, segment.tile);
   block.clouds = &clouds_here;
-#endif
   RowsAhead rows = rows_ahead(segment, place);
   LayerBatch batch;
   const uint end = is_opaque(own_front, place, tile, p->stop) ? segment.begin : segment.end;

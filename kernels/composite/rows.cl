@@ -14,7 +14,7 @@
 // Planes at distances of 4096 bytes would share lines of the cache. Behind the last row there is
 // room for one that begins in it, and before the first plane for stencils that begin beside it.
 #define TILE_PIXELS (TILE_HEIGHT * ROW + 16)
-#ifdef STENCILS
+#if STENCILS
 #define BEFORE_TILE 16
 #else
 #define BEFORE_TILE 0

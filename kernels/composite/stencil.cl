@@ -4,9 +4,9 @@
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 
-#ifdef STENCILS
-#define STENCIL_PARAMETERS , __global const Stencil* stencils
-#define STENCIL_ARGUMENTS , stencils
+#ifndef STENCILS
+#define STENCILS 0
+#endif
 
 // Those of a grid's blur; null for the picture's own grid.
 INLINED __global const Stencil* stencil_of_grid(__global const Stencil* stencils, uint grid) {
@@ -64,7 +64,3 @@ INLINED VALUE stencil_polynomials(const StencilOfWidth of_width, float square) {
     sum = sum * square + of_width.of_power[i];
   return sum;
 }
-#else
-#define STENCIL_PARAMETERS
-#define STENCIL_ARGUMENTS
-#endif

@@ -7,7 +7,7 @@
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/stencil.cl"
 
-#ifdef STENCILS
+#if STENCILS
 
 // What eight of a list's stencils are drawn by, worked out for all of them at once: a processor
 // draws one while it fetches the next.

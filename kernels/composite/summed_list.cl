@@ -32,7 +32,7 @@ typedef struct SummedList {
   WaitingSplats waiting;
   EntryGroup group;
   GroupKinds kinds;
-#ifdef STENCILS
+#if STENCILS
   __global const Stencil* stencil;
   StencilBatch stencils;
 #endif
@@ -101,7 +101,7 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
   clear_kinds(&list->kinds);
 }
 
-#ifdef STENCILS
+#if STENCILS
 INLINED void draw_stencil(SummedList* list, uint first, int i) {
   make_room_in_block(list, 1u);
   add_stencil(list->tile, &list->stencils, i, list->entries + first + i, list->stencil);
@@ -123,7 +123,7 @@ INLINED uint find_some_stencils(SummedList* list, const EntryLanes lanes, uint c
 INLINED void put_one_by_one(SummedList* list, uint first, uint found, uint stencils, uint at,
                             PATCH lanes) {
   for (uint i = 0; i < LANES; ++i) {
-#ifdef STENCILS
+#if STENCILS
     if (stencils >> i & 1u) {
       draw_stencil(list, first, (int)i);
       continue;
@@ -141,7 +141,7 @@ INLINED void put_one_by_one(SummedList* list, uint first, uint found, uint stenc
 INLINED void put_entries(SummedList* list, uint first, uint count, PATCH lanes) {
   const EntryLanes entries = load_entries(list->entries + first);
   uint stencils = 0;
-#ifdef STENCILS
+#if STENCILS
   stencils = find_some_stencils(list, entries, count);
   if (stencils == 0xffu) {
     // As most are on blurred grids.
@@ -165,8 +165,8 @@ INLINED void put_entries(SummedList* list, uint first, uint count, PATCH lanes) 
 INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* place,
                        __global const Grid* grid, uint grid_number,
                        __global const TileSplat* entries, __global float* partials,
-                       const CompositeParameters* p CLOUDS_PARAMETERS STENCIL_PARAMETERS,
-                       PATCH lanes) {
+                       const CompositeParameters* p, const CloudTables* clouds,
+                       __global const Stencil* stencils, PATCH lanes) {
   SummedList list;
   list.tile = tile;
   list.entries = entries;
@@ -178,7 +178,7 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
   list.front = front;
   list.drawn = 0;
 #endif
-#ifdef STENCILS
+#if STENCILS
   list.stencil = stencil_of_grid(stencils, grid_number);
   clear_stencils(&list.stencils);
 #endif

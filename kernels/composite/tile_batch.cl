@@ -77,10 +77,6 @@ static inline float axis_shape(float d, float sigma, float factor, float mean_si
 // splat's radius.
 #define NOT_DRAWN 1e30f
 
-#ifdef STENCILS
-#define TILE_STENCIL_PARAMETER , __global const Stencil* stencil
-#define TILE_STENCIL_ARGUMENT , stencil
-
 // stencil_weights() of stencil_rows.cl, of one pixel.
 static inline float weight_of_stencil(__global const Stencil* stencil, float sigma,
                                       const StencilPlaces place, int pixel) {
@@ -94,23 +90,17 @@ static inline float weight_of_stencil(__global const Stencil* stencil, float sig
       stencil_polynomials(stencil_of_width(stencil, width, half_of_it + pair), square);
   return is_last ? even - place.distance * odd : even + place.distance * odd;
 }
-#else
-#define TILE_STENCIL_PARAMETER
-#define TILE_STENCIL_ARGUMENT
-#endif
 
 // Zero outside what the rows would draw, and where a difference of error functions errs below it.
 // `center` is that of the item's column or row, whose number is `pixel`.
 static inline float axis_of_splat(const __local Listed* listed, uint k, int is_column, int pixel,
-                                  float center, float mean_sigma TILE_STENCIL_PARAMETER) {
+                                  float center, float mean_sigma, __global const Stencil* stencil) {
   const __local TileSplat* splat = listed->splats + k;
-#ifdef STENCILS
-  if (stencil && splat->sigma < 0.0f) {
+  if (STENCILS && stencil && splat->sigma < 0.0f) {
     const StencilPlaces place =
         is_column ? stencil_places(splat->x, FIRST_X) : stencil_places(splat->y, FIRST_Y);
     return weight_of_stencil(stencil, splat->sigma, place, pixel);
   }
-#endif
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
 #ifdef FACE_OF_CUBE
@@ -173,11 +163,6 @@ INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, ui
   }
 }
 
-#ifdef CLOUDS_IN_LISTS
-#define TILE_CLOUDS_PARAMETER , const TileClouds* clouds
-#define TILE_CLOUDS_ARGUMENT , &of_tile
-#define TILE_CLOUDS_PASSED , clouds
-
 // Columns of clouds are worked out where layers may be thick.
 INLINED int prepare_cloud(__local float4* amplitudes, __global const CloudEntry* cloud) {
   const float4 absorption =
@@ -186,19 +171,12 @@ INLINED int prepare_cloud(__local float4* amplitudes, __global const CloudEntry*
   amplitudes[1] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
   return 1;
 }
-#else
-#define TILE_CLOUDS_PARAMETER
-#define TILE_CLOUDS_ARGUMENT
-#define TILE_CLOUDS_PASSED
-#endif
-
 // Returns whether two terms do not serve for the layer.
 INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSplat* splat,
-                               float mean_sigma,
-                               const CompositeParameters p TILE_CLOUDS_PARAMETER) {
-#ifdef CLOUDS_IN_LISTS
-  if (is_cloud(splat->sigma)) return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
-#endif
+                               float mean_sigma, const CompositeParameters p,
+                               const TileClouds* clouds) {
+  if (CLOUDS_IN_LISTS && is_cloud(splat->sigma))
+    return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
 #ifdef LIGHT_ORDERED
   const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
                                      splat->absorption[2], deepest_of(splat, mean_sigma));
@@ -215,18 +193,16 @@ INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSpl
 }
 
 // Whether an entry touches the tile, or the part of it around (x, y).
-INLINED int touches(const __local TileSplat* splat TILE_CLOUDS_PARAMETER) {
-#ifdef CLOUDS_IN_LISTS
-  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
-#endif
+INLINED int touches(const __local TileSplat* splat, const TileClouds* clouds) {
+  if (CLOUDS_IN_LISTS && is_cloud(splat->sigma))
+    return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
   return reaches_tile(splat);
 }
 
-INLINED int touches_part(const __local TileSplat* splat, float x, float y,
-                         float mean_sigma TILE_CLOUDS_PARAMETER) {
-#ifdef CLOUDS_IN_LISTS
-  if (is_cloud(splat->sigma)) return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
-#endif
+INLINED int touches_part(const __local TileSplat* splat, float x, float y, float mean_sigma,
+                         const TileClouds* clouds) {
+  if (CLOUDS_IN_LISTS && is_cloud(splat->sigma))
+    return cloud_touches(cloud_of(splat->sigma, clouds), clouds);
   return reaches_part(splat, x, y, mean_sigma);
 }
 
@@ -251,15 +227,14 @@ static inline float cut_of_axis(const __local TileSplat* splat, int is_column, f
 // What all pixels of the tile need of the batch. An item has one column or row of all splats that
 // it takes, and one part: there are as many parts of all splats as items.
 INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint count,
-                     float mean_sigma,
-                     const CompositeParameters p TILE_CLOUDS_PARAMETER TILE_STENCIL_PARAMETER) {
+                     float mean_sigma, const CompositeParameters p, const TileClouds* clouds,
+                     __global const Stencil* stencil) {
   const uint item = get_local_id(0), axis = item % AXES;
   const int is_column = axis < TILE_WIDTH;
   const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
   const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
   for (uint k = item / AXES; k < count; k += GROUP / AXES) {
-    const float shape =
-        axis_of_splat(listed, k, is_column, pixel, center, mean_sigma TILE_STENCIL_ARGUMENT);
+    const float shape = axis_of_splat(listed, k, is_column, pixel, center, mean_sigma, stencil);
 #ifdef CUT_BY_AXES
     batch->axes[k * AXES + axis] =
         (Axis)(shape, cut_of_axis(listed->splats + k, is_column, center));
@@ -273,15 +248,14 @@ INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint co
   if (part == PARTS - 1) {
     int is_thick = 0, is_touching = 0;
     if (k < count) {
-      is_thick = prepare_amplitudes(batch->amplitudes + k * AMPLITUDES, splat, mean_sigma,
-                                    p TILE_CLOUDS_PASSED);
-      is_touching = touches(splat TILE_CLOUDS_PASSED);
+      is_thick =
+          prepare_amplitudes(batch->amplitudes + k * AMPLITUDES, splat, mean_sigma, p, clouds);
+      is_touching = touches(splat, clouds);
     }
     store_flag(&batch->thick, k, is_thick);
     store_flag(&batch->touching, k, is_touching);
   }
   const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
   const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-  store_flag(batch->drawn + part, k,
-             k < count && touches_part(splat, x, y, mean_sigma TILE_CLOUDS_PASSED));
+  store_flag(batch->drawn + part, k, k < count && touches_part(splat, x, y, mean_sigma, clouds));
 }

@@ -76,7 +76,7 @@ std::set<std::string> written_macros() {
 // What a stage chooses for a program of its own.
 std::set<std::string> chosen_macros() {
   const fs::path stages = source_folder() / "src/device/stages/stage_programs.cpp";
-  return names_in(text_of(stages), R"re("([A-Z][A-Z0-9_]+)")re");
+  return names_in(text_of(stages), R"re("([A-Z][A-Z0-9_]+)[ "])re");
 }
 
 // What compilers have beyond the language, or do not bear.

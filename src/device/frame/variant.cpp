@@ -58,7 +58,7 @@ std::string light(const Variant& v) {
          define_if(v.light == LightPlan::emission, "LIGHT_EMISSION") +
          define_if(v.keeps_transmittance, "KEEP_TRANSMITTANCE") +
          define_if(v.kernel_cut, "KERNEL_CUT") + define_if(v.pixel_means, "SAMPLING_MEAN") +
-         define_if(v.stencils, "STENCILS") + define_if(v.clouds_around, "CLOUDS_AROUND") +
+         define_if(v.stencils, "STENCILS 1") + define_if(v.clouds_around, "CLOUDS_AROUND") +
          define_if(v.background_image, "BACKGROUND_IMAGE");
 }
 

@@ -23,9 +23,18 @@ std::uint64_t rounded_up(std::uint64_t count) {
   return power;
 }
 
+CloudTables no_clouds(BufferPool& pool) {
+  return {pool.get<shared::CloudEntry>(0, "unused"), pool.get<shared::CloudSplat>(0, "unused"),
+          pool.get<float>(0, "unused"), pool.get<shared::DirectionCone>(0, "unused")};
+}
+
 }  // namespace
 
-Compositor::Compositor(const StageContext& context) : context_(context) {
+Compositor::Compositor(const StageContext& context)
+    : context_(context),
+      no_clouds_(no_clouds(context.device.pool)),
+      layers_{{}, &no_clouds_},
+      slabs_{{}, &no_clouds_} {
   ProgramCache& programs = context.device.programs;
   const Variant& variant = context.variant;
   layers_.composite = programs.get(composite_program(variant));
@@ -109,15 +118,13 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
       .arg(lists.segments)
       .arg(lists.entries)
       .arg(planes.light)
-      .arg(partials);
-  if (variant.extended) launch.arg(splats.extended);
-  if (kernels.clouds) {
-    launch.arg(kernels.clouds->entries)
-        .arg(kernels.clouds->splats)
-        .arg(kernels.clouds->directions)
-        .arg(kernels.clouds->cones);
-  }
-  if (variant.stencils) launch.arg(context_.stencils);
+      .arg(partials)
+      .arg(splats.extended)
+      .arg(kernels.clouds->entries)
+      .arg(kernels.clouds->splats)
+      .arg(kernels.clouds->directions)
+      .arg(kernels.clouds->cones)
+      .arg(context_.stencils);
   if (variant.has_rows()) {
     launch.run_pieces(count);
   } else {

@@ -25,7 +25,7 @@ class Compositor {
   // The kernels for some of the segments: of an ordered plan's coarse grids they add up.
   struct Kernels {
     Program composite;
-    const CloudTables* clouds = nullptr;
+    const CloudTables* clouds;
   };
   // The segments from `first` on.
   struct Part {
@@ -40,6 +40,7 @@ class Compositor {
 
   const StageContext& context_;
   shared::CompositeParameters parameters_{};
+  const CloudTables no_clouds_;
   Kernels layers_, slabs_;
 };
 

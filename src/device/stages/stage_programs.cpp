@@ -54,7 +54,7 @@ ProgramSource composite_program(const Variant& variant) {
 
 ProgramSource composite_with_clouds_program(const Variant& variant) {
   Choices choices = rows_of_16(variant);
-  choices.emplace_back("CLOUDS_IN_LISTS");
+  choices.emplace_back("CLOUDS_IN_LISTS 1");
   return program_of_layers(variant, composite_file(variant), choices);
 }
 
