@@ -184,21 +184,17 @@ void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
     for (const std::string& suffix : suffixes_)
       names.insert(picture(frame, suffix).filename().string());
   }
-  splotchcl::remove_leftovers(folder_,
-                              [&](const std::string& name) { return names.count(name) > 0; });
+  splotchcl::remove_leftovers(folder_, names);
 }
 
 void FrameFiles::remove_unfinished_film(const std::string& suffix) const {
   const std::filesystem::path path = film(suffix);
-  splotchcl::remove_leftovers(folder_of(path), [name = path.filename().string()](
-                                                   const std::string& n) { return n == name; });
+  splotchcl::remove_leftovers(folder_of(path), {path.filename().string()});
 }
 
 void FrameFiles::close(const std::vector<int>& frames) {
   remove_leftovers(frames);
-  const std::string manifest = manifest_.filename().string();
-  splotchcl::remove_leftovers(folder_of(manifest_),
-                              [&](const std::string& name) { return name == manifest; });
+  splotchcl::remove_leftovers(folder_of(manifest_), {manifest_.filename().string()});
   std::error_code ignored;
   if (is_film_) remove_frames();
   std::filesystem::remove(manifest_, ignored);
@@ -216,8 +212,7 @@ void FrameFiles::remove_frames() const {
       if (is_own(frame, suffix)) std::filesystem::remove(path, ignored);
     }
   }
-  splotchcl::remove_leftovers(folder_,
-                              [&](const std::string& name) { return names.count(name) > 0; });
+  splotchcl::remove_leftovers(folder_, names);
 }
 
 FrameFiles::Lock::Lock(const FrameFiles& files) {
