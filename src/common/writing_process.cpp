@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "common/word_hash.h"
@@ -16,9 +15,12 @@
 namespace splotchcl {
 namespace {
 
+// Empty where it cannot be read.
 std::string content_of(const std::string& path) {
   std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string content;
+  std::getline(file, content, '\0');  // a program's name may have ends of lines in it
+  return content;
 }
 
 // The 22nd field of /proc/PID/stat; 0: cannot be read. The second is the program's name in

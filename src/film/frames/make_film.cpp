@@ -196,7 +196,19 @@ class Film {
       if (report_.drawn) report_.drawn(frames[i], stats);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
-    agree(options_.ranks.get(), [&] { drawer.finish(); });
+    agree(options_.ranks.get(), [&] {
+      drawer.finish();
+      if (has_files()) require_drawn(frames);
+    });
+  }
+
+  // Somebody else may tidy up where they lie.
+  void require_drawn(const std::vector<int>& frames) const {
+    for (const int frame : missing(frames)) {
+      throw DataError(files_.picture(frame, "").string() +
+                      ": was drawn, but is not there any more, or is another file; draw it again "
+                      "and leave it where it is");
+    }
   }
 
   void stop_if_asked(FilmDrawer& drawer) const {

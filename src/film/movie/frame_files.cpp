@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -14,6 +15,7 @@
 
 #include "common/file_identity.h"
 #include "common/folder_of.h"
+#include "common/reason.h"
 #include "common/text_file.h"
 #include "common/unfinished_file.h"
 #include "film/movie/encoder.h"
@@ -216,13 +218,22 @@ void FrameFiles::remove_frames() const {
 }
 
 FrameFiles::Lock::Lock(const FrameFiles& files) {
-  const int descriptor = ::open(files.manifest_.c_str(), O_RDONLY | O_CLOEXEC);
+  const std::string name = files.manifest_.string();
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0 && errno != ENOENT) {
+    throw DataError(name + ": cannot be opened: " + reason(errno));
+  }
   if (descriptor < 0) return;
+  const int error = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   // Who held it before may have ended the film, and removed the file that was opened here.
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_file_at(files.manifest_, descriptor)) {
+  if (error == 0 && is_file_at(files.manifest_, descriptor)) {
     descriptor_ = descriptor;
-  } else {
-    ::close(descriptor);
+    return;
+  }
+  ::close(descriptor);
+  if (error != 0 && error != EWOULDBLOCK) {
+    throw DataError(name + ": cannot be locked: " + reason(error) +
+                    "; make the film on another file system");
   }
 }
 
