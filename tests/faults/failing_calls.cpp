@@ -5,6 +5,8 @@
 // - what comes before the program has put up its guard against crashes,
 // - what the OpenCL implementation does within its calls and in its threads: PoCL and LLVM end the
 //   program where memory runs out, and nobody but they can change that,
+// - what libraries do while they are loaded: OpenImageIO brings some along that end the program, or
+//   wait for ever, where they find no memory or no thread then,
 // - what other programs do that are started. With SPLOTCHCL_FAULT_IN=children it is those of the
 //   program itself, which compile kernels for it, that fail, and not the first one.
 #include <CL/cl.h>
@@ -81,7 +83,10 @@ Fault read_fault() {
 }
 
 bool is_meant() {
-  if (std::strcmp(program_invocation_short_name, "splotchcl") != 0) return false;
+  const auto is_called = [](const char* name) {
+    return std::strcmp(program_invocation_short_name, name) == 0;
+  };
+  if (!is_called("splotchcl") && !is_called("exe")) return false;  // of /proc/self/exe
   constexpr const char* mark = "SPLOTCHCL_FAULT_PARENT";
   const bool is_child = std::getenv(mark) != nullptr;
   ::setenv(mark, "1", 1);
@@ -356,6 +361,12 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
   if (fails("thread")) return EAGAIN;
   if (elsewhere == 0) return original(thread, attributes, start, argument);
   return original(thread, attributes, &run_elsewhere, new ThreadOfOpenCl{start, argument});
+}
+
+extern "C" void* dlopen(const char* path, int mode) noexcept {
+  static auto* const original = next(&dlopen, "dlopen");
+  const Elsewhere here;
+  return original(path, mode);
 }
 
 extern "C" void* malloc(std::size_t bytes) noexcept {

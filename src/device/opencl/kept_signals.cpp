@@ -1,5 +1,7 @@
 #include "device/opencl/kept_signals.h"
 
+#include <cstddef>
+
 namespace splotchcl {
 
 #ifdef SPLOTCHCL_HAS_SIGNALS
@@ -12,20 +14,32 @@ bool are_same(const struct sigaction& a, const struct sigaction& b) {
                                         : a.sa_handler == b.sa_handler;
 }
 
+bool is_handled(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) != 0 ||
+         (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
+}
+
+void put_back(int signal, const struct sigaction& before) {
+  struct sigaction now = {};
+  if (::sigaction(signal, nullptr, &now) == 0 && !are_same(now, before)) {
+    ::sigaction(signal, &before, nullptr);
+  }
+}
+
 }  // namespace
 
 KeptSignals::KeptSignals() {
-  for (int signal = 1; signal <= last_signal; ++signal)
-    ::sigaction(signal, nullptr, &before_[static_cast<std::size_t>(signal)]);
+  for (std::size_t i = 0; i < of_faults.size(); ++i)
+    ::sigaction(of_faults[i], nullptr, &at_faults_[i]);
+  for (std::size_t i = 0; i < of_others.size(); ++i)
+    ::sigaction(of_others[i], nullptr, &at_others_[i]);
 }
 
 KeptSignals::~KeptSignals() {
-  for (int signal = 1; signal <= last_signal; ++signal) {
-    const struct sigaction& before = before_[static_cast<std::size_t>(signal)];
-    struct sigaction now = {};
-    if (::sigaction(signal, nullptr, &now) == 0 && !are_same(now, before)) {
-      ::sigaction(signal, &before, nullptr);
-    }
+  for (std::size_t i = 0; i < of_faults.size(); ++i)
+    put_back(of_faults[i], at_faults_[i]);
+  for (std::size_t i = 0; i < of_others.size(); ++i) {
+    if (is_handled(at_others_[i])) put_back(of_others[i], at_others_[i]);
   }
 }
 

@@ -11,6 +11,8 @@ namespace splotchcl {
 
 // Puts signals back to what the process does with them, at its end: compilers of kernels take them
 // for themselves, and what ends the process then neither tells why nor removes what it has begun.
+// Signals by which others end the process only where it had handled them: in another thread it may
+// have begun to meanwhile.
 class KeptSignals {
  public:
   KeptSignals();
@@ -20,8 +22,12 @@ class KeptSignals {
 
  private:
 #ifdef SPLOTCHCL_HAS_SIGNALS
-  static constexpr int last_signal = 31;  // of those that have names
-  std::array<struct sigaction, last_signal + 1> before_ = {};
+  static constexpr std::array<int, 9> of_faults = {SIGABRT, SIGBUS,  SIGFPE,  SIGILL, SIGSEGV,
+                                                   SIGSYS,  SIGTRAP, SIGXCPU, SIGXFSZ};
+  static constexpr std::array<int, 6> of_others = {SIGHUP,  SIGINT,  SIGQUIT,
+                                                   SIGTERM, SIGUSR1, SIGUSR2};
+  std::array<struct sigaction, of_faults.size()> at_faults_ = {};
+  std::array<struct sigaction, of_others.size()> at_others_ = {};
 #endif
 };
 
