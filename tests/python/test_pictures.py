@@ -167,19 +167,36 @@ VoH7FNFP8AAA6bSURBVHicnZtJcyQ5coXfc0Rkkr1oTGaaq/7/79JVJ9n0TJEZAX86uDuAyGRV9XRUGg
 
 
 @pytest.mark.parametrize(
-    "call", ["splotchcl.Image.open(path)", "splotchcl.galaxy(path, path + '.hdf5')"]
+    "call",
+    [
+        "splotchcl.Image.open(path)",
+        "splotchcl.galaxy(path, path + '.hdf5')",
+        "splotchcl.reference(scene.copy(), few)",
+        "scene.decide(few)",
+        "splotchcl.movie(scene, path + '.mp4', device='reference')",
+        "splotchcl.reference(fading, few)",
+    ],
 )
 def test_a_picture_that_crashes_a_library_does_not_end_python(tmp_path, call):
     path = tmp_path / "a.png"
     path.write_bytes(base64.b64decode(DAMAGED_PROFILE))
     script = f"""
 import splotchcl, sys
+import numpy as np
 path = sys.argv[1]
+few = splotchcl.Particles().add("gas", position=np.random.default_rng(0).random((10, 3)))
+scene = splotchcl.suggest(few, size=(16, 12))
+scene.copy().save(path + ".toml")
+scene["image.background_image"] = path
+scene.save(path + ".toml")
+fading = splotchcl.suggest(few, size=(16, 12))
+fading["finish.cross_fade.scene"] = path + ".toml"
+fading["finish.cross_fade.amount"] = 0.5
 try:
     {call}
-except splotchcl.Error:
-    pass
-sys.exit(3)
+except splotchcl.Error as error:
+    sys.exit(3 if "crashed" in str(error) else str(error))
+sys.exit("no error")
 """
     command = [sys.executable, "-c", script, str(path)]
     assert subprocess.run(command, timeout=120, check=False).returncode == 3
