@@ -177,6 +177,22 @@ TEST_F(ClosedStreams, ArePartsOfNoOutput) {
 }
 
 // Of a service, or of a container with another user.
+TEST_F(ClosedStreams, ArePartsOfNoFilmAndNoMap) {
+  const std::string film =
+      "movie s --size 32x24 --set path.orbit.degrees=10 --set movie.frames=2 -o ";
+  splotchcl_in(folder_, film + "whole%d.png");
+  splotchcl_in(folder_, "map s -o whole.fits --size 16x16");
+  const std::string told = splotchcl_in(folder_, "info s").out;
+  for (const char* const closed : {"0<&-", "1>&-", "2>&-", "0<&- 1>&- 2>&-"}) {
+    EXPECT_EQ(splotchcl_in(folder_, film + "a%d.png " + closed).exit_code, 0) << closed;
+    EXPECT_EQ(
+        splotchcl_in(folder_, std::string("map s -o a.fits --size 16x16 ") + closed).exit_code, 0);
+    for (const std::string name : {"0.png", "1.png", ".fits"})
+      EXPECT_EQ(read_text(folder_ / ("a" + name)), read_text(folder_ / ("whole" + name))) << closed;
+  }
+  EXPECT_EQ(splotchcl_in(folder_, "info s 0<&-").out, told);
+}
+
 TEST(HomeThatCannotBeWritten, IsDoneWithout) {
   SKIP_WITHOUT_DEVICE();
   const TemporaryFolder folder;
