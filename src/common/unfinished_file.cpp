@@ -28,11 +28,20 @@ bool is_stream(const std::filesystem::path& path) {
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
+// Also where nothing is at their end yet.
 std::filesystem::path follow_links(const std::filesystem::path& path) {
+  constexpr int most_links = 40;  // as Linux has it
+  std::filesystem::path target = path;
   std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return path;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
-  return error ? path : target;
+  for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
+    if (links == most_links) {
+      throw DataError(path.string() + ": cannot be written: " + reason(ELOOP));
+    }
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error) return target;
+    target = target.parent_path() / next;  // an absolute one takes its place
+  }
+  return target;
 }
 
 std::filesystem::path temporary_path(const std::filesystem::path& target, bool is_stream) {

@@ -112,6 +112,25 @@ TEST_F(UnfinishedFiles, MayBeOfTheLongestNames) {
   EXPECT_TRUE(stays(of_another, ascii.substr(1) + "y"));
 }
 
+TEST_F(UnfinishedFiles, AreWrittenWhereLinksLeadAlsoWhereNothingIsThereYet) {
+  fs::create_directory(folder_ / "below");
+  fs::create_symlink("below/second", folder_ / "first");
+  fs::create_symlink("../third", folder_ / "below" / "second");
+  UnfinishedFile file(folder_ / "first");
+  file.write("whole", 5);
+  file.finish();
+  EXPECT_EQ(fs::file_size(folder_ / "third"), 5U);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first") && fs::is_symlink(folder_ / "below" / "second"));
+}
+
+TEST_F(UnfinishedFiles, AreRefusedWhereLinksLeadNowhere) {
+  fs::create_symlink("none/file", folder_ / "to_no_folder");
+  fs::create_symlink("circle", folder_ / "circle");
+  EXPECT_THROW(UnfinishedFile(folder_ / "to_no_folder"), DataError);
+  EXPECT_THROW(UnfinishedFile(folder_ / "circle"), DataError);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "to_no_folder"));
+}
+
 TEST_F(UnfinishedFiles, MayLeaveWhatHasComeUnderTheirNames) {
   UnfinishedFile late(folder_ / "name");
   late.write("mine", 4);

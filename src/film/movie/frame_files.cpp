@@ -183,8 +183,15 @@ bool FrameFiles::has(int frame) const {
 void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
   std::set<std::string> names;
   for (const int frame : frames) {
-    for (const std::string& suffix : suffixes_)
-      names.insert(picture(frame, suffix).filename().string());
+    for (const std::string& suffix : suffixes_) {
+      const std::filesystem::path path = picture(frame, suffix);
+      names.insert(path.filename().string());
+      // In a film's folder nobody means what a link leads to, which would be written into.
+      std::error_code error;
+      if (is_film_ && std::filesystem::is_symlink(path, error)) {
+        std::filesystem::remove(path, error);
+      }
+    }
   }
   splotchcl::remove_leftovers(folder_, names);
 }
