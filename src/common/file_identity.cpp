@@ -98,4 +98,10 @@ void WatchedFiles::check() const {
   }
 }
 
+std::uint64_t ContentMarks::of(const std::filesystem::path& path) {
+  const auto known = known_.find(path);
+  return known != known_.end() ? known->second
+                               : known_.emplace(path, content_mark(path)).first->second;
+}
+
 }  // namespace splotchcl

@@ -29,6 +29,15 @@ std::string describe(const std::optional<FileIdentity>& file);
 // 0 where it cannot be read.
 std::uint64_t content_mark(const std::filesystem::path& path);
 
+// The marks of files that are asked for more than once.
+class ContentMarks {
+ public:
+  std::uint64_t of(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, std::uint64_t> known_;
+};
+
 // Files that are to stay as they were when they were added.
 class WatchedFiles {
  public:

@@ -86,6 +86,7 @@ class Film {
   FilmResult make() {
     bool is_complete = false;
     std::vector<int> frames;
+    ContentMarks marks;
     agree(options_.ranks.get(), [&] {
       is_complete = has_files() && options_.only_join && !files_.is_begun();
       if (is_complete) require_complete();
@@ -97,12 +98,14 @@ class Film {
       scene_.decide();
       scene_.check_files();
       if (!has_files()) return;
-      files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference),
-                  scene_.path().frame_count());
+      files_.open(
+          film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference, marks),
+          scene_.path().frame_count());
       if (!options_.only_join) frames = missing(part_);
     });
     if (options_.ranks) {
-      require_same_files(*options_.ranks, film_inputs(scene_.scene(), scene_.path()).with_sets());
+      require_same_files(*options_.ranks, film_inputs(scene_.scene(), scene_.path()).with_sets(),
+                         marks);
       broadcast_values(*options_.ranks, frames);
     }
     draw(frames);
