@@ -1,6 +1,7 @@
 """Pictures have the bits of the command line's, and keep their tolerance."""
 
 import base64
+import os
 import subprocess
 import sys
 import numpy as np
@@ -200,3 +201,26 @@ sys.exit("no error")
 """
     command = [sys.executable, "-c", script, str(path)]
     assert subprocess.run(command, timeout=120, check=False).returncode == 3
+
+
+def test_who_reads_a_picture_first_runs_no_code_of_the_current_folder(tmp_path):
+    for name in ("splotchcl.py", "numpy.py", "os.py"):
+        (tmp_path / name).write_text("open('code_ran', 'w')\n")
+    script = tmp_path / "elsewhere" / "script.py"
+    script.parent.mkdir()
+    script.write_text(
+        "import splotchcl, sys\n"
+        "try:\n    splotchcl.Image.open(sys.argv[1])\n"
+        "except splotchcl.DataError:\n    sys.exit(3)\n"
+    )
+    (tmp_path / "a.png").write_bytes(base64.b64decode(DAMAGED_PROFILE))
+    folders = os.pathsep.join(os.path.abspath(folder) for folder in sys.path if folder)
+    ended = subprocess.run(
+        [sys.executable, str(script), "a.png"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": folders},
+        timeout=120,
+        check=False,
+    )
+    assert ended.returncode == 3
+    assert not (tmp_path / "code_ran").exists()

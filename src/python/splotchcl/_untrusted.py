@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import os
-import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 
 from . import _core, _toml
 from ._core import DataError
+from ._process import run_python
 
 _READ = "import sys; from splotchcl import _core; _core.read_image(sys.argv[1])"
 
@@ -60,8 +60,4 @@ def _check_behind(tables: Mapping[str, Any]) -> None:
 def _crashes(path: str, node: int, size: int, time: int) -> bool:
     if not sys.executable:
         return False
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    read = subprocess.run(
-        [sys.executable, "-c", _READ, path], env=environment, capture_output=True, check=False
-    )
-    return read.returncode < 0
+    return run_python(_READ, path) < 0
