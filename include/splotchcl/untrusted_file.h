@@ -28,4 +28,20 @@ void check_untrusted_snapshot(const std::filesystem::path& path,
 // Reads the picture. Throws what read_image throws, and DataError likewise.
 void check_untrusted_image(const std::filesystem::path& path, const ChildLimits& limits = {});
 
+// Files that other programs write meanwhile. Snapshots are mapped, not copied: who looks at the end
+// of one that has become shorter gets the signal SIGBUS, wherever that may be, also in memory that
+// was read long before. While one of these lives, or has lived, the process goes on: what is no
+// longer there reads as zeros from then on, and signals of other memory go where they went before.
+// Make it after devices have been opened, since some compilers of kernels take the signal.
+class LiveFiles {
+ public:
+  LiveFiles();
+  // Throws DataError, with its name, where a file has become shorter since: what was read or drawn
+  // of it is to be thrown away. Reading says so by itself; this is for what was drawn.
+  void require_whole() const;
+
+ private:
+  std::uint64_t cut_before_ = 0;
+};
+
 }  // namespace splotchcl

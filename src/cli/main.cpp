@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "cli/command_line.h"
 #include "cli/console.h"
@@ -58,6 +59,13 @@ int run(int argc, char** argv, splotchcl::cli::Console& console) {
   } catch (const std::bad_alloc& error) {
     return fail(error, "out of memory; fewer particles or a smaller picture need less", failed,
                 console);
+  } catch (const std::system_error& error) {
+    const bool lacks_threads = error.code() == std::errc::resource_unavailable_try_again;
+    return fail(error,
+                lacks_threads ? "no thread can be started; end other programs, or raise the limit "
+                                "on processes (ulimit -u)"
+                              : error.what(),
+                failed, console);
   } catch (const std::exception& error) {
     return fail(error, error.what(), failed, console);
   }

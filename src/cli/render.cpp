@@ -224,7 +224,8 @@ int run_render(const RenderOptions& options, Console& console) {
   });
   const SceneWithSnapshot& source = *opened;
   if (ranks) {
-    require_same_files(*ranks, files_read(options.scene, source.scene, *source.snapshot));
+    ContentMarks marks;
+    require_same_files(*ranks, files_read(options.scene, source.scene, *source.snapshot), marks);
   }
   if (output && ranks) drawer.emplace(drawer_options(options, ranks, console));
   agree(ranks.get(), [&] {

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "common/reason.h"
+#include "common/temporary_folder.h"
 #include "splotchcl/error.h"
 
 extern char** environ;
@@ -61,14 +62,7 @@ std::string find_program(const std::string& name) {
 }
 
 ScratchText::ScratchText() {
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  if (error) {
-    throw DataError(
-        "environment variable TMPDIR: found no folder, expected one for temporary "
-        "files; correct it or unset it");
-  }
-  std::string name = (folder / "splotchcl-XXXXXX").string();
+  std::string name = (temporary_folder() / "splotchcl-XXXXXX").string();
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) throw DataError(name + ": cannot be created: " + reason(errno));
   ::unlink(name.c_str());

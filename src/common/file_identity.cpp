@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <ctime>
 #include <vector>
 
+#include "common/reason.h"
 #include "common/word_hash.h"
 #include "splotchcl/error.h"
 
@@ -19,17 +21,23 @@ namespace {
 
 constexpr std::int64_t ns_in_second = 1'000'000'000;
 
-// Read, not mapped: the file may become shorter meanwhile.
-void add_stretch(int descriptor, std::uint64_t begin, std::uint64_t end, WordHash& hash) {
+// Read, not mapped: the file may become shorter meanwhile. Returns the error's number, or 0.
+int add_stretch(int descriptor, std::uint64_t begin, std::uint64_t end, WordHash& hash) {
   std::vector<std::byte> bytes(std::size_t{1} << 16);
   while (begin < end) {
     const auto wanted =
         static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), end - begin));
     const ::ssize_t count = ::pread(descriptor, bytes.data(), wanted, static_cast<::off_t>(begin));
-    if (count <= 0) return;
+    if (count < 0) return errno;
+    if (count == 0) return 0;
     hash.add(checksum(bytes.data(), static_cast<std::size_t>(count)));
     begin += static_cast<std::uint64_t>(count);
   }
+  return 0;
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, int error) {
+  throw DataError(path.string() + ": cannot be read: " + reason(error));
 }
 
 }  // namespace
@@ -67,17 +75,20 @@ std::uint64_t content_mark(const std::filesystem::path& path) {
   const std::optional<FileIdentity> file = file_identity(path);
   // Without O_NONBLOCK a pipe that has taken its place would be waited for.
   const int descriptor = file ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
-  if (descriptor < 0) return 0;
+  if (!file) return 0;
+  if (descriptor < 0) fail_to_read(path, errno);
   WordHash hash;
+  int error = 0;
   if (file->bytes <= all_up_to) {
-    add_stretch(descriptor, 0, file->bytes, hash);
+    error = add_stretch(descriptor, 0, file->bytes, hash);
   } else {
-    for (std::uint64_t i = 0; i < stretches; ++i) {
+    for (std::uint64_t i = 0; i < stretches && error == 0; ++i) {
       const std::uint64_t begin = (file->bytes - stretch) / (stretches - 1) * i;
-      add_stretch(descriptor, begin, begin + stretch, hash);
+      error = add_stretch(descriptor, begin, begin + stretch, hash);
     }
   }
   ::close(descriptor);
+  if (error != 0) fail_to_read(path, error);
   return hash.value();
 }
 
@@ -96,6 +107,12 @@ void WatchedFiles::check() const {
         file.string(), differs_in_place ? "another file of " : "", describe(found),
         describe(expected)));
   }
+}
+
+std::uint64_t ContentMarks::of(const std::filesystem::path& path) {
+  const auto known = known_.find(path);
+  return known != known_.end() ? known->second
+                               : known_.emplace(path, content_mark(path)).first->second;
 }
 
 }  // namespace splotchcl

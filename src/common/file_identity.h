@@ -26,8 +26,17 @@ std::optional<FileIdentity> file_identity(const std::filesystem::path& path);
 std::string describe(const std::optional<FileIdentity>& file);
 
 // A number that follows from what a file holds: of one beyond 16 MiB from stretches all over it.
-// 0 where it cannot be read.
+// 0 where there is no regular file. Throws DataError where it cannot be read.
 std::uint64_t content_mark(const std::filesystem::path& path);
+
+// The marks of files that are asked for more than once.
+class ContentMarks {
+ public:
+  std::uint64_t of(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, std::uint64_t> known_;
+};
 
 // Files that are to stay as they were when they were added.
 class WatchedFiles {

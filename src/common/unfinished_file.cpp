@@ -8,16 +8,15 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <ctime>
-#include <optional>
-#include <random>
 #include <system_error>
 #include <vector>
 
 #include "common/folder_of.h"
 #include "common/reason.h"
+#include "common/temporary_folder.h"
+#include "common/unfinished_name.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -29,20 +28,24 @@ bool is_stream(const std::filesystem::path& path) {
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
+// Also where nothing is at their end yet.
 std::filesystem::path follow_links(const std::filesystem::path& path) {
+  constexpr int most_links = 40;  // as Linux has it
+  std::filesystem::path target = path;
   std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return path;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
-  return error ? path : target;
+  for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
+    if (links == most_links) {
+      throw DataError(path.string() + ": cannot be written: " + reason(ELOOP));
+    }
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error) return target;
+    target = target.parent_path() / next;  // an absolute one takes its place
+  }
+  return target;
 }
 
-// Hidden, and different for programs that write the same picture at the same time.
-std::filesystem::path temporary_name(const std::filesystem::path& target, bool is_stream) {
-  const std::string unique =
-      std::to_string(::getpid()) + "-" + std::to_string(std::random_device()());
-  const std::filesystem::path folder =
-      is_stream ? std::filesystem::temp_directory_path() : folder_of(target);
-  return folder / ("." + target.filename().string() + "." + unique + ".part");
+std::filesystem::path temporary_path(const std::filesystem::path& target, bool is_stream) {
+  return (is_stream ? temporary_folder() : folder_of(target)) / unfinished_name(target);
 }
 
 // While it lives, a FIFO that nobody reads any more answers with an error, not with a signal.
@@ -120,29 +123,6 @@ void check_folder(const std::filesystem::path& path, const std::filesystem::path
   }
 }
 
-// The reverse of temporary_name().
-struct Leftover {
-  std::string target;
-  pid_t process;
-};
-std::optional<Leftover> read_temporary_name(const std::string& name) {
-  const std::string end = ".part";
-  const std::size_t dash = name.rfind('-');
-  const bool is_one = name.size() > end.size() && name.front() == '.' &&
-                      name.compare(name.size() - end.size(), end.size(), end) == 0;
-  if (!is_one || dash == std::string::npos) return std::nullopt;
-  const std::size_t dot = name.rfind('.', dash);
-  pid_t process = 0;
-  const char* const last = name.data() + dash;
-  const auto [next, error] = std::from_chars(name.data() + dot + 1, last, process);
-  if (dot == 0 || error != std::errc() || next != last || process <= 0) return std::nullopt;
-  return Leftover{name.substr(1, dot - 1), process};
-}
-
-bool is_running(pid_t process) {
-  return ::kill(process, 0) == 0 || errno != ESRCH;
-}
-
 }  // namespace
 
 void remove_unfinished_files() noexcept {
@@ -151,15 +131,12 @@ void remove_unfinished_files() noexcept {
   }
 }
 
-void remove_leftovers(const std::filesystem::path& folder,
-                      const std::function<bool(const std::string&)>& is_meant) {
+void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names) {
+  const UnfinishedNames unfinished_names(folder, names);
   std::error_code error;
   std::vector<std::filesystem::path> leftovers;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const auto leftover = read_temporary_name(entry.path().filename().string());
-    if (leftover && is_meant(leftover->target) && !is_running(leftover->process)) {
-      leftovers.push_back(entry.path());
-    }
+    if (unfinished_names.has_leftover(entry.path())) leftovers.push_back(entry.path());
   }
   for (const std::filesystem::path& path : leftovers)
     std::filesystem::remove(path, error);
@@ -168,16 +145,14 @@ void remove_leftovers(const std::filesystem::path& folder,
 void check_output_path(const std::filesystem::path& path) {
   const UnfinishedFile file(path);
   const std::filesystem::path target = follow_links(path);
-  remove_leftovers(folder_of(target), [&target](const std::string& name) {
-    return name == target.filename().string();
-  });
+  remove_leftovers(folder_of(target), {target.filename().string()});
 }
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
     : path_(path),
       is_stream_(is_stream(path)),
       target_(is_stream_ ? path : follow_links(path)),
-      temporary_(temporary_name(target_, is_stream_)) {
+      temporary_(splotchcl::temporary_path(target_, is_stream_)) {
   check_folder(path_, target_);
   if (is_stream_ && ::access(target_.c_str(), W_OK) != 0) fail(errno);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <set>
 #include <string>
 
 namespace splotchcl {
@@ -12,10 +12,9 @@ namespace splotchcl {
 // itself a folder. Of a FIFO or a device only asks whether it may be written.
 void check_output_path(const std::filesystem::path& path);
 
-// Removes the unfinished files that killed processes left in a folder, of those names for which
-// `is_meant` says so. Those of processes that still run here stay.
-void remove_leftovers(const std::filesystem::path& folder,
-                      const std::function<bool(const std::string& name)>& is_meant);
+// Removes the unfinished files of these names that killed processes left in a folder. Those of
+// processes that still run stay, and so do those of other machines until they are a week old.
+void remove_leftovers(const std::filesystem::path& folder, const std::set<std::string>& names);
 
 // What a signal handler may call before it ends the program: removes all unfinished files of this
 // process. Beyond 64 at a time they stay.

@@ -23,7 +23,8 @@ bool is_font_ending(const std::string& ending) {
 
 std::vector<fs::path> font_folders() {
   std::vector<fs::path> folders;
-  if (const char* const home = std::getenv("HOME")) {
+  // Not in the folder that is current, which may be anyone's.
+  if (const char* const home = std::getenv("HOME"); home != nullptr && *home == '/') {
     folders.push_back(fs::path(home) / ".local/share/fonts");
     folders.push_back(fs::path(home) / ".fonts");
     folders.push_back(fs::path(home) / "Library/Fonts");

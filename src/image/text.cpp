@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <new>
 #include <stdexcept>
 
 #include "image/font_folders.h"
@@ -121,9 +122,13 @@ double start_of(const Line& line, double width, TextAlignment alignment) {
 
 Font::Font(const std::string& name) : name_(name), face_(std::make_shared<Face>()) {
   const std::filesystem::path file = find_font(name);
-  if (FT_Init_FreeType(&face_->library) != 0 ||
-      FT_New_Face(face_->library, file.c_str(), 0, &face_->face) != 0 ||
-      !FT_IS_SCALABLE(face_->face)) {
+  if (FT_Init_FreeType(&face_->library) != 0) throw std::bad_alloc();
+  const FT_Error error = FT_New_Face(face_->library, file.c_str(), 0, &face_->face);
+  if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+  if (error == FT_Err_Cannot_Open_Resource) {
+    throw DataError("font " + file.string() + ": cannot be opened; check its permissions");
+  }
+  if (error != 0 || !FT_IS_SCALABLE(face_->face)) {
     throw UsageError("font " + file.string() +
                      ": found no font with outlines, expected a .ttf or .otf file");
   }

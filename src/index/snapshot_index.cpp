@@ -189,6 +189,7 @@ SnapshotIndex SnapshotIndex::make(const Snapshot& snapshot,
         info.files.empty() ? "the snapshot" : info.files.front().string(), info.format));
   }
   SnapshotIndex index;
+  index.key_ = key_of(info);
   for (const ParticleTypeInfo& type : info.types)
     index.types_.push_back(index_type(snapshot, type, progress));
   return index;
@@ -242,8 +243,14 @@ void SnapshotIndex::write(const SnapshotInfo& info) const {
     throw UsageError(fmt::format(
         "{}: found a file that is no index, expected none or an index; move it", path.string()));
   }
+  const std::uint64_t key = key_of(info);
+  if (key_ && *key_ != key) {
+    throw DataError(info.files.front().string() +
+                    ": was written anew while its index was made; make it again when the snapshot "
+                    "is complete");
+  }
   std::vector<std::byte> bytes;
-  const FileHeader header = {mark, key_of(info), types_.size()};
+  const FileHeader header = {mark, key, types_.size()};
   append(bytes, &header, sizeof header);
   for (const Type& type : types_) {
     const TypeHeader head = {type.type, type.count, type.has_smoothing_lengths ? 1u : 0u};

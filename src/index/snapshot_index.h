@@ -43,7 +43,8 @@ class SnapshotIndex {
   // Whether there is one beside the snapshot: stale, where read() does not take it.
   static bool is_there(const SnapshotInfo& info);
 
-  // Throws DataError when the file cannot be written, UsageError when another one is in its place.
+  // Throws DataError when the file cannot be written, or the snapshot has been written anew since
+  // it was read, UsageError when another one is in its place.
   void write(const SnapshotInfo& info) const;
 
   const std::vector<Type>& types() const { return types_; }
@@ -51,6 +52,7 @@ class SnapshotIndex {
 
  private:
   std::vector<Type> types_;
+  std::optional<std::uint64_t> key_;  // of the files, before they were read
 };
 
 }  // namespace splotchcl

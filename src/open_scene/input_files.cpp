@@ -96,13 +96,14 @@ std::set<std::filesystem::path> files_read(const std::filesystem::path& file, co
   return inputs.all();
 }
 
-void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files) {
+void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files,
+                        ContentMarks& marks) {
   const std::string advice = "give all processes the same files";
   require_same(ranks, "a number of files to read of", std::to_string(files.size()), advice);
   for (const std::filesystem::path& file : files) {
     const std::optional<FileIdentity> found = file_identity(file);
     const std::string content =
-        found ? fmt::format("{} bytes (mark {:016x})", found->bytes, content_mark(file)) : "none";
+        found ? fmt::format("{} bytes (mark {:016x})", found->bytes, marks.of(file)) : "none";
     require_same(ranks, "in " + file.string(), content, advice);
   }
 }

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "common/file_identity.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl {
@@ -50,6 +51,7 @@ std::set<std::filesystem::path> files_read(const std::filesystem::path& file, co
 // Collective, before anything is drawn. Throws DeviceError on all ranks where they have not as many
 // files, or one of these that holds something else: hosts may have disks of their own. Of large
 // files stretches are compared.
-void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files);
+void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files,
+                        ContentMarks& marks);
 
 }  // namespace splotchcl

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "parallel/in_background.h"
 #include "reference/profile.h"
 #include "scene/projection.h"
 #include "splotchcl/reference.h"
@@ -174,7 +175,7 @@ std::vector<Layer> composite(const std::vector<Splat>& splats, const Frame& fram
   // Futures carry an exception of any thread here, after all have ended.
   std::vector<std::future<void>> others;
   for (int t = 1; t < thread_count; ++t) {
-    others.push_back(std::async(std::launch::async, draw_or_fail, t));
+    others.push_back(in_background([&draw_or_fail, t] { draw_or_fail(t); }));
   }
   draw_or_fail(0);
   for (std::future<void>& other : others)

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "formats/concurrent_reading.h"
+#include "parallel/in_background.h"
 #include "sequence/interpolated_snapshot.h"
 #include "sequence/snapshot_pair.h"
 #include "snapshot/snapshot_list.h"
@@ -199,19 +200,17 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
 
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
-  // Where there are no more threads, it is read when it is asked for.
-  ahead_ =
-      std::async(std::launch::async | std::launch::deferred,
-                 [listed = list_[next], neighbor = member(edge), is_forward, settings = settings_] {
-                   Ahead ahead;
-                   ahead.member = open_member(listed);
-                   read_fields(*ahead.member, neighbor->fields_read());
-                   if (settings.interpolation != Interpolation::none) {
-                     ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
-                                             : make_pair(ahead.member, neighbor, settings);
-                   }
-                   return ahead;
-                 });
+  ahead_ = in_background(
+      [listed = list_[next], neighbor = member(edge), is_forward, settings = settings_] {
+        Ahead ahead;
+        ahead.member = open_member(listed);
+        read_fields(*ahead.member, neighbor->fields_read());
+        if (settings.interpolation != Interpolation::none) {
+          ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
+                                  : make_pair(ahead.member, neighbor, settings);
+        }
+        return ahead;
+      });
 }
 
 void SnapshotSource::State::check(const SequenceSettings& settings) {

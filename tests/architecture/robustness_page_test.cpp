@@ -1,4 +1,4 @@
-// docs/robustness.md says by which test each promise is held: those tests exist.
+// Two pages say by which test each promise is held: those tests exist.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,9 +33,22 @@ std::set<TestName> tests_of_the_project() {
   return tests;
 }
 
+std::set<std::string> tests_of_python() {
+  std::set<std::string> tests;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(test::source_folder() / "tests")) {
+    if (entry.path().extension() != ".py") continue;
+    for (const Match& found : matches_of(content_of(entry.path()), R"(\bdef (test_\w+)\()"))
+      tests.insert(found[1]);
+  }
+  return tests;
+}
+
+constexpr const char* pages[] = {"docs/robustness.md", "docs/dev/security.md"};
+
 // `Suite.Name`, `.Name` of the suite before it, `Suite.*` and `*.Name`.
-std::vector<TestName> tests_that_are_named() {
-  const std::string text = content_of(test::source_folder() / "docs/robustness.md");
+std::vector<TestName> tests_that_are_named(const std::string& page) {
+  const std::string text = content_of(test::source_folder() / page);
   std::vector<TestName> named;
   std::string suite;
   for (const Match& found : matches_of(text, R"(`(\w*|\*)\.([A-Z]\w+|\*)`)")) {
@@ -56,10 +69,25 @@ bool is_among(const TestName& named, const std::set<TestName>& tests) {
 
 TEST(RobustnessPage, NamesTestsThatExist) {
   const std::set<TestName> tests = tests_of_the_project();
-  const std::vector<TestName> named = tests_that_are_named();
-  EXPECT_GT(named.size(), 50U);
-  for (const TestName& name : named)
-    EXPECT_TRUE(is_among(name, tests)) << name.first << "." << name.second;
+  for (const char* const page : pages) {
+    const std::vector<TestName> named = tests_that_are_named(page);
+    EXPECT_GT(named.size(), 15U);
+    for (const TestName& name : named)
+      EXPECT_TRUE(is_among(name, tests)) << page << ": " << name.first << "." << name.second;
+  }
+}
+
+TEST(RobustnessPage, NamesTestsOfPythonThatExist) {
+  const std::set<std::string> tests = tests_of_python();
+  for (const char* const page : pages) {
+    const std::string text = content_of(test::source_folder() / page);
+    const auto named = matches_of(text, R"(`(test_\w+)`)");
+    EXPECT_FALSE(named.empty());
+    for (const Match& found : named)
+      EXPECT_EQ(tests.count(found[1]), 1U) << page << ": " << found[1];
+    for (const Match& found : matches_of(text, R"(`(tests/[\w/]+\.py)`)"))
+      EXPECT_TRUE(std::filesystem::exists(test::source_folder() / found[1])) << found[1];
+  }
 }
 
 }  // namespace

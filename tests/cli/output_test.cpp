@@ -176,6 +176,22 @@ TEST_F(ClosedStreams, ArePartsOfNoOutput) {
   }
 }
 
+TEST_F(ClosedStreams, ArePartsOfNoFilmAndNoMap) {
+  const std::string film =
+      "movie s --size 32x24 --set path.orbit.degrees=10 --set movie.frames=2 -o ";
+  splotchcl_in(folder_, film + "whole%d.png");
+  splotchcl_in(folder_, "map s -o whole.fits --size 16x16");
+  const std::string told = splotchcl_in(folder_, "info s").out;
+  for (const char* const closed : {"0<&-", "1>&-", "2>&-", "0<&- 1>&- 2>&-"}) {
+    EXPECT_EQ(splotchcl_in(folder_, film + "a%d.png " + closed).exit_code, 0) << closed;
+    EXPECT_EQ(
+        splotchcl_in(folder_, std::string("map s -o a.fits --size 16x16 ") + closed).exit_code, 0);
+    for (const std::string name : {"0.png", "1.png", ".fits"})
+      EXPECT_EQ(read_text(folder_ / ("a" + name)), read_text(folder_ / ("whole" + name))) << closed;
+  }
+  EXPECT_EQ(splotchcl_in(folder_, "info s 0<&-").out, told);
+}
+
 // Of a service, or of a container with another user.
 TEST(HomeThatCannotBeWritten, IsDoneWithout) {
   SKIP_WITHOUT_DEVICE();
@@ -194,6 +210,43 @@ TEST(HomeThatCannotBeWritten, IsNamedWhereNothingElseCanBe) {
              "OPENCL_VENDOR_PATH=$PWD/none \"$splotchcl\" devices");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("/proc/nothing"));
+}
+
+// What lies there, PoCL would run.
+class KernelsOfOthers : public ::testing::Test {
+ protected:
+  void SetUp() override { SKIP_WITHOUT_DEVICE(); }
+  // The folder that PoCL has been given instead.
+  bool are_kept_from(const std::string& environment) const {
+    const std::string render =
+        "unset SPLOTCHCL_CACHE XDG_CACHE_HOME POCL_CACHE_DIR HOME; export TMPDIR=$PWD/tmp; "
+        "mkdir -p tmp; " +
+        environment +
+        "\"$splotchcl\" generate halo --particles 2000 -o s; \"$splotchcl\" render s -o a.png "
+        "--size 32x24";
+    EXPECT_EQ(run_in(folder_, render).exit_code, 0);
+    return run_in(folder_, "ls tmp | grep -q splotchcl-pocl-").exit_code == 0;
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(KernelsOfOthers, AreNotTakenFromTheCurrentFolder) {
+  EXPECT_TRUE(are_kept_from("export HOME=.; "));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ".cache"));
+}
+
+TEST_F(KernelsOfOthers, AreNotTakenFromAFolderThatEverybodyKnows) {
+  EXPECT_TRUE(are_kept_from(""));
+}
+
+TEST_F(KernelsOfOthers, AreNotTakenFromAFolderThatOthersMayWriteTo) {
+  EXPECT_TRUE(
+      are_kept_from("mkdir -p home/.cache/pocl; chmod 777 home/.cache/pocl; "
+                    "export HOME=$PWD/home; "));
+}
+
+TEST_F(KernelsOfOthers, AreNoneInAFolderOfOnesOwn) {
+  EXPECT_FALSE(are_kept_from("mkdir -p home/.cache; export HOME=$PWD/home; "));
 }
 
 }  // namespace

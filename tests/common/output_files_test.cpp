@@ -2,11 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
-#include "common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "temporary_folder.h"
 
@@ -62,33 +60,6 @@ TEST_F(OutputFiles, OfAFolderOfTheProgramsOwnDoNotHoldInputs) {
   };
   EXPECT_THROW(check_folder({folder_ / "own" / "below" / "input"}), UsageError);
   EXPECT_NO_THROW(check_folder({folder_ / "data"}));
-}
-
-// No system has a process of this number.
-constexpr const char* killed = ".999999999-1.part";
-
-TEST_F(OutputFiles, AreRidOfWhatAKilledProcessLeftOfThem) {
-  const auto left = folder_ / (std::string(".a.png") + killed);
-  const auto of_another = folder_ / (std::string(".b.png") + killed);
-  const auto of_a_running_one = folder_ / (".a.png." + std::to_string(::getpid()) + "-1.part");
-  for (const auto& file : {left, of_another, of_a_running_one})
-    std::ofstream(file) << "half";
-  check_output_path(folder_ / "a.png");
-  EXPECT_FALSE(std::filesystem::exists(left));
-  EXPECT_TRUE(std::filesystem::exists(of_another));
-  EXPECT_TRUE(std::filesystem::exists(of_a_running_one));
-}
-
-TEST_F(OutputFiles, MayLeaveWhatHasComeUnderTheirNames) {
-  UnfinishedFile late(folder_ / "name");
-  late.write("mine", 4);
-  {
-    UnfinishedFile first(folder_ / "name");
-    first.write("other", 5);
-    EXPECT_TRUE(first.finish_unless_there());
-  }
-  EXPECT_FALSE(late.finish_unless_there());
-  EXPECT_EQ(std::filesystem::file_size(folder_ / "name"), 5U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,6 +41,19 @@ TEST_F(BinaryCacheTest, LeavesNothingUnfinishedBeside) {
   cache_.keep("key", "newer");
   EXPECT_EQ(only_file().extension(), ".kernels");
   EXPECT_EQ(cache_.find("key"), "newer");
+}
+
+TEST_F(BinaryCacheTest, RemovesWhatWasLeftUnfinishedAnHourAgo) {
+  cache_.keep("key", binary_);
+  const fs::path old = only_file().string() + ".123", young = only_file().string() + ".456",
+                 other = folder_ / "other.kernels.123";
+  for (const fs::path& file : {old, young, other})
+    std::ofstream(file) << "half";
+  for (const fs::path& file : {old, other})
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  cache_.keep("key", binary_);
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(young) && fs::exists(other));
 }
 
 TEST_F(BinaryCacheTest, IgnoresAFileThatIsCutOrOfAnotherKey) {

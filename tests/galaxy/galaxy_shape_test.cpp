@@ -41,6 +41,19 @@ TEST(GalaxyShape, RadiusKeepsACompanionOut) {
   }
 }
 
+// However far it is said to reach: beyond the corners there is nothing, and no time is spent there.
+TEST(GalaxyShape, RadiusBeyondThePictureIsThatOfItsCorners) {
+  const Image image = DiskPicture().draw();
+  const Galaxy whole = make_galaxy(image, small_settings());
+  for (const double radius : {1000.0, 2147483647.0, 1e300}) {
+    GalaxySettings settings = small_settings();
+    settings.radius_pixels = radius;
+    const Galaxy galaxy = make_galaxy(image, settings);
+    EXPECT_EQ(galaxy.gas.position, whole.gas.position) << radius;
+    EXPECT_EQ(galaxy.gas.mass, whole.gas.mass) << radius;
+  }
+}
+
 TEST(GalaxyShape, AnInclinedDiskBecomesRound) {
   DiskPicture picture;
   picture.axis_ratio = 0.5;

@@ -121,6 +121,15 @@ TEST_F(Index, IsNotUsedWhereItIsDamaged) {
   }
 }
 
+TEST_F(Index, IsNotKeptWhereItsSnapshotIsWrittenAnewMeanwhile) {
+  const auto snapshot = write(long_row());
+  const SnapshotIndex index = SnapshotIndex::make(*snapshot, {});
+  std::filesystem::last_write_time(
+      folder_ / "row", std::filesystem::last_write_time(folder_ / "row") + std::chrono::seconds(1));
+  EXPECT_THROW(index.write(snapshot->info()), DataError);
+  EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
 TEST_F(Index, IsNotReadWhereItHasGrown) {
   const auto snapshot = write(long_row());
   SnapshotIndex::make(*snapshot, {}).write(snapshot->info());

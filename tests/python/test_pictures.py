@@ -1,6 +1,7 @@
 """Pictures have the bits of the command line's, and keep their tolerance."""
 
 import base64
+import os
 import subprocess
 import sys
 import numpy as np
@@ -167,19 +168,59 @@ VoH7FNFP8AAA6bSURBVHicnZtJcyQ5coXfc0Rkkr1oTGaaq/7/79JVJ9n0TJEZAX86uDuAyGRV9XRUGg
 
 
 @pytest.mark.parametrize(
-    "call", ["splotchcl.Image.open(path)", "splotchcl.galaxy(path, path + '.hdf5')"]
+    "call",
+    [
+        "splotchcl.Image.open(path)",
+        "splotchcl.galaxy(path, path + '.hdf5')",
+        "splotchcl.reference(scene.copy(), few)",
+        "scene.decide(few)",
+        "splotchcl.movie(scene, path + '.mp4', device='reference')",
+        "splotchcl.reference(fading, few)",
+    ],
 )
 def test_a_picture_that_crashes_a_library_does_not_end_python(tmp_path, call):
     path = tmp_path / "a.png"
     path.write_bytes(base64.b64decode(DAMAGED_PROFILE))
     script = f"""
 import splotchcl, sys
+import numpy as np
 path = sys.argv[1]
+few = splotchcl.Particles().add("gas", position=np.random.default_rng(0).random((10, 3)))
+scene = splotchcl.suggest(few, size=(16, 12))
+scene.copy().save(path + ".toml")
+scene["image.background_image"] = path
+scene.save(path + ".toml")
+fading = splotchcl.suggest(few, size=(16, 12))
+fading["finish.cross_fade.scene"] = path + ".toml"
+fading["finish.cross_fade.amount"] = 0.5
 try:
     {call}
-except splotchcl.Error:
-    pass
-sys.exit(3)
+except splotchcl.Error as error:
+    sys.exit(3 if "crashed" in str(error) else str(error))
+sys.exit("no error")
 """
     command = [sys.executable, "-c", script, str(path)]
     assert subprocess.run(command, timeout=120, check=False).returncode == 3
+
+
+def test_who_reads_a_picture_first_runs_no_code_of_the_current_folder(tmp_path):
+    for name in ("splotchcl.py", "numpy.py", "os.py"):
+        (tmp_path / name).write_text("open('code_ran', 'w')\n")
+    script = tmp_path / "elsewhere" / "script.py"
+    script.parent.mkdir()
+    script.write_text(
+        "import splotchcl, sys\n"
+        "try:\n    splotchcl.Image.open(sys.argv[1])\n"
+        "except splotchcl.DataError:\n    sys.exit(3)\n"
+    )
+    (tmp_path / "a.png").write_bytes(base64.b64decode(DAMAGED_PROFILE))
+    folders = os.pathsep.join(os.path.abspath(folder) for folder in sys.path if folder)
+    ended = subprocess.run(
+        [sys.executable, str(script), "a.png"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": folders},
+        timeout=120,
+        check=False,
+    )
+    assert ended.returncode == 3
+    assert not (tmp_path / "code_ran").exists()

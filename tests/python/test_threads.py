@@ -269,3 +269,38 @@ sys.exit(6)
         [sys.executable, "-c", script, str(tmp_path / "a.npy")], timeout=120, check=False
     ).returncode
     assert code == 4
+
+
+# As a simulation does it with a snapshot of one name, while a picture is drawn of it.
+def test_a_file_that_is_written_anew_again_and_again_does_not_end_python(tmp_path):
+    script = """
+import os, sys, threading
+import numpy as np, splotchcl
+path = sys.argv[1]
+np.save(path, np.random.default_rng(0).random((200000, 3), dtype="f4"))
+whole = open(path, "rb").read()
+scene = splotchcl.suggest(splotchcl.Snapshot(path), size=(32, 24))
+ends = threading.Event()
+def write_anew():
+    while not ends.is_set():
+        with open(path, "wb") as file:
+            file.write(whole[: len(whole) // 3])
+            file.flush()
+            ends.wait(0.005)
+            file.write(whole[len(whole) // 3 :])
+        ends.wait(0.02)
+writer = threading.Thread(target=write_anew)
+writer.start()
+for _ in range(30):
+    try:
+        splotchcl.reference(scene, splotchcl.Snapshot(path))
+    except splotchcl.DataError:
+        pass
+ends.set()
+writer.join()
+sys.exit(7)
+"""
+    code = subprocess.run(
+        [sys.executable, "-c", script, str(tmp_path / "a.npy")], timeout=240, check=False
+    ).returncode
+    assert code == 7

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -96,6 +97,17 @@ void make_own_folder(const std::filesystem::path& folder) {
 #endif
 }
 
+// What processes that were killed left unfinished of this file. To write one takes no hour.
+void remove_leftovers_of(const std::filesystem::path& file) {
+  const std::string begin = file.filename().string() + ".";
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), error)) {
+    if (entry.path().filename().string().compare(0, begin.size(), begin) != 0) continue;
+    const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(error);
+    if (!error && age > std::chrono::hours(1)) std::filesystem::remove(entry.path(), error);
+  }
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> BinaryCache::user_folder() {
@@ -159,6 +171,7 @@ void BinaryCache::keep(const std::string& key, const std::string& binary) const 
   if (!distrust(*folder_).empty()) return;
   std::error_code failure;
   const std::filesystem::path file = file_for(key);
+  remove_leftovers_of(file);
   std::filesystem::path unfinished = file;
   unfinished += "." + std::to_string(std::random_device()());
   {

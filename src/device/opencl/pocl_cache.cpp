@@ -26,14 +26,23 @@ bool can_be_written(const fs::path& folder) {
   return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-// Where PoCL's folder lies; empty where it takes one for temporary files by itself.
+// Where PoCL's folder lies; empty where it takes one among temporary files, under a name that
+// everybody knows.
 fs::path folder_above() {
   if (const fs::path cache = from_environment("XDG_CACHE_HOME"); !cache.empty()) return cache;
   const fs::path home = from_environment("HOME");
   return home.empty() ? fs::path() : home / ".cache";
 }
 
-// What others can write to, PoCL would run.
+// PoCL runs what lies in its folder: one in the folder that is current, or that others made, or may
+// write to, may hold anyone's code.
+bool may_be_of_others(const fs::path& above) {
+  if (!above.is_absolute()) return true;
+  struct stat status = {};
+  return ::stat((above / "pocl").c_str(), &status) == 0 &&
+         (status.st_uid != ::geteuid() || (status.st_mode & S_IWOTH) != 0);
+}
+
 bool is_own(const fs::path& folder) {
   struct stat status = {};
   return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
@@ -55,7 +64,8 @@ std::string unwritable_pocl_cache() {
 }
 
 void give_pocl_a_cache() {
-  if (!from_environment(variable).empty() || unwritable_pocl_cache().empty()) return;
+  if (!from_environment(variable).empty()) return;
+  if (!may_be_of_others(folder_above()) && unwritable_pocl_cache().empty()) return;
   std::error_code error;
   const fs::path folder =
       fs::temp_directory_path(error) / ("splotchcl-pocl-" + std::to_string(::geteuid()));

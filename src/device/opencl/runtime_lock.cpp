@@ -42,10 +42,10 @@ void require_runtime() {
       "anew (multiprocessing's spawn), or fork before anything is drawn");
 }
 
-std::unique_lock<std::recursive_mutex> lock_runtime() {
+RuntimeLock lock_runtime() {
   static std::recursive_mutex mutex;
   require_runtime();
-  return std::unique_lock<std::recursive_mutex>(mutex);
+  return RuntimeLock(mutex);
 }
 
 }  // namespace splotchcl

@@ -2,13 +2,25 @@
 
 #include <mutex>
 
+#include "device/opencl/kept_signals.h"
+
 namespace splotchcl {
+
+// While it lives, no other thread has one, and at its end signals are what they were.
+class RuntimeLock {
+ public:
+  explicit RuntimeLock(std::recursive_mutex& mutex) : lock_(mutex) {}
+
+ private:
+  std::lock_guard<std::recursive_mutex> lock_;
+  KeptSignals signals_;
+};
 
 // Held while platforms are opened, devices and contexts made and programs built: OpenCL
 // implementations should allow several threads there, but loaders and compilers do not all. A
 // process has one OpenCL runtime, hence one lock. Throws DeviceError in a process that was forked
 // after OpenCL had been used.
-[[nodiscard]] std::unique_lock<std::recursive_mutex> lock_runtime();
+[[nodiscard]] RuntimeLock lock_runtime();
 
 // Throws DeviceError there, too.
 void require_runtime();

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/quiet_errors.h"
+#include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 #include "ranks/spread_particles.h"
 #include "splotchcl/error.h"
@@ -119,15 +120,12 @@ struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
     plan_options.certify = options.certify;
     if (options.by_reference) return;
-    // Where there is no thread to be had, it is opened when it is needed.
-    constexpr std::launch later = std::launch::async | std::launch::deferred;
-    renderer =
-        std::async(options.opens_later ? later : std::launch::deferred, [of_renderer =
-                                                                             renderer_options(
-                                                                                 options)] {
-          const QuietErrors quiet;
-          return std::make_shared<Renderer>(of_renderer);
-        }).share();
+    const auto open = [of_renderer = renderer_options(options)] {
+      const QuietErrors quiet;
+      return std::make_shared<Renderer>(of_renderer);
+    };
+    renderer = options.opens_later ? in_background(open).share()
+                                   : std::async(std::launch::deferred, open).share();
     if (!options.opens_later) renderer.get();
   }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "finish/tone_levels.h"
+#include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 
 namespace splotchcl {
@@ -40,8 +41,7 @@ RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snap
   tell_of_bad_particles(drawn);
   finish();
   if (output.empty()) return drawn.stats;
-  writing_ = std::async(
-      std::launch::async | std::launch::deferred,  // later, where there may be no more threads
+  writing_ = in_background(
       [output, pictures = std::move(drawn.pictures),
        options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
         write_pictures(output, pictures, options);

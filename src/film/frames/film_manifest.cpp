@@ -15,19 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string line_of(const fs::path& file) {
+std::string line_of(const fs::path& file, ContentMarks& marks) {
   const std::optional<FileIdentity> found = file_identity(file);
   // A base name, whose files have lines of their own.
   if (!found) return file.string();
   std::error_code error;
   return fmt::format("{}, {}, holds {:016x}", fs::absolute(file, error).string(), describe(found),
-                     content_mark(file));
+                     marks.of(file));
 }
 
-std::vector<std::string> lines_of(const InputFiles& inputs) {
+std::vector<std::string> lines_of(const InputFiles& inputs, ContentMarks& marks) {
   std::vector<std::string> lines;
   for (const fs::path& file : inputs.with_sets())
-    lines.push_back(line_of(file));
+    lines.push_back(line_of(file, marks));
   return lines;
 }
 
@@ -51,10 +51,11 @@ std::set<fs::path> film_files_read(const fs::path& file, const Scene& scene, con
   return inputs.all();
 }
 
-std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference) {
+std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference,
+                          ContentMarks& marks) {
   std::string text =
       fmt::format("splotchcl {}, {}\n", SPLOTCHCL_VERSION, by_reference ? "reference" : "device");
-  for (const std::string& input : lines_of(film_inputs(scene, path)))
+  for (const std::string& input : lines_of(film_inputs(scene, path), marks))
     text += "input " + input + "\n";
   scene.movie = {};
   scene.path = {};

@@ -21,6 +21,7 @@ std::set<std::filesystem::path> film_files_read(const std::filesystem::path& fil
 // tolerance: the scene as it was decided, what each frame sets, and the files of data, palettes,
 // lists, pictures and fonts, also those of scenes that it fades to, with their size, their time and
 // what they hold.
-std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference);
+std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference,
+                          ContentMarks& marks);
 
 }  // namespace splotchcl

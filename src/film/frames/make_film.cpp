@@ -86,6 +86,7 @@ class Film {
   FilmResult make() {
     bool is_complete = false;
     std::vector<int> frames;
+    ContentMarks marks;
     agree(options_.ranks.get(), [&] {
       is_complete = has_files() && options_.only_join && !files_.is_begun();
       if (is_complete) require_complete();
@@ -97,12 +98,14 @@ class Film {
       scene_.decide();
       scene_.check_files();
       if (!has_files()) return;
-      files_.open(film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference),
-                  scene_.path().frame_count());
+      files_.open(
+          film_manifest(as_stored(scene_.scene()), scene_.path(), options_.by_reference, marks),
+          scene_.path().frame_count());
       if (!options_.only_join) frames = missing(part_);
     });
     if (options_.ranks) {
-      require_same_files(*options_.ranks, film_inputs(scene_.scene(), scene_.path()).with_sets());
+      require_same_files(*options_.ranks, film_inputs(scene_.scene(), scene_.path()).with_sets(),
+                         marks);
       broadcast_values(*options_.ranks, frames);
     }
     draw(frames);
@@ -196,7 +199,19 @@ class Film {
       if (report_.drawn) report_.drawn(frames[i], stats);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
-    agree(options_.ranks.get(), [&] { drawer.finish(); });
+    agree(options_.ranks.get(), [&] {
+      drawer.finish();
+      if (has_files()) require_drawn(frames);
+    });
+  }
+
+  // Somebody else may tidy up where they lie.
+  void require_drawn(const std::vector<int>& frames) const {
+    for (const int frame : missing(frames)) {
+      throw DataError(files_.picture(frame, "").string() +
+                      ": was drawn, but is not there any more, or is another file; draw it again "
+                      "and leave it where it is");
+    }
   }
 
   void stop_if_asked(FilmDrawer& drawer) const {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -14,6 +15,7 @@
 
 #include "common/file_identity.h"
 #include "common/folder_of.h"
+#include "common/reason.h"
 #include "common/text_file.h"
 #include "common/unfinished_file.h"
 #include "film/movie/encoder.h"
@@ -181,24 +183,27 @@ bool FrameFiles::has(int frame) const {
 void FrameFiles::remove_leftovers(const std::vector<int>& frames) const {
   std::set<std::string> names;
   for (const int frame : frames) {
-    for (const std::string& suffix : suffixes_)
-      names.insert(picture(frame, suffix).filename().string());
+    for (const std::string& suffix : suffixes_) {
+      const std::filesystem::path path = picture(frame, suffix);
+      names.insert(path.filename().string());
+      // In a film's folder nobody means what a link leads to, which would be written into.
+      std::error_code error;
+      if (is_film_ && std::filesystem::is_symlink(path, error)) {
+        std::filesystem::remove(path, error);
+      }
+    }
   }
-  splotchcl::remove_leftovers(folder_,
-                              [&](const std::string& name) { return names.count(name) > 0; });
+  splotchcl::remove_leftovers(folder_, names);
 }
 
 void FrameFiles::remove_unfinished_film(const std::string& suffix) const {
   const std::filesystem::path path = film(suffix);
-  splotchcl::remove_leftovers(folder_of(path), [name = path.filename().string()](
-                                                   const std::string& n) { return n == name; });
+  splotchcl::remove_leftovers(folder_of(path), {path.filename().string()});
 }
 
 void FrameFiles::close(const std::vector<int>& frames) {
   remove_leftovers(frames);
-  const std::string manifest = manifest_.filename().string();
-  splotchcl::remove_leftovers(folder_of(manifest_),
-                              [&](const std::string& name) { return name == manifest; });
+  splotchcl::remove_leftovers(folder_of(manifest_), {manifest_.filename().string()});
   std::error_code ignored;
   if (is_film_) remove_frames();
   std::filesystem::remove(manifest_, ignored);
@@ -216,18 +221,26 @@ void FrameFiles::remove_frames() const {
       if (is_own(frame, suffix)) std::filesystem::remove(path, ignored);
     }
   }
-  splotchcl::remove_leftovers(folder_,
-                              [&](const std::string& name) { return names.count(name) > 0; });
+  splotchcl::remove_leftovers(folder_, names);
 }
 
 FrameFiles::Lock::Lock(const FrameFiles& files) {
-  const int descriptor = ::open(files.manifest_.c_str(), O_RDONLY | O_CLOEXEC);
+  const std::string name = files.manifest_.string();
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0 && errno != ENOENT) {
+    throw DataError(name + ": cannot be opened: " + reason(errno));
+  }
   if (descriptor < 0) return;
+  const int error = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   // Who held it before may have ended the film, and removed the file that was opened here.
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_file_at(files.manifest_, descriptor)) {
+  if (error == 0 && is_file_at(files.manifest_, descriptor)) {
     descriptor_ = descriptor;
-  } else {
-    ::close(descriptor);
+    return;
+  }
+  ::close(descriptor);
+  if (error != 0 && error != EWOULDBLOCK) {
+    throw DataError(name + ": cannot be locked: " + reason(error) +
+                    "; make the film on another file system");
   }
 }
 

@@ -24,7 +24,13 @@ class Hdf5Handle {
 
  private:
   void reset() {
-    if (id_ >= 0) Close(id_);
+    if (id_ >= 0) {
+      // Nobody can do anything about it, and the library would have lines of its own.
+      H5E_BEGIN_TRY {
+        Close(id_);
+      }
+      H5E_END_TRY
+    }
     id_ = H5I_INVALID_HID;
   }
   hid_t id_ = H5I_INVALID_HID;

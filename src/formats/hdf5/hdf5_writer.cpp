@@ -6,8 +6,16 @@ namespace splotchcl {
 namespace {
 
 using Attribute = Hdf5Handle<H5Aclose>;
+using Properties = Hdf5Handle<H5Pclose>;
 using Space = Hdf5Handle<H5Sclose>;
 using Type = Hdf5Handle<H5Tclose>;
+
+// The same call writes the same file.
+Properties without_times(hid_t of) {
+  Properties properties(H5Pcreate(of));
+  H5Pset_obj_track_times(properties.id(), false);
+  return properties;
+}
 
 }  // namespace
 
@@ -24,8 +32,9 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& temporary, const std::filesy
                     "the file")) {}
 
 OpenGroup Hdf5Writer::create_group(const std::string& name) const {
+  const Properties timeless = without_times(H5P_GROUP_CREATE);
   return OpenGroup(
-      require(H5Gcreate2(file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+      require(H5Gcreate2(file_.id(), name.c_str(), H5P_DEFAULT, timeless.id(), H5P_DEFAULT), name));
 }
 
 OpenDataset Hdf5Writer::write_dataset(hid_t in, const std::string& name, hid_t file_type,
@@ -33,10 +42,13 @@ OpenDataset Hdf5Writer::write_dataset(hid_t in, const std::string& name, hid_t f
                                       const void* values) const {
   const Space space(
       require(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), name));
+  const Properties timeless = without_times(H5P_DATASET_CREATE);
   OpenDataset dataset(require(
-      H5Dcreate2(in, name.c_str(), file_type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(in, name.c_str(), file_type, space.id(), H5P_DEFAULT, timeless.id(), H5P_DEFAULT),
       name));
   require(H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+  // Small ones wait to be written until they are closed, where nobody hears of a full disk.
+  require(H5Dflush(dataset.id()), name);
   return dataset;
 }
 

@@ -14,6 +14,7 @@ from . import _core, _toml
 from ._opencl import using_opencl
 from ._render import Progress, keys_of
 from ._scene import Scene
+from ._untrusted import check_pictures_of
 
 
 @dataclass(frozen=True)
@@ -73,8 +74,17 @@ def movie(
         file = Path(scene) if not isinstance(scene, Scene) else Path(folder, "scene.toml")
         if isinstance(scene, Scene):
             scene.save(file)
+        _check_pictures(file, pairs)
         with nullcontext() if by_reference else using_opencl():
             state, count, notes = _core.make_film(
                 file, Path(path), pairs, name, by_reference, frames, part, progress
             )
     return Film(Path(path), state, count, notes)
+
+
+def _check_pictures(file: Path, settings: list[str]) -> None:
+    try:
+        scene = _core.read_scene(file, settings)
+    except _core.Error:
+        return  # a snapshot, or who makes the film says what is wrong
+    check_pictures_of(scene)

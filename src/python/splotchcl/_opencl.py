@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import importlib.util
 import os
-import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from ._core import DeviceError
+from ._process import run_python
 
 # Threads of OpenCL do not live on in a child that was forked: drawing there would never end.
 _used_in: list[int] = []
@@ -43,11 +43,7 @@ def _choose_packaged_opencl() -> None:
     library = _packaged_opencl()
     if library is None or "OCL_ICD_VENDORS" in os.environ or not sys.executable:
         return
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    asked = subprocess.run(
-        [sys.executable, "-c", _ASK_FOR_DEVICES], env=environment, capture_output=True, check=False
-    )
-    if asked.returncode != 0:
+    if run_python(_ASK_FOR_DEVICES) != 0:
         os.environ["OCL_ICD_VENDORS"] = str(library)
 
 

@@ -15,6 +15,7 @@ from ._image import Image
 from ._opencl import using_opencl
 from ._scene import Scene
 from ._sources import Particles, Snapshot, Source
+from ._untrusted import check_pictures_of
 
 Progress = Callable[[str, float], object]
 
@@ -190,6 +191,7 @@ class Renderer:
         return next(iter(pictures.values()))
 
     def _draw(self, what: Drawable, progress: Progress | None) -> dict[str, Image]:
+        check_pictures_of(what.scene._scene)
         with nullcontext() if self._by_reference else using_opencl():
             drawn = self._drawer.draw(what.scene._scene, what.source._source, progress)
         pictures, notes, stats, decided = drawn

@@ -12,6 +12,7 @@ from typing import Any
 from . import _core, _toml
 from ._core import UsageError
 from ._sources import Source
+from ._untrusted import check_pictures_of
 
 _FROM_ARRAYS = 'snapshot="arrays"'
 
@@ -109,6 +110,7 @@ class Scene(MutableMapping[str, Any]):
         source : Snapshot or Particles, optional
             None: the scene's own snapshot.
         """
+        check_pictures_of(self._scene)
         data = _core.snapshot_of(self._scene) if source is None else source._source
         return Scene._of(_core.decide(self._scene, data, None)[0], self._suggested)
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import functools
 import os
-import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+from . import _core, _toml
 from ._core import DataError
+from ._process import run_python
 
 _READ = "import sys; from splotchcl import _core; _core.read_image(sys.argv[1])"
 
@@ -30,13 +33,31 @@ def check_picture(path: str | os.PathLike[str]) -> None:
         )
 
 
+def check_pictures_of(scene: _core.Scene) -> None:
+    """The same of the picture behind the particles, and of that of the scene that is faded to."""
+    text = scene.to_toml()
+    if "background_image" not in text and "cross_fade" not in text:
+        return
+    tables = _toml.parse(text)
+    _check_behind(tables)
+    other = tables.get("finish", {}).get("cross_fade", {}).get("scene")
+    if other:
+        try:
+            faded_to = _core.read_scene(Path(other), [])
+        except _core.Error:
+            return  # who draws it says what is wrong
+        _check_behind(_toml.parse(faded_to.to_toml()))
+
+
+def _check_behind(tables: Mapping[str, Any]) -> None:
+    picture = tables.get("image", {}).get("background_image")
+    if picture:
+        check_picture(picture)
+
+
 # The numbers tell a file that was written anew.
 @functools.lru_cache(maxsize=256)
 def _crashes(path: str, node: int, size: int, time: int) -> bool:
     if not sys.executable:
         return False
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    read = subprocess.run(
-        [sys.executable, "-c", _READ, path], env=environment, capture_output=True, check=False
-    )
-    return read.returncode < 0
+    return run_python(_READ, path) < 0

@@ -197,6 +197,17 @@ TEST_F(Films, TakeNoForeignPicturesInTheFolderOfTheirFrames) {
   EXPECT_TRUE(has("film.mp4.frames/frame_000009.png"));
 }
 
+TEST_F(Films, WriteThroughNoLinksInTheFolderOfTheirFrames) {
+  if (std::system("command -v ffmpeg > /dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
+  options_.output = folder_ / "film.mp4";
+  std::ofstream(folder_ / "mine") << "mine";
+  std::filesystem::create_directory(folder_ / "film.mp4.frames");
+  std::filesystem::create_symlink(folder_ / "mine",
+                                  folder_ / "film.mp4.frames" / "frame_000000.png");
+  EXPECT_EQ(make_film(options_, report_).state, FilmState::complete);
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "mine"), 4U);
+}
+
 // Frames 0 and 1 are drawn of a film that was stopped, then 0 alone is asked for.
 class FilmsOfAnInterruptedOne : public Films {
  protected:
