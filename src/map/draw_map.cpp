@@ -199,12 +199,12 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   describe_place(geometry, settings, fields.snapshot_info(), units, map);
   map.tolerance = one.tolerance;
   map.floor = weighted.floor();
-  map.value_floor = weighted.value_floor() * units.factor;
   map.particles = matter.count;
   map.images = placed.count();
   map.bad_particles = placed.bad + weighted.bad();
   const std::vector<double> values = weighted.draw(picture, draw);
   map.values = in_unit(values, units);
+  map.value_floor = weighted.value_floor() * units.factor;
   if (settings.noise) {
     map.effective_particles =
         draw_effective_particles(placed, weighted, picture, settings.floor, draw);

@@ -34,6 +34,7 @@ class Placer {
       throw DataError("found more than 4294967295 particles, expected fewer in one map");
     }
     check_reach();
+    reserve();
     for (std::size_t i = 0; i < matter_.count; ++i) {
       if (matter_.is_good(i)) {
         place_images(static_cast<std::uint32_t>(i));
@@ -45,6 +46,14 @@ class Placer {
   }
 
  private:
+  // Of most maps for all there is.
+  void reserve() {
+    placed_.position.reserve(3 * matter_.count);
+    placed_.size.reserve(matter_.count);
+    placed_.source.reserve(matter_.count);
+    placed_.share.reserve(matter_.count);
+  }
+
   // Each box that a kernel reaches has an image of it.
   void check_reach() const {
     if (!geometry_.box) return;
@@ -101,6 +110,8 @@ class Placer {
                            std::abs(geometry_.forward.a[k]) * half[2];
       // A little more on each side, so that rounding loses none: place_one decides.
       constexpr double slack = 1e-6;
+      // Of most particles no other image can be seen.
+      if (std::abs(offset.a[k]) + reach < (1 - slack) * box[k]) continue;
       first[k] = static_cast<int>(std::ceil((-reach - offset.a[k]) / box[k] - slack));
       last[k] = static_cast<int>(std::floor((reach - offset.a[k]) / box[k] + slack));
     }
@@ -121,8 +132,8 @@ class Placer {
     if (depth < -half[2] || depth >= half[2]) return;
     if (std::abs(right) > half[0] || std::abs(up) > half[1]) return;
     const double x = right / geometry_.pixel, y = -up / geometry_.pixel, size = h / geometry_.pixel;
-    for (const double value : {x, y, 0.0})
-      placed_.position.push_back(static_cast<float>(value));
+    const std::array<float, 3> place = {static_cast<float>(x), static_cast<float>(y), 0};
+    placed_.position.insert(placed_.position.end(), place.begin(), place.end());
     placed_.size.push_back(static_cast<float>(size));
     placed_.source.push_back(i);
     const double width = sigma_ * size;

@@ -14,13 +14,15 @@ namespace splotchcl {
 struct SumRequest {
   // Of each placed particle, >= 0: what its kernel spreads over the picture.
   std::vector<float> weight;
-  // Three factors >= 0 of each placed particle, one for each sum.
+  // Three factors >= 0 of each placed particle, one for each sum; empty: the weights alone are
+  // summed up. The second and the third are two parts of one sum, as what lies above 0 and below.
   std::vector<float> factors;
-  // The weight per pixel that counts as the display's white, to which the tolerance is relative.
-  double white = 1;
+  // Per pixel, > 0. Each sum is known to the tolerance of itself, or of both parts together, or of
+  // this where that is more.
+  double floor = 1;
 };
 
-// Per pixel, row 0 at the top, in the weights' unit.
+// Per pixel, row 0 at the top, in the weights' unit; without factors the first one alone.
 using PixelSums = std::array<std::vector<double>, 3>;
 
 struct SumPicture {
