@@ -188,7 +188,8 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);
-  WeightedValues weighted(placed, quantity, settings.floor, geometry, fields.particles_per_drawn());
+  WeightedValues weighted(placed, quantity, settings.floor, geometry, one.kernel.width,
+                          fields.particles_per_drawn());
   const SumPicture picture = {geometry.width, geometry.height, one.kernel.width, one.tolerance};
 
   Map map;

@@ -18,10 +18,11 @@ using namespace boost::qvm;
 // Beyond this many sigma is 2e-16 of a particle.
 constexpr double reach_sigmas = 6;
 
-// Of a kernel around x, how much lies between -half and half.
+// Of a kernel around x, how much lies between -half and half: with all its digits, however little.
 double share_between(double x, double half, double sigma) {
-  if (half - std::abs(x) > reach_sigmas * sigma) return 1;
-  return 0.5 * (std::erf((half - x) / sigma) + std::erf((half + x) / sigma));
+  const double away = std::abs(x);
+  if (half - away > reach_sigmas * sigma) return 1;
+  return 0.5 * (std::erfc((away - half) / sigma) - std::erfc((away + half) / sigma));
 }
 
 class Placer {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "map/expected_least.h"
+#include "scene/constants.h"
 
 namespace splotchcl {
 namespace {
@@ -127,15 +128,33 @@ class SumDrawing {
 
 }  // namespace
 
+double least_floor(const std::vector<float>& size, const std::vector<float>& weight,
+                   const std::vector<float>& factors, double kernel_width) {
+  constexpr double digits = 0x1p-50;
+  double brightest = 0;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    const double sigma = kernel_width * static_cast<double>(size[i]);
+    double light = static_cast<double>(weight[i]) / std::max(1.0, pi * sigma * sigma);
+    if (!factors.empty()) {
+      const auto of_particle = factors.begin() + 3 * static_cast<std::ptrdiff_t>(i);
+      light *= static_cast<double>(*std::max_element(of_particle, of_particle + 3));
+    }
+    brightest = std::max(brightest, light);
+  }
+  return digits * brightest;
+}
+
 PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& size,
                     SumRequest request, const SumPicture& picture, const DrawFrame& draw) {
+  if (placed.count() == 0) {
+    const std::vector<double> nothing(static_cast<std::size_t>(picture.width) *
+                                      static_cast<std::size_t>(picture.height));
+    return {nothing, nothing, nothing};
+  }
   const std::size_t sums = request.factors.empty() ? 1 : PixelSums().size();
   const Rectangle whole = {0, 0, picture.width, picture.height};
-  const double floor = request.floor;
-  if (placed.count() == 0) {
-    SumDrawing nothing(empty_frame(picture), sums, draw);
-    return nothing.take();
-  }
+  const double floor = std::max(
+      request.floor, least_floor(size, request.weight, request.factors, picture.kernel_width));
   // A cell's mean is more than its darkest pixel has.
   constexpr double of_least = 0.5;
   double white = std::max(floor, of_least * expected_least_sum(placed, size, request, picture));

@@ -18,7 +18,7 @@ struct SumRequest {
   // summed up. The second and the third are two parts of one sum, as what lies above 0 and below.
   std::vector<float> factors;
   // Per pixel, > 0. Each sum is known to the tolerance of itself, or of both parts together, or of
-  // this where that is more.
+  // this or least_floor() where that is more.
   double floor = 1;
 };
 
@@ -30,6 +30,11 @@ struct SumPicture {
   double kernel_width = 1;  // sigma = kernel_width * h
   double tolerance = 1e-3;
 };
+
+// The least floor that sums of these may have: a hair of what the brightest particle gives a pixel,
+// beyond which devices have no digits. `factors` may be empty (SumRequest).
+double least_floor(const std::vector<float>& size, const std::vector<float>& weight,
+                   const std::vector<float>& factors, double kernel_width);
 
 // `size` is h of each placed particle in pixels.
 PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& size,

@@ -12,7 +12,7 @@ constexpr std::size_t denominator = 0, above = 1, below = 2;  // the channels of
 }  // namespace
 
 WeightedValues::WeightedValues(const PlacedParticles& placed, const MapQuantity& quantity,
-                               double floor, const MapGeometry& geometry,
+                               double floor, const MapGeometry& geometry, double kernel_width,
                                double particles_per_drawn)
     : placed_(placed),
       kind_(quantity.kind),
@@ -25,7 +25,8 @@ WeightedValues::WeightedValues(const PlacedParticles& placed, const MapQuantity&
   for (std::size_t i = 0; i < placed.count(); ++i)
     inside += static_cast<double>(placed.share[i]) * static_cast<double>(weight_[i]);
   const double mean = inside / (static_cast<double>(geometry.width) * geometry.height);
-  floor_ = mean > 0 ? floor * mean : 1;
+  floor_ = std::max(floor * mean, least_floor(placed.size, weight_, {}, kernel_width));
+  if (!(floor_ > 0)) floor_ = 1;
   weight_unit_ *= particles_per_drawn;
 }
 

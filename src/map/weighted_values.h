@@ -15,10 +15,11 @@ namespace splotchcl {
 // values are brought to numbers whose means are 1, whatever the snapshot's units are.
 class WeightedValues {
  public:
-  // `floor` is a part of the mean of the weights' column. Each particle that was read stands for
-  // `particles_per_drawn` of the snapshot; the weights of those that stand for more are larger.
+  // `floor` is a part of the mean of the weights' column; it may be raised (least_floor()). Each
+  // particle that was read stands for `particles_per_drawn` of the snapshot; the weights of those
+  // that stand for more are larger.
   WeightedValues(const PlacedParticles& placed, const MapQuantity& quantity, double floor,
-                 const MapGeometry& geometry, double particles_per_drawn);
+                 const MapGeometry& geometry, double kernel_width, double particles_per_drawn);
 
   // Values of the map in the snapshot's units, row 0 at the top. Not a number where the weights
   // of a mean are below the floor.
