@@ -30,7 +30,7 @@ std::vector<float> draw_effective_particles(const PlacedParticles& placed,
     squares += static_cast<double>(placed.share[i]) * static_cast<double>(weight[i]);
   const double pixels = static_cast<double>(picture.width) * picture.height;
   const double least = squares > 0 ? floor * floor * squares / pixels : 1;
-  const PixelSums sums = draw_sums(placed, size, {std::move(weight), {}, least}, picture, draw);
+  const PixelSums sums = draw_sums(placed, size, {weight, {}, least}, picture, draw);
   // Of equal weights all would count, and one at least does: beyond that lies the error of both
   // sums.
   const auto most = static_cast<double>(std::count_if(

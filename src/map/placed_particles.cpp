@@ -133,8 +133,8 @@ class Placer {
     if (depth < -half[2] || depth >= half[2]) return;
     if (std::abs(right) > half[0] || std::abs(up) > half[1]) return;
     const double x = right / geometry_.pixel, y = -up / geometry_.pixel, size = h / geometry_.pixel;
-    const std::array<float, 3> place = {static_cast<float>(x), static_cast<float>(y), 0};
-    placed_.position.insert(placed_.position.end(), place.begin(), place.end());
+    for (const double value : {x, y, 0.0})
+      placed_.position.push_back(static_cast<float>(value));
     placed_.size.push_back(static_cast<float>(size));
     placed_.source.push_back(i);
     const double width = sigma_ * size;

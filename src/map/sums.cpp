@@ -50,7 +50,7 @@ Frame frame_of_sums(const PlacedParticles& placed, const std::vector<float>& siz
   component.particles.count = placed.count();
   component.particles.position = Column(nullptr, placed.position.data(), placed.position.size());
   component.particles.smoothing_length = Column(nullptr, size.data(), size.size());
-  component.particles.weight = Column::owning(std::move(request.weight));
+  component.particles.weight = Column(nullptr, request.weight.data(), request.weight.size());
   if (!request.factors.empty())
     component.particles.color_vector = Column::owning(std::move(request.factors));
   frame.components.push_back(std::move(component));
@@ -144,6 +144,15 @@ double least_floor(const std::vector<float>& size, const std::vector<float>& wei
   return digits * brightest;
 }
 
+namespace {
+
+double floor_of(const std::vector<float>& size, const SumRequest& request, double kernel_width) {
+  if (request.factors.empty()) return request.floor;
+  return std::max(request.floor, least_floor(size, request.weight, request.factors, kernel_width));
+}
+
+}  // namespace
+
 PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& size,
                     SumRequest request, const SumPicture& picture, const DrawFrame& draw) {
   if (placed.count() == 0) {
@@ -153,8 +162,7 @@ PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& siz
   }
   const std::size_t sums = request.factors.empty() ? 1 : PixelSums().size();
   const Rectangle whole = {0, 0, picture.width, picture.height};
-  const double floor = std::max(
-      request.floor, least_floor(size, request.weight, request.factors, picture.kernel_width));
+  const double floor = floor_of(size, request, picture.kernel_width);
   // A cell's mean is more than its darkest pixel has.
   constexpr double of_least = 0.5;
   double white = std::max(floor, of_least * expected_least_sum(placed, size, request, picture));

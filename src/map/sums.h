@@ -12,13 +12,14 @@ namespace splotchcl {
 // Sums over particles, pixel by pixel, as the red, green and blue of one frame that nothing
 // absorbs: they share their splats.
 struct SumRequest {
-  // Of each placed particle, >= 0: what its kernel spreads over the picture.
-  std::vector<float> weight;
+  // Of each placed particle, >= 0: what its kernel spreads over the picture. It outlives the
+  // request.
+  const std::vector<float>& weight;
   // Three factors >= 0 of each placed particle, one for each sum; empty: the weights alone are
   // summed up. The second and the third are two parts of one sum, as what lies above 0 and below.
   std::vector<float> factors;
-  // Per pixel, > 0. Each sum is known to the tolerance of itself, or of both parts together, or of
-  // this or least_floor() where that is more.
+  // Per pixel, > 0, and at least least_floor() of the weights. Each sum is known to the tolerance
+  // of itself, or of both parts together, or of this or least_floor() where that is more.
   double floor = 1;
 };
 

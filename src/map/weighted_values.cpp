@@ -34,25 +34,31 @@ bool WeightedValues::needs_values() const {
   return kind_ != MapQuantity::Kind::column && kind_ != MapQuantity::Kind::counts;
 }
 
+double WeightedValues::weight_of(const MapQuantity& quantity, std::size_t i) const {
+  return static_cast<double>(quantity.weight[placed_.source[i]]) *
+         (is_slice_ ? placed_.in_plane[i] : 1);
+}
+
 void WeightedValues::read_weights(const MapQuantity& quantity) {
-  std::vector<double> weights(placed_.count(), 0);
   double sum = 0;
   // Images of a particle follow each other.
   const auto is_first_image = [this](std::size_t i) {
     return i == 0 || placed_.source[i] != placed_.source[i - 1];
   };
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (!quantity.is_good(placed_.source[i])) {
-      if (is_first_image(i)) ++bad_;
+  std::vector<std::size_t> bad;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    if (quantity.is_good(placed_.source[i])) {
+      sum += weight_of(quantity, i);
       continue;
     }
-    weights[i] = static_cast<double>(quantity.weight[placed_.source[i]]) *
-                 (is_slice_ ? placed_.in_plane[i] : 1);
-    sum += weights[i];
+    bad.push_back(i);
+    if (is_first_image(i)) ++bad_;
   }
-  if (sum > 0) weight_unit_ = sum / static_cast<double>(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    weight_[i] = static_cast<float>(weights[i] / weight_unit_);
+  if (sum > 0) weight_unit_ = sum / static_cast<double>(weight_.size());
+  for (std::size_t i = 0; i < weight_.size(); ++i)
+    weight_[i] = static_cast<float>(weight_of(quantity, i) / weight_unit_);
+  for (const std::size_t i : bad)
+    weight_[i] = 0;
 }
 
 // From a sum per pixel to one per area, or per volume in a plane; counts stay per pixel.

@@ -46,6 +46,7 @@ class WeightedValues {
   using OfValue = std::function<double(double)>;
 
   bool needs_values() const;
+  double weight_of(const MapQuantity& quantity, std::size_t i) const;
   void read_weights(const MapQuantity& quantity);
   double value_of(std::size_t i) const { return static_cast<double>(value_[placed_.source[i]]); }
   // The mean of something of the values by the weights within the picture.

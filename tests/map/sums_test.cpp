@@ -47,14 +47,15 @@ struct Drawings {
   };
 };
 
-SumRequest ones(const PlacedParticles& placed, double floor) {
-  return {std::vector<float>(placed.count(), 1.0F), {}, floor};
+std::vector<float> ones(const PlacedParticles& placed) {
+  return std::vector<float>(placed.count(), 1.0F);
 }
 
 TEST(Sums, AreDrawnAsBrightAsTheirDarkestPixelIs) {
   const PlacedParticles placed = even_gas(-48, 48);
   Drawings drawings;
-  const PixelSums sums = draw_sums(placed, placed.size, ones(placed, 1e-6), picture, drawings.draw);
+  const std::vector<float> weight = ones(placed);
+  const PixelSums sums = draw_sums(placed, placed.size, {weight, {}, 1e-6}, picture, drawings.draw);
   ASSERT_THAT(drawings.all, SizeIs(1));
   EXPECT_GT(drawings.all.front().white, 0.01);
   EXPECT_THAT(sums[0], Each(Ge(drawings.all.front().white)));
@@ -64,7 +65,8 @@ TEST(Sums, AreDrawnAgainWhereTheyAreDarkerThanWasExpected) {
   // The last columns have nothing, the rest is even.
   const PlacedParticles placed = even_gas(-48, 16);
   Drawings drawings;
-  const PixelSums sums = draw_sums(placed, placed.size, ones(placed, 1e-6), picture, drawings.draw);
+  const std::vector<float> weight = ones(placed);
+  const PixelSums sums = draw_sums(placed, placed.size, {weight, {}, 1e-6}, picture, drawings.draw);
   const Drawing& last = drawings.all.back();
   const double least = *std::min_element(sums[0].begin(), sums[0].end());
   EXPECT_TRUE(last.white <= least || last.white == 1e-6);
@@ -74,7 +76,8 @@ TEST(Sums, AreDrawnAgainWhereTheyAreDarkerThanWasExpected) {
 
 TEST(Sums, OfTwoPartsAreAsDarkAsBothTogether) {
   const PlacedParticles placed = even_gas(-48, 48);
-  SumRequest request = ones(placed, 1e-6);
+  const std::vector<float> weight = ones(placed);
+  SumRequest request = {weight, {}, 1e-6};
   // Above 0 on the left, below it on the right: no pixel is without.
   request.factors.assign(3 * placed.count(), 0.0F);
   for (std::size_t i = 0; i < placed.count(); ++i) {
@@ -90,14 +93,14 @@ TEST(Sums, OfTwoPartsAreAsDarkAsBothTogether) {
 
 TEST(Sums, HaveNoFloorBelowTheDigitsOfTheBrightestParticle) {
   const PlacedParticles placed = even_gas(-48, 48);
-  const std::vector<float> weight(placed.count(), 1.0F);
+  const std::vector<float> weight = ones(placed);
   const double peak = 1 / (3.14159265358979 * 16);
   EXPECT_NEAR(least_floor(placed.size, weight, {}, 0.4), 0x1p-50 * peak, 1e-22);
 }
 
 TEST(Sums, OfNothingAreNothing) {
   Drawings drawings;
-  const PixelSums sums = draw_sums({}, {}, {}, picture, drawings.draw);
+  const PixelSums sums = draw_sums({}, {}, {std::vector<float>(), {}, 1}, picture, drawings.draw);
   EXPECT_THAT(drawings.all, SizeIs(0));
   for (const std::vector<double>& sum : sums)
     EXPECT_EQ(sum, std::vector<double>(std::size_t{side} * side));
