@@ -49,6 +49,12 @@ struct Map {
   std::uint64_t particles = 0, images = 0, bad_particles = 0;
 };
 
+// A length as it is written, such as "4Mpc" or "4 Mpc", in the unit that the map's settings have
+// lengths in: the snapshot's, in which a number alone is. `what` begins the message of the
+// UsageError for a text that is none, or a snapshot that does not say its unit.
+double read_map_length(const std::string& text, const Scene& scene, const Snapshot& snapshot,
+                       const std::string& what);
+
 // Draws the map that the scene's [map] says, each of its frames by `draw`. Throws as load does.
 Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
              std::vector<std::string>& notes, const LoadProgress& progress = {});

@@ -42,7 +42,8 @@ struct MapSettings {
   std::optional<Vec3> center;
   MapCenter center_at = MapCenter::box;  // where there is no center
   std::optional<double> width, depth;    // unset: all of the box, or of the particles
-  std::optional<bool> periodic;          // unset: where the particles lie in the snapshot's box
+  std::string axis_unit;         // of coordinates, such as "Mpc"; empty: what fits the width
+  std::optional<bool> periodic;  // unset: where the particles lie in the snapshot's box
   // Smoothing lengths are multiplied by it, > 0. The components' size factors are for pictures.
   double size_factor = 1;
 

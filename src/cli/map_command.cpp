@@ -37,10 +37,13 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
                  wrapped("xy (the default), xz or yz: the axes to the right and upwards; camera: "
                          "the scene's"))
       ->type_name("NAME");
-  sub.add_option("--center", options.center,
-                 wrapped("X,Y,Z in the snapshot's lengths, or box, mass or densest"))
+  sub.add_option(
+         "--center", options.center,
+         wrapped("X,Y,Z in the snapshot's lengths, or in a unit that the last has: 25,25,25Mpc; "
+                 "or box, mass or densest"))
       ->type_name("PLACE");
-  sub.add_option("--width", options.width, wrapped("Of the map, in the snapshot's lengths"))
+  sub.add_option("--width", options.width,
+                 wrapped("Of the map, in the snapshot's lengths or with a unit: 4Mpc"))
       ->type_name("LENGTH");
   sub.add_option(
          "--distance", options.distance,
@@ -53,7 +56,13 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
   sub.add_option("--contours", options.contours,
                  wrapped("Lines on figures: how many, or at which values of the map"))
       ->type_name("N|V,V,...");
-  sub.add_option("--depth", options.depth, wrapped("Along the line of sight"))->type_name("LENGTH");
+  sub.add_option("--depth", options.depth, wrapped("Along the line of sight, likewise"))
+      ->type_name("LENGTH");
+  sub.add_option("--units", options.units,
+                 wrapped("Of a snapshot that does not say them: gadget stands for a kpc/h, 1e10 "
+                         "Msun/h and a^0.5 km/s"))
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"gadget"}));
   sub.add_option("--size", options.size, wrapped("Of the map, in pixels"))->type_name("WxH");
 }
 

@@ -168,6 +168,13 @@ void describe_place(const MapGeometry& geometry, const MapSettings& settings,
 
 }  // namespace
 
+double read_map_length(const std::string& text, const Scene& scene, const Snapshot& snapshot,
+                       const std::string& what) {
+  const std::vector<int> types = present_types(choose_component(scene), snapshot.info());
+  if (types.empty()) throw UsageError(what + ": the map's component has no particles");
+  return length_in_snapshot(text, scene.map, snapshot.info(), types.front(), what);
+}
+
 Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
              std::vector<std::string>& notes, const LoadProgress& progress) {
   const MapSettings& settings = scene.map;
@@ -182,9 +189,9 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   const MapGeometry geometry = decide_geometry(one, matter, region);
   const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
   refuse_all_bad(matter, quantity, fields);
-  const MapUnits units =
-      decide_units(settings, fields.snapshot_info(),
-                   present_types(component, fields.snapshot_info()), quantity.kind);
+  const MapUnits units = decide_units(settings, fields.snapshot_info(),
+                                      present_types(component, fields.snapshot_info()),
+                                      quantity.kind, geometry.width * geometry.pixel);
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);

@@ -133,7 +133,7 @@ void add_place(FitsFile& file, const Map& map) {
 }  // namespace
 
 std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
-                                       const MapMetadata& metadata) {
+                                       const SnapshotInfo& snapshot, const MapMetadata& metadata) {
   FitsFile file(path);
   const FitsUnit unit = readable_fits_unit(map.unit);
   file.add_image(map, times(map.values, unit.factor));
@@ -144,6 +144,8 @@ std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const 
   file.add_text("VIEW", map.view, "axes to the right and upwards");
   file.add_number("TOLERANC", map.tolerance, "of each sum, relative to max(sum, FLOOR)");
   file.add_number("FLOOR", map.floor, "of the column of weights, in the data's units");
+  if (snapshot.redshift) file.add_number("REDSHIFT", *snapshot.redshift, "");
+  file.add_number("TIME", snapshot.time, "as the snapshot has it");
   for (const auto& [key, text] : metadata)
     file.add_history(key + ": " + text);
   if (!map.effective_particles.empty()) {

@@ -15,7 +15,7 @@ OpenDataset write_plane(const Hdf5Writer& writer, const char* name, const Map& m
 }  // namespace
 
 void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::path& path,
-                const Map& map, const MapMetadata& metadata) {
+                const Map& map, const SnapshotInfo& snapshot, const MapMetadata& metadata) {
   const Hdf5Silence silence;
   const Hdf5Writer writer(temporary, path);
   const OpenDataset values = write_plane(writer, "map", map, map.values);
@@ -33,6 +33,8 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
     writer.write_numbers<2>(values.id(), "sky", {map.sky->right_ascension, map.sky->declination});
     writer.write_number(values.id(), "degrees_per_pixel", map.sky->pixel);
   }
+  writer.write_number(values.id(), "time", snapshot.time);
+  if (snapshot.redshift) writer.write_number(values.id(), "redshift", *snapshot.redshift);
   writer.write_number(values.id(), "tolerance", map.tolerance);
   writer.write_number(values.id(), "floor", map.floor);
   if (!map.effective_particles.empty()) {

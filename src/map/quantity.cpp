@@ -38,14 +38,31 @@ void require_masses(const ComponentFields& fields, const std::string& what, cons
                                instead));
 }
 
+// Volumes in cm^3 are beyond a float: in units of the first one that there is, where they are.
+double unit_of_volumes(const ComponentFields& fields, const char* key, std::size_t count) {
+  constexpr double large = 1e25;
+  const Column mass = fields.masses(), density = fields.scalars("density", key);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double volume = static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+    if (!std::isfinite(volume) || !(volume > 0)) continue;
+    return volume < large && volume > 1 / large ? 1 : std::exp2(std::ilogb(volume));
+  }
+  return 1;
+}
+
+void weigh_by_volume(const ComponentFields& fields, const char* key, std::size_t count,
+                     MapQuantity& quantity) {
+  quantity.weight_unit = unit_of_volumes(fields, key, count);
+  quantity.weight = fields.volumes(key, quantity.weight_unit);
+}
+
 Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
   if (name == "constant") return Column::uniform(1);
   if (name == "mass" || name == "volume") {
     require_masses(fields, fmt::format("a mean weighted by {}", name),
                    "set map.weight to \"constant\", or to a field");
   }
-  if (name == "mass") return fields.masses();
-  if (name == "volume") return fields.volumes("map.weight");
+  if (name == "mass" || name == "volume") return fields.masses();
   Column weight = fields.scalars(name, "map.weight");
   for (std::size_t i = 0; i < count; ++i) {
     if (!(weight[i] < 0)) continue;
@@ -63,31 +80,37 @@ Column values(const std::string& name, const MapGeometry& geometry, const Compon
 
 MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields) {
   if (settings.quantity == "counts") {
-    return {MapQuantity::Kind::counts, Column::uniform(1), {}, "particles per pixel"};
+    return {MapQuantity::Kind::counts, Column::uniform(1), 1, {}, "particles per pixel"};
   }
   const char* const what = settings.slice ? "density in a plane" : "surface density";
   require_masses(fields, fmt::format("a map of {}", what),
                  "set map.quantity to \"counts\", or to a field");
-  return {MapQuantity::Kind::column, fields.masses(), {}, what};
+  return {MapQuantity::Kind::column, fields.masses(), 1, {}, what};
 }
 
 MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geometry,
                             const ComponentFields& fields, std::size_t count) {
   if (is_column(settings)) return column_of(settings, fields);
-  const Column value = values(settings.quantity, geometry, fields, count);
+  MapQuantity quantity;
+  quantity.value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
     require_masses(fields, "an integral", "set map.statistic to \"mean\"");
-    return {MapQuantity::Kind::integral, fields.volumes("map.statistic"), value,
-            fmt::format("integral of {} along the line of sight", settings.quantity)};
+    quantity.kind = MapQuantity::Kind::integral;
+    weigh_by_volume(fields, "map.statistic", count, quantity);
+    quantity.description = fmt::format("integral of {} along the line of sight", settings.quantity);
+    return quantity;
   }
   const bool is_mean = settings.statistic == MapStatistic::mean;
   // A slice of a field is its value in the plane: space counts there, not mass.
   const std::string weight =
       settings.weight.empty() ? (settings.slice ? "volume" : "mass") : settings.weight;
-  return {is_mean ? MapQuantity::Kind::mean : MapQuantity::Kind::dispersion,
-          weights(weight, fields, count), value,
-          fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion",
-                      settings.quantity, weight, settings.slice ? ", in a plane" : "")};
+  quantity.kind = is_mean ? MapQuantity::Kind::mean : MapQuantity::Kind::dispersion;
+  quantity.weight = weights(weight, fields, count);
+  if (weight == "volume") weigh_by_volume(fields, "map.weight", count, quantity);
+  quantity.description =
+      fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion", settings.quantity,
+                  weight, settings.slice ? ", in a plane" : "");
+  return quantity;
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ struct MapQuantity {
   enum class Kind { column, counts, mean, dispersion, integral };
   Kind kind = Kind::column;
   Column weight;  // >= 0: mass, volume, 1, or a field
-  Column value;   // of mean, dispersion and integral
+  double weight_unit = 1;
+  Column value;  // of mean, dispersion and integral
   std::string description;
 
   // Whether a particle has a weight, and a value where that is wanted.

@@ -27,7 +27,7 @@ WeightedValues::WeightedValues(const PlacedParticles& placed, const MapQuantity&
   const double mean = inside / (static_cast<double>(geometry.width) * geometry.height);
   floor_ = std::max(floor * mean, least_floor(placed.size, weight_, {}, kernel_width));
   if (!(floor_ > 0)) floor_ = 1;
-  weight_unit_ *= particles_per_drawn;
+  weight_unit_ *= particles_per_drawn * quantity.weight_unit;
 }
 
 bool WeightedValues::needs_values() const {

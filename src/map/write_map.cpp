@@ -95,10 +95,10 @@ std::vector<std::string> write_map(const std::filesystem::path& path, const Map&
   if (is_figure(path)) return write_figure(path, map, scene, snapshot);
   const std::string ending = lower_ending(path);
   if (is_fits(ending)) {
-    write_bytes(path, encode_fits(path, map, metadata));
+    write_bytes(path, encode_fits(path, map, snapshot, metadata));
   } else if (is_hdf5(ending)) {
     UnfinishedFile file(path);
-    write_hdf5(file.temporary_path(), path, map, metadata);
+    write_hdf5(file.temporary_path(), path, map, snapshot, metadata);
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));

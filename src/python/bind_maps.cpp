@@ -66,6 +66,14 @@ py::tuple draw_map_object(const Scene& scene, const Source& source, const std::s
   return py::make_tuple(std::move(map), std::move(notes));
 }
 
+double read_length(const std::string& text, const Scene& scene, const Source& source,
+                   const std::string& what) {
+  return without_python([&] {
+    return source.in_turn(
+        [&](const Snapshot& snapshot) { return read_map_length(text, scene, snapshot, what); });
+  });
+}
+
 std::vector<std::string> write(const Map& map, const std::filesystem::path& path,
                                const Scene& scene, const Source& source) {
   return without_python([&] {
@@ -106,6 +114,7 @@ void bind_maps(py::module_& module) {
       .def_readonly("bad_particles", &Map::bad_particles)
       .def("save", &write);
   module.def("draw_map", &draw_map_object);
+  module.def("read_map_length", &read_length);
 }
 
 }  // namespace splotchcl::python

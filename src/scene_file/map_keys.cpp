@@ -92,6 +92,9 @@ Keys view_keys() {
           {"Particles whose centers lie farther than half of it from the center along the line of "
            "sight are left out.",
            "length", "one side of a periodic box; otherwise no limit"}),
+      text_key("axis_unit", &MapSettings::axis_unit,
+               {"The unit of coordinates in files and figures, such as `Mpc`.", "",
+                "the largest that the map is as wide as"}),
       key("map.periodic", boolean(), &MapSettings::periodic,
           {"Whether every image of a particle in the periodic box is drawn that the map shows.", "",
            "whether the snapshot has a box that its particles lie in"}),

@@ -22,6 +22,7 @@ except ImportError as error:
 from ._core import version as __version__
 from ._galaxy import galaxy
 from ._image import Difference, Image
+from ._inside import inside
 from ._maps import Map, column
 from ._movie import Film, movie
 from ._render import Renderer, devices, reference, render, suggest
@@ -47,6 +48,7 @@ __all__ = [
     "column",
     "devices",
     "galaxy",
+    "inside",
     "movie",
     "reference",
     "render",

@@ -107,6 +107,7 @@ class Map(Buffer):
 def draw_map(
     scene: Scene, source: Source, device: str, by_reference: bool, progress: _Progress
 ) -> tuple[Map, list[str]]: ...
+def read_map_length(text: str, scene: Scene, source: Source, what: str) -> float: ...
 def make_galaxy_file(
     picture: Path,
     output: Path,
