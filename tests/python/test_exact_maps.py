@@ -180,6 +180,13 @@ def test_maps_keep_their_tolerance(seed):
         assert error < 1, (tolerance, error, one.quantity, one.weight, one.statistic, one.view)
 
 
+@pytest.mark.parametrize("size", [64, 500])
+def test_a_map_of_a_whole_box_has_all_of_its_particles(universe, size):
+    """Kernels go on across the faces, and what ends of splats leave out is put back on average."""
+    drawn = splotchcl.column(universe, "counts", types="gas", size=(size, size), tolerance=1e-4)
+    assert drawn.values.sum(dtype=float) == pytest.approx(17000, rel=1e-6)
+
+
 def test_the_exact_projection_of_one_particle_is_a_difference_of_error_functions():
     matter = exact.Matter(np.array([[0.25, 0, 0]]), np.array([2.0]), np.array([3.0]), np.ones(1))
     view = exact.View(np.zeros(3), 1.0, 3, 1)

@@ -11,6 +11,7 @@ relative to it or to `map.floor` (docs/maps.md).
 from __future__ import annotations
 
 from functools import reduce
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -194,10 +195,9 @@ class _View:
         sums = sum_of(
             self.positions[chosen], self.reach[chosen], amount[chosen], grid, tolerance, device
         ).T
-        from swiftsimio.objects import cosmo_array, cosmo_quantity
-
+        objects = import_module("swiftsimio.objects")
         like = {"comoving": self.comoving, "cosmo_factor": self.field.cosmo_factor}
-        length = cosmo_quantity(
+        length = objects.cosmo_quantity(
             1.0, self.unit, comoving=self._length.comoving, cosmo_factor=self._length.cosmo_factor
         )
-        return cosmo_array(sums, self.field.units, **like) / length**power
+        return objects.cosmo_array(sums, self.field.units, **like) / length**power
