@@ -28,6 +28,7 @@ from ._movie import Film, movie
 from ._render import Renderer, devices, reference, render, suggest
 from ._scene import Scene, UnknownKey
 from ._sources import Particles, ParticleType, Snapshot
+from ._statistics import Histogram, Profile, histogram, profile
 
 __all__ = [
     "DataError",
@@ -35,10 +36,12 @@ __all__ = [
     "Difference",
     "Error",
     "Film",
+    "Histogram",
     "Image",
     "Map",
     "ParticleType",
     "Particles",
+    "Profile",
     "Renderer",
     "Scene",
     "Snapshot",
@@ -48,8 +51,10 @@ __all__ = [
     "column",
     "devices",
     "galaxy",
+    "histogram",
     "inside",
     "movie",
+    "profile",
     "reference",
     "render",
     "suggest",
