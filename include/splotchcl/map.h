@@ -21,9 +21,17 @@ struct SkyPlace {
   double pixel = 0;
 };
 
-// Values of width x height pixels, row 0 at the top.
+// The channels of a cube, which have the same width.
+struct VelocityAxis {
+  int channels = 0;
+  double first = 0, step = 0;  // the middle of the first channel, and from one to the next
+  std::string unit;            // "km/s"; "code_velocity" where unknown
+};
+
+// Values of width x height pixels, row 0 at the top; of a cube those of each channel in turn.
 struct Map {
-  int width = 0, height = 0;  // pixels
+  int width = 0, height = 0;             // pixels
+  std::optional<VelocityAxis> velocity;  // of a cube
   // Not a number where a mean has too little matter to be known.
   std::vector<float> values;
   std::vector<float> effective_particles;  // empty unless it was asked for

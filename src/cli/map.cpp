@@ -95,6 +95,10 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   };
   add_length("width", options.width);
   add_length("depth", options.depth);
+  if (options.channels) settings.push_back(fmt::format("map.channels={}", *options.channels));
+  if (options.line_mass) settings.push_back(fmt::format("map.line_mass={}", *options.line_mass));
+  if (!options.velocity_range.empty())
+    settings.push_back("map.velocity_range=[" + options.velocity_range + "]");
   if (options.slice) settings.emplace_back("map.slice=true");
   if (options.noise) settings.emplace_back("map.noise=true");
   if (!options.types.empty()) {

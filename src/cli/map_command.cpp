@@ -32,6 +32,19 @@ void add_quantity_options(CLI::App& sub, MapOptions& options) {
                wrapped("A second plane: the effective number of particles in each pixel"));
 }
 
+void add_velocity_options(CLI::App& sub, MapOptions& options) {
+  sub.add_option("--channels", options.channels,
+                 wrapped("A cube: the sum in so many channels of velocity along the line of sight"))
+      ->type_name("N");
+  sub.add_option("--velocity-range", options.velocity_range,
+                 wrapped("Of the channels, in the snapshot's unit; default: all velocities"))
+      ->type_name("V,V");
+  sub.add_option("--line-mass", options.line_mass,
+                 wrapped("Lines of a cube have the thermal width of particles of so many proton "
+                         "masses"))
+      ->type_name("M");
+}
+
 void add_view_options(CLI::App& sub, MapOptions& options) {
   sub.add_option("--view", options.view,
                  wrapped("xy (the default), xz or yz: the axes to the right and upwards; camera: "
@@ -103,6 +116,7 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_quantity_options(*sub, *options);
+  add_velocity_options(*sub, *options);
   add_view_options(*sub, *options);
   add_drawing_options(*sub, *options);
   sub->footer(

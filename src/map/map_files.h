@@ -14,8 +14,8 @@ namespace splotchcl {
 
 using MapMetadata = std::map<std::string, std::string>;
 
-// Rows in the opposite order.
-std::vector<float> upside_down(const std::vector<float>& values, int width);
+// Rows in the opposite order, in each plane of so many pixels.
+std::vector<float> upside_down(const std::vector<float>& values, int width, int height);
 
 std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
                                        const SnapshotInfo& snapshot, const MapMetadata& metadata);

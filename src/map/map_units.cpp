@@ -275,6 +275,25 @@ double length_in_snapshot(const std::string& text, const MapSettings& settings,
   return given.in_cgs / length.unit.in_cgs;
 }
 
+double velocity_in_cgs(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
+                       const std::string& what) {
+  const NamedUnits velocity = DataUnits(settings, snapshot, type).velocity();
+  if (velocity.is_known) return velocity.unit.in_cgs;
+  throw UsageError(
+      fmt::format("{}: the snapshot does not say its unit of velocity, expected it; set "
+                  "map.velocity_unit, such "
+                  "as \"km/s\"",
+                  what));
+}
+
+std::pair<std::string, double> told_velocity(const MapSettings& settings,
+                                             const SnapshotInfo& snapshot, int type) {
+  constexpr double kilometer = 1e5;
+  const NamedUnits velocity = DataUnits(settings, snapshot, type).velocity();
+  if (!velocity.is_known) return {velocity.name, 1};
+  return {"km/s", velocity.unit.in_cgs / kilometer};
+}
+
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
                       const std::vector<int>& types, MapQuantity::Kind kind, double width) {
   check_types_agree(settings, snapshot, types);

@@ -165,7 +165,9 @@ PixelSums draw_sums(const PlacedParticles& placed, const std::vector<float>& siz
   const double floor = floor_of(size, request, picture.kernel_width);
   // A cell's mean is more than its darkest pixel has.
   constexpr double of_least = 0.5;
-  double white = std::max(floor, of_least * expected_least_sum(placed, size, request, picture));
+  const double least =
+      request.are_parts ? of_least * expected_least_sum(placed, size, request, picture) : 0;
+  double white = std::max(floor, least);
   SumDrawing drawing(frame_of_sums(placed, size, std::move(request), picture), sums, draw);
   drawing.draw(whole, white);
   for (DimPixels dim = drawing.below(white); white > floor && dim.are_any();

@@ -21,6 +21,8 @@ struct SumRequest {
   // Per pixel, > 0, and at least least_floor() of the weights. Each sum is known to the tolerance
   // of itself, or of both parts together, or of this or least_floor() where that is more.
   double floor = 1;
+  // Else they are three sums, of which each is known to the tolerance of itself or of the floor.
+  bool are_parts = true;
 };
 
 // Per pixel, row 0 at the top, in the weights' unit; without factors the first one alone.

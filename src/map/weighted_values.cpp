@@ -149,6 +149,33 @@ std::vector<double> WeightedValues::draw_dispersion(const SumPicture& picture,
   return values;
 }
 
+// Three channels are the colors of a frame.
+std::vector<double> WeightedValues::draw_channels(const VelocityChannels& channels,
+                                                  const SumPicture& picture,
+                                                  const DrawFrame& draw) const {
+  constexpr int at_once = 3;
+  std::vector<double> values;
+  for (int first = 0; first < channels.count; first += at_once) {
+    const int end = std::min(first + at_once, channels.count);
+    std::vector<float> factors(at_once * weight_.size(), 0.0F);
+    for (std::size_t i = 0; i < weight_.size(); ++i) {
+      if (!(weight_[i] > 0)) continue;
+      for (int c = first; c < end; ++c)
+        factors[at_once * i + static_cast<std::size_t>(c - first)] =
+            static_cast<float>(channels.part(placed_.source[i], c));
+    }
+    const SumRequest request = {weight_, std::move(factors), floor_ / channels.count, false};
+    PixelSums sums = draw_sums(placed_, placed_.size, request, picture, draw);
+    for (int c = first; c < end; ++c) {
+      const std::vector<double>& sum = sums[static_cast<std::size_t>(c - first)];
+      values.insert(values.end(), sum.begin(), sum.end());
+    }
+  }
+  for (double& value : values)
+    value *= weight_unit_ * area_factor();
+  return values;
+}
+
 std::vector<double> WeightedValues::draw(const SumPicture& picture, const DrawFrame& draw) {
   if (kind_ == MapQuantity::Kind::dispersion) return draw_dispersion(picture, draw);
   if (!needs_values()) {

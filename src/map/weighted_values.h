@@ -25,6 +25,10 @@ class WeightedValues {
   // of a mean are below the floor.
   std::vector<double> draw(const SumPicture& picture, const DrawFrame& draw);
 
+  // The same of sums in channels, one after the other.
+  std::vector<double> draw_channels(const VelocityChannels& channels, const SumPicture& picture,
+                                    const DrawFrame& draw) const;
+
   // Of the weights' column, in the snapshot's units.
   double floor() const;
   // Of the map's values, likewise; 0 where they are means. After draw().

@@ -74,6 +74,11 @@ Image numbers_as_image(const Map& map) {
 
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot) {
+  if (scene.map.channels > 0 && (is_figure(path) || lower_ending(path) == ".exr")) {
+    throw UsageError(path.string() +
+                     ": holds one map, not the channels of map.channels, expected .fits, .hdf5 or "
+                     ".npy");
+  }
   if (is_figure(path)) check_figure(scene, snapshot);
 }
 

@@ -22,6 +22,16 @@ py::buffer_info buffer_of(const Map& map, const std::vector<float>& values) {
   const auto height = static_cast<py::ssize_t>(map.height);
   constexpr bool is_read_only = true;
   float* const last_row = const_cast<float*>(values.data()) + (height - 1) * width;
+  if (map.velocity && &values == &map.values) {
+    const py::ssize_t channels = map.velocity->channels;
+    return {last_row,
+            size,
+            py::format_descriptor<float>::format(),
+            3,
+            {channels, height, width},
+            {size * width * height, -size * width, size},
+            is_read_only};
+  }
   return {last_row,
           size,
           py::format_descriptor<float>::format(),
@@ -107,6 +117,13 @@ void bind_maps(py::module_& module) {
       .def_readonly("right_name", &Map::right_name)
       .def_readonly("up_name", &Map::up_name)
       .def_readonly("pixel", &Map::pixel)
+      .def_property_readonly(
+          "velocity",
+          [](const Map& map) -> std::optional<std::tuple<int, double, double, std::string>> {
+            if (!map.velocity) return std::nullopt;
+            const VelocityAxis& axis = *map.velocity;
+            return std::make_tuple(axis.channels, axis.first, axis.step, axis.unit);
+          })
       .def_readonly("center_right", &Map::center_right)
       .def_readonly("center_up", &Map::center_up)
       .def_readonly("tolerance", &Map::tolerance)

@@ -99,6 +99,7 @@ class Map(Buffer):
     pixel: float
     center_right: float
     center_up: float
+    velocity: tuple[int, float, float, str] | None
     tolerance: float
     particles: int
     bad_particles: int

@@ -33,7 +33,7 @@ class Map:
 
     @property
     def values(self) -> np.ndarray[Any, np.dtype[np.float32]]:
-        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest.
+        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest. Of a cube (channels, height, width).
 
         Not a number where a mean has too little matter to be known.
         """
@@ -71,6 +71,19 @@ class Map:
     def axes(self) -> tuple[str, str]:
         """What points to the right and upwards: ("x", "y")."""
         return self._map.right_name, self._map.up_name
+
+    @property
+    def velocities(self) -> np.ndarray[Any, Any] | None:
+        """The middles of a cube's channels in `velocity_unit`, positive away from who looks; else None."""
+        if self._map.velocity is None:
+            return None
+        channels, first, step, _ = self._map.velocity
+        return first + step * np.arange(channels)
+
+    @property
+    def velocity_unit(self) -> str | None:
+        """Of `velocities`: "km/s", or "code_velocity" where it is not known."""
+        return None if self._map.velocity is None else self._map.velocity[3]
 
     @property
     def pixel(self) -> float:
@@ -117,6 +130,9 @@ def column(
     size: tuple[int, int] | str | None = None,
     unit: str | None = None,
     noise: bool = False,
+    channels: int | None = None,
+    velocity_range: tuple[float, float] | None = None,
+    line_mass: float | None = None,
     tolerance: float | None = None,
     device: str | None = None,
     settings: Mapping[str, Any] | None = None,
@@ -152,6 +168,12 @@ def column(
         carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
     noise : bool
         Also the effective number of particles.
+    channels : int, optional
+        A cube: the surface density or the counts in so many channels of velocity along the line of sight.
+    velocity_range : 2 floats, optional
+        Of the channels, in the snapshot's unit; None: all velocities.
+    line_mass : float, optional
+        Lines of a cube have the thermal width of particles of so many proton masses.
 
     Returns
     -------
@@ -170,6 +192,10 @@ def column(
     written = {key for key, value in lengths.items() if _is_written(value)}
     with_units = {key for key, value in lengths.items() if _carries_unit(value)} - written
     keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units - written}
+    cube = {"map.channels": channels, "map.velocity_range": velocity_range, "map.line_mass": line_mass}
+    keys |= {key: value for key, value in cube.items() if value is not None}
+    if velocity_range is not None:
+        keys["map.velocity_range"] = [float(v) for v in velocity_range]
     if slice:
         keys["map.slice"] = True
     if noise:
