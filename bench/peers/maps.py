@@ -4,24 +4,29 @@
 
 One program a call, because they want different versions of NumPy:
 
-    python maps.py PROGRAM WORK_FOLDER OURS...
+    python maps.py prepare SNAPSHOT WORK_FOLDER
+    python maps.py draw PROGRAM WORK_FOLDER PIXELS     draws, and writes what it took and how exact it is
+    python maps.py table WORK_FOLDER                   the table, of medians over all calls
 
-WORK_FOLDER holds particles.npz (what run wrote with `prepare`) and ours.npy, our map. Prints a row of
-the table: correlation, relative L2 after smoothing both maps to 8 pixels, mass in the map over the
-mass in ours, seconds. All programs get arrays in memory and draw the same square, 512 x 512 pixels,
-with every particle of the box in it; kernels that leave the square are cut by its edges in all of
-them. What their kernels look like is their own choice; all end at the same radius, but ours, a
-Gaussian of the same second moment.
+All programs get arrays in memory and draw the same square with every particle of the box in it; kernels that
+leave the square are cut by its edges in all of them. What their kernels look like is their own
+choice; all end at the same radius, but ours, a Gaussian of the cubic spline's second moment. So each is held to exact
+means over pixels of its own kernel.
 """
 
+import json
+import math
+import os
+import platform
 import struct
 import sys
 import time
 
 import numpy as np
 
-PIXELS = 512
-RUNS = 3
+RUNS = 2
+SAMPLED = 192  # pixels that are compared with exact means
+FLOOR = 1e-3  # of the mean: errors of less than that are parts of it
 
 
 def gadget_blocks(path):
@@ -52,21 +57,104 @@ def prepare(snapshot, folder):
         side=0.6 * box,
         center=0.5 * box,
     )
-    print(0.5 * box, 0.6 * box)
 
 
 def best(function):
-    """Seconds of the best of some runs after one that may compile, and the picture."""
-    picture = function()
+    """Processor seconds, of all threads, of the best of some runs after one that may compile."""
+    function()
     seconds = []
     for _ in range(RUNS):
-        start = time.perf_counter()
+        start = time.process_time()
         picture = function()
-        seconds.append(time.perf_counter() - start)
+        seconds.append(time.process_time() - start)
     return min(seconds), np.asarray(picture, dtype=np.float64)
 
 
-def swiftsimio(p, backend):
+# Columns of kernels that end at 1 and have a whole of 1, at these distances from the middle.
+def column_of(kernel):
+    z, distance = np.linspace(-1, 1, 2001), np.linspace(0, 1, 1001)
+    is_flat = kernel is wendland_c2
+    column = np.array([kernel(d) if is_flat else trapezoid(kernel(np.hypot(d, z)), z) for d in distance])
+    return distance, column / trapezoid(2 * np.pi * distance * column, distance)
+
+
+def trapezoid(values, places):
+    return float(((values[1:] + values[:-1]) * np.diff(places)).sum() / 2)
+
+
+def cubic_spline(q):
+    return np.where(q < 0.5, 1 - 6 * q**2 + 6 * q**3, 2 * np.clip(1 - q, 0, None) ** 3)
+
+
+# In two dimensions: swiftsimio takes no column of that in three.
+def wendland_c2(q):
+    return np.clip(1 - q, 0, None) ** 4 * (1 + 4 * q)
+
+
+def parabola(q):
+    return np.clip(1 - q**2, 0, None)
+
+
+def mean_of_column(column, dx, dy, reach, pixel):
+    """Over the pixel around 0, of one kernel at dx, dy: by points as many as its width asks for."""
+    points = int(np.clip(32 * pixel / reach, 4, 512))
+    at = ((np.arange(points) + 0.5) / points - 0.5) * pixel
+    distance = np.hypot(at[:, None] - dx, at[None, :] - dy) / reach
+    return np.interp(distance, *column, right=0).mean() / reach**2
+
+
+def mean_of_gaussian(dx, dy, reach, pixel):
+    from scipy.special import erf
+
+    width = math.sqrt(3 / 20) * reach
+    x, y = ((erf((d + pixel / 2) / width) - erf((d - pixel / 2) / width)) / 2 for d in (dx, dy))
+    return x * y / pixel**2
+
+
+def exact_values(p, kernel, pixels, chosen):
+    """Of these pixels (row, column), in double precision."""
+    pixel = p["side"] / pixels
+    low = p["center"] - p["side"] / 2
+    x, y, reach, mass = p["position"][:, 0] - low, p["position"][:, 1] - low, p["support"], p["mass"]
+    column = None if kernel is None else column_of(kernel)
+    far = (2.5 if kernel is None else 1) * reach + pixel / 2
+    values = []
+    for row, at in chosen:
+        dx, dy = x - (at + 0.5) * pixel, y - (row + 0.5) * pixel
+        near = np.flatnonzero((np.abs(dx) < far) & (np.abs(dy) < far))
+        if kernel is None:
+            values.append((mass[near] * mean_of_gaussian(dx[near], dy[near], reach[near], pixel)).sum())
+        else:
+            values.append(sum(mass[i] * mean_of_column(column, dx[i], dy[i], reach[i], pixel) for i in near))
+    return np.array(values)
+
+
+def errors(p, kernel, picture, folder):
+    """Root of the mean square and the largest, over max(value, FLOOR * mean)."""
+    pixels = len(picture)
+    chosen = np.random.default_rng(1).integers(0, pixels, (SAMPLED, 2))
+    known = f"{folder}/exact-{kernel.__name__ if kernel else 'gaussian'}-{pixels}.npy"
+    if not os.path.exists(known):
+        np.save(known, exact_values(p, kernel, pixels, chosen))
+    exact = np.load(known)
+    drawn = picture[chosen[:, 0], chosen[:, 1]]
+    error = np.abs(drawn - exact) / np.maximum(exact, FLOOR * picture.mean())
+    return float(np.sqrt((error**2).mean())), float(error.max())
+
+
+def splotchcl(p, pixels, tolerance):
+    import splotchcl as library
+
+    particles = library.Particles().gas(
+        position=p["position"].astype(np.float32), mass=p["mass"].astype(np.float32),
+        smoothing_length=p["support"].astype(np.float32))
+    draw = lambda: library.column(
+        particles, types="gas", center=[p["center"]] * 3, width=p["side"], size=(pixels, pixels), tolerance=tolerance,
+        settings={"map.periodic": False}).values
+    return best(draw)
+
+
+def swiftsimio(p, pixels, backend):
     from swiftsimio.visualisation.projection_backends import backends_parallel
     from swiftsimio.visualisation.projection_backends.kernels import kernel_gamma
 
@@ -75,12 +163,12 @@ def swiftsimio(p, backend):
     h = p["support"] / p["side"] / kernel_gamma
     # A box side of 0: not periodic. Their first axis is x.
     draw = lambda: backends_parallel[backend](x=x, y=y, m=p["mass"].astype(np.float32), h=h.astype(np.float32),
-                                              res=PIXELS, box_x=0.0, box_y=0.0)
+                                              res=pixels, box_x=0.0, box_y=0.0)
     seconds, picture = best(draw)
     return seconds, picture.T / p["side"] ** 2
 
 
-def pynbody(p, fast):
+def pynbody(p, pixels, fast):
     import pynbody
     from pynbody.sph import renderers
 
@@ -90,12 +178,12 @@ def pynbody(p, fast):
     for field, unit in (("pos", "kpc"), ("smooth", "kpc"), ("mass", "Msol"), ("rho", "Msol kpc**-3")):
         snapshot[field].units = unit
     draw = lambda: renderers.make_render_pipeline(
-        snapshot.gas, quantity="rho", width=float(p["side"]), resolution=PIXELS, out_units="Msol kpc**-2",
+        snapshot.gas, quantity="rho", width=float(p["side"]), resolution=pixels, out_units="Msol kpc**-2",
         approximate_fast=fast, threaded=True).render()
     return best(draw)
 
 
-def sarracen(p):
+def sarracen(p, pixels):
     import sarracen as library
 
     frame = library.SarracenDataFrame(
@@ -104,48 +192,89 @@ def sarracen(p):
     frame.kernel = library.kernels.CubicSplineKernel()
     low, high = p["center"] - p["side"] / 2, p["center"] + p["side"] / 2
     draw = lambda: library.interpolate.interpolate_3d_proj(
-        frame, "rho", x_pixels=PIXELS, y_pixels=PIXELS, xlim=(low, high), ylim=(low, high), normalize=False)
+        frame, "rho", x_pixels=pixels, y_pixels=pixels, xlim=(low, high), ylim=(low, high), normalize=False)
     return best(draw)
 
 
-def sphviewer(p):
+def sphviewer(p, pixels):
     import sphviewer as library
 
     half = p["side"] / 2
     particles = library.Particles(p["position"], p["mass"], p["support"])
     camera = library.Camera(x=p["center"], y=p["center"], z=p["center"], r="infinity", t=0, p=0, roll=0,
-                            extent=[-half, half, -half, half], xsize=PIXELS, ysize=PIXELS)
+                            extent=[-half, half, -half, half], xsize=pixels, ysize=pixels)
     seconds, picture = best(lambda: library.Render(library.Scene(particles, camera)).get_image())
     return seconds, picture
 
 
+def sphviewer2(p, pixels):
+    import sphviewer2 as library
+
+    levels = int(round(math.log2(pixels)))
+    if 2**levels != pixels:
+        raise SystemExit(f"found {pixels} pixels, expected a power of 2")
+    x, y, z = p["position"].T
+    particles = library.Particles(x, y, z, p["support"], p["mass"])
+    camera = library.Camera(
+        Lbox=p["side"] / 0.6, extent=p["side"], xc=p["center"], yc=p["center"], zc=p["center"], periodic=False, r_max=levels)
+
+    def draw():
+        projector = library.Projector(camera)
+        projector.project(particles, num_threads=os.cpu_count())
+        return projector.collapse()
+
+    return best(draw)
+
+
+# How each draws, and its kernel; None: a Gaussian.
 PROGRAMS = {
-    "swiftsimio": {"swiftsimio, fast": lambda p: swiftsimio(p, "fast"),
-                   "swiftsimio, subsampled": lambda p: swiftsimio(p, "subsampled")},
-    "pynbody": {"pynbody": lambda p: pynbody(p, False), "pynbody, approximate": lambda p: pynbody(p, True)},
-    "sarracen": {"sarracen": sarracen},
-    "py-sphviewer": {"py-sphviewer": sphviewer},
+    "splotchcl": {
+        "splotchcl, tolerance 1e-3": (lambda p, n: splotchcl(p, n, 1e-3), None),
+        "splotchcl, tolerance 1e-2": (lambda p, n: splotchcl(p, n, 1e-2), None)},
+    "swiftsimio": {
+        f"swiftsimio, {backend}": ((lambda p, n, b=backend: swiftsimio(p, n, b)), wendland_c2)
+        for backend in ("fast", "nested", "subsampled")},
+    "pynbody": {
+        "pynbody": (lambda p, n: pynbody(p, n, False), cubic_spline),
+        "pynbody, approximate": (lambda p, n: pynbody(p, n, True), cubic_spline)},
+    "sarracen": {"sarracen": (sarracen, cubic_spline)},
+    "py-sphviewer": {"py-sphviewer": (sphviewer, cubic_spline)},
+    "py-sphviewer2": {"py-sphviewer2": (sphviewer2, parabola)},
 }
 
 
-def main(program, folder, our_seconds):
-    from scipy.ndimage import gaussian_filter
-
+def draw(program, folder, pixels):
     p = dict(np.load(f"{folder}/particles.npz"))
     p["side"], p["center"] = float(p["side"]), float(p["center"])
-    ours = np.load(f"{folder}/ours.npy").astype(np.float64)
-    for name, draw in PROGRAMS[program].items():
-        seconds, theirs = draw(p)
-        smooth = [gaussian_filter(picture, 8) for picture in (ours, theirs)]
-        l2 = np.sqrt(np.sum((smooth[0] - smooth[1]) ** 2) / np.sum(smooth[0] ** 2))
-        correlation = np.corrcoef(ours.ravel(), theirs.ravel())[0, 1]
-        version = __import__("importlib.metadata").metadata.version(program)
-        print(f"| {name} ({version}) | {correlation:.5f} | {l2:.4f} | {theirs.sum() / ours.sum():.4f} "
-              f"| {seconds:.2f} | {seconds / float(our_seconds):.1f} |", flush=True)
+    version = __import__("importlib.metadata").metadata.version(program) if program != "splotchcl" else "this"
+    for name, (function, kernel) in PROGRAMS[program].items():
+        try:
+            seconds, picture = function(p, int(pixels))
+        except (KeyError, TypeError):  # a backend that this version does not have
+            continue
+        known = f"{folder}/{name}-{pixels}.json"
+        row = json.load(open(known)) if os.path.exists(known) else None
+        if row is None:
+            rms, worst = errors(p, kernel, picture, folder)
+            row = {"name": f"{name} ({version})", "pixels": int(pixels), "seconds": [], "rms": rms, "worst": worst,
+                   "mass": picture.sum() * (p["side"] / int(pixels)) ** 2}
+        row["seconds"].append(seconds)
+        json.dump(row, open(known, "w"))
+
+
+def table(folder):
+    rows = [json.load(open(f"{folder}/{name}")) for name in os.listdir(folder) if name.endswith(".json")]
+    for pixels in sorted({row["pixels"] for row in rows}):
+        of_size = [row for row in rows if row["pixels"] == pixels]
+        ours = next(row for row in of_size if row["name"].startswith("splotchcl, tolerance 1e-3"))
+        print(f"\n{pixels} x {pixels} pixels, {platform.processor() or platform.machine()}, {os.cpu_count()} cores:\n")
+        print("| program | processor seconds | over ours | mass over ours | error, root of the mean square | largest |")
+        print("|---|--:|--:|--:|--:|--:|")
+        for row in sorted(of_size, key=lambda row: np.median(row["seconds"])):
+            seconds = np.median(row["seconds"])
+            print(f"| {row['name']} | {seconds:.2f} | {seconds / np.median(ours['seconds']):.1f} "
+                  f"| {row['mass'] / ours['mass']:.5f} | {row['rms']:.1e} | {row['worst']:.1e} |")
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "prepare":
-        prepare(*sys.argv[2:])
-    else:
-        main(*sys.argv[1:])
+    {"prepare": prepare, "draw": draw, "table": table}[sys.argv[1]](*sys.argv[2:])

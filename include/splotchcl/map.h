@@ -21,9 +21,17 @@ struct SkyPlace {
   double pixel = 0;
 };
 
-// Values of width x height pixels, row 0 at the top.
+// The channels of a cube, which have the same width.
+struct VelocityAxis {
+  int channels = 0;
+  double first = 0, step = 0;  // the middle of the first channel, and from one to the next
+  std::string unit;            // "km/s"; "code_velocity" where unknown
+};
+
+// Values of width x height pixels, row 0 at the top; of a cube those of each channel in turn.
 struct Map {
-  int width = 0, height = 0;  // pixels
+  int width = 0, height = 0;             // pixels
+  std::optional<VelocityAxis> velocity;  // of a cube
   // Not a number where a mean has too little matter to be known.
   std::vector<float> values;
   std::vector<float> effective_particles;  // empty unless it was asked for
@@ -48,6 +56,12 @@ struct Map {
   double value_floor = 0;
   std::uint64_t particles = 0, images = 0, bad_particles = 0;
 };
+
+// A length as it is written, such as "4Mpc" or "4 Mpc", in the unit that the map's settings have
+// lengths in: the snapshot's, in which a number alone is. `what` begins the message of the
+// UsageError for a text that is none, or a snapshot that does not say its unit.
+double read_map_length(const std::string& text, const Scene& scene, const Snapshot& snapshot,
+                       const std::string& what);
 
 // Draws the map that the scene's [map] says, each of its frames by `draw`. Throws as load does.
 Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,

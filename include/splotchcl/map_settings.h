@@ -38,11 +38,19 @@ struct MapSettings {
   std::string weight;
   bool slice = false;  // in the plane through the center, instead of along the line
 
+  // A sum in so many channels of velocity along the line of sight, instead of one map; 0: a map.
+  int channels = 0;
+  // Of all channels together, in the snapshot's unit of velocity; unset: of all particles.
+  std::optional<std::array<double, 2>> velocity_range;
+  // > 0: lines are as wide as the thermal motion of particles of so many proton masses makes them.
+  double line_mass = 0;
+
   MapView view = MapView::xy;
   std::optional<Vec3> center;
   MapCenter center_at = MapCenter::box;  // where there is no center
   std::optional<double> width, depth;    // unset: all of the box, or of the particles
-  std::optional<bool> periodic;          // unset: where the particles lie in the snapshot's box
+  std::string axis_unit;         // of coordinates, such as "Mpc"; empty: what fits the width
+  std::optional<bool> periodic;  // unset: where the particles lie in the snapshot's box
   // Smoothing lengths are multiplied by it, > 0. The components' size factors are for pictures.
   double size_factor = 1;
 

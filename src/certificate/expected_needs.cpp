@@ -127,11 +127,17 @@ bool can_expect_ends(const Frame& frame, const FramePlan& plan, bool is_sample) 
   return plan.needs_sort() && plan.slabs == 0 && !is_sample && !frame.kernel.cut;
 }
 
-// What light without absorption needs is guessed from how bright it is (make_plan.cpp). Splats that
-// are cut and sampled at centers of pixels err by nothing that is to be expected.
+// Splats that are cut and sampled at centers of pixels err by nothing that is to be expected.
 bool can_be_expected(const FramePlan& plan) {
-  return plan.has_errors_of_splats && !plan.is_extended() && !plan.certify && !plan.has_ellipses &&
-         plan.light != LightPlan::emission;
+  return plan.has_errors_of_splats && !plan.is_extended() && !plan.certify && !plan.has_ellipses;
+}
+
+// What wider splats of light without absorption need is guessed from how bright it is
+// (make_plan.cpp).
+void keep_narrow_ones(SplatNeeds& needs) {
+  constexpr std::size_t guessed = 2;
+  std::fill(needs.widths.begin() + guessed, needs.widths.end(), WidthNeed());
+  needs.grid_light = 1;
 }
 
 void all_cores(std::size_t count, std::size_t block_size,
@@ -186,6 +192,7 @@ std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& pl
     const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin_of_all;
     if (error > (knows_ends ? most_of_all : most_of_sample)) {
       add_needs_of_crowds(crowds, error, times, knows_ends, plan, needs);
+      if (plan.light == LightPlan::emission) keep_narrow_ones(needs);
       are_any = true;
     }
   }

@@ -53,10 +53,13 @@ int run_view(const ViewOptions& options, Console& console);
 
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
-  std::string quantity, statistic, weight, types, view, center, unit, distance, sky,
-      contours;  // empty: not given
+  std::string quantity, statistic, weight, types, view, center, unit, distance, sky, contours,
+      units;  // empty: not given
+  std::string velocity_range;
+  std::optional<int> channels;
+  std::optional<double> line_mass;
+  std::string width, depth;  // lengths, which may have a unit
   std::vector<std::string> select;
-  std::optional<double> width, depth;
   bool slice = false, noise = false;
 };
 int run_map(const MapOptions& options, Console& console);

@@ -10,6 +10,7 @@
 #include "common/quiet_errors.h"
 #include "open_scene/input_files.h"
 #include "snapshot/particle_types.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"
@@ -26,6 +27,15 @@ std::string map_component(const MapOptions& options) {
     if (setting.rfind(key, 0) == 0) return setting.substr(key.size());
   }
   return "0";
+}
+
+// "Mpc" of "25,25,25 Mpc" or of "4Mpc"; nothing of numbers alone.
+std::string unit_at_end(const std::string& lengths) {
+  const std::size_t comma = lengths.rfind(','), first = comma == std::string::npos ? 0 : comma + 1;
+  const std::size_t last = lengths.find_first_not_of(' ', first);
+  if (last == std::string::npos) return {};
+  const std::size_t unit = lengths.find_first_not_of(' ', end_of_number(lengths, last));
+  return unit == std::string::npos ? "" : lengths.substr(unit);
 }
 
 // "gas,4" as TOML: ["gas", 4]
@@ -46,9 +56,23 @@ std::string contour_setting(const std::string& text) {
   return is_count ? "map.contour_count=" + text : "map.contours=[" + text + "]";
 }
 
+// A length or a place with a unit, which the snapshot has to be known for.
+bool has_unit(const std::string& lengths) {
+  return !unit_at_end(lengths).empty();
+}
+
+// Before those that the user gives.
+std::vector<std::string> settings_of_units(const std::string& units) {
+  if (units.empty()) return {};
+  return {"map.length_unit='a kpc/h'", "map.mass_unit='1e10 Msun/h'",
+          "map.velocity_unit='a^0.5 km/s'"};
+}
+
 // The options as settings of the scene, after those that the user gives.
 std::vector<std::string> settings_of_map(const MapOptions& options) {
-  std::vector<std::string> settings = settings_of(options);
+  std::vector<std::string> settings = settings_of_units(options.units);
+  const std::vector<std::string> given = settings_of(options);
+  settings.insert(settings.end(), given.begin(), given.end());
   const auto add = [&settings](const char* key, const std::string& value) {
     if (!value.empty()) settings.push_back(fmt::format("map.{}='{}'", key, value));
   };
@@ -59,14 +83,22 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   add("unit", options.unit);
   if (options.center.find(',') == std::string::npos) {
     add("center_at", options.center);
-  } else {
+  } else if (!has_unit(options.center)) {
     settings.push_back("map.center=[" + options.center + "]");
   }
   add("distance", options.distance);
   if (!options.sky.empty()) settings.push_back("map.sky=[" + options.sky + "]");
   if (!options.contours.empty()) settings.push_back(contour_setting(options.contours));
-  if (options.width) settings.push_back(fmt::format("map.width={}", *options.width));
-  if (options.depth) settings.push_back(fmt::format("map.depth={}", *options.depth));
+  const auto add_length = [&settings](const char* key, const std::string& length) {
+    if (!length.empty() && !has_unit(length))
+      settings.push_back(fmt::format("map.{}={}", key, length));
+  };
+  add_length("width", options.width);
+  add_length("depth", options.depth);
+  if (options.channels) settings.push_back(fmt::format("map.channels={}", *options.channels));
+  if (options.line_mass) settings.push_back(fmt::format("map.line_mass={}", *options.line_mass));
+  if (!options.velocity_range.empty())
+    settings.push_back("map.velocity_range=[" + options.velocity_range + "]");
   if (options.slice) settings.emplace_back("map.slice=true");
   if (options.noise) settings.emplace_back("map.noise=true");
   if (!options.types.empty()) {
@@ -89,6 +121,39 @@ void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
   if (component == nullptr) return;
   component->select.where.insert(component->select.where.end(), conditions.begin(),
                                  conditions.end());
+}
+
+double length_of(const std::string& text, const char* option, const SceneWithSnapshot& source) {
+  const std::string what = fmt::format("option {}", option);
+  const double length = read_map_length(text, source.scene, *source.snapshot, what);
+  if (length > 0) return length;
+  throw UsageError(fmt::format("{}: found \"{}\", expected a length above 0", what, text));
+}
+
+Vec3 place_of(const std::string& text, const SceneWithSnapshot& source) {
+  const std::string unit = unit_at_end(text);
+  std::istringstream words(text);
+  std::vector<double> place;
+  for (std::string word; std::getline(words, word, ',');) {
+    if (!has_unit(word)) word += " " + unit;
+    place.push_back(read_map_length(word, source.scene, *source.snapshot, "option --center"));
+  }
+  if (place.size() == 3) return {{place[0], place[1], place[2]}};
+  throw UsageError(fmt::format(
+      "option --center: found \"{}\", expected three lengths, such as 25,25,25Mpc", text));
+}
+
+// What has a unit, in the snapshot's lengths; coordinates are told in the unit that was used.
+void use_lengths(const MapOptions& options, SceneWithSnapshot& source) {
+  MapSettings& map = source.scene.map;
+  const bool has_place = options.center.find(',') != std::string::npos && has_unit(options.center);
+  if (has_unit(options.width)) map.width = length_of(options.width, "--width", source);
+  if (has_unit(options.depth)) map.depth = length_of(options.depth, "--depth", source);
+  if (has_place) map.center = place_of(options.center, source);
+  const std::string& used = has_unit(options.width) ? options.width
+                            : has_place             ? options.center
+                                                    : options.depth;
+  if (map.axis_unit.empty()) map.axis_unit = unit_at_end(used);
 }
 
 // The component that was suggested for other types has their name, and another one perhaps the name
@@ -138,6 +203,7 @@ int run_map(const MapOptions& options, Console& console) {
   const std::string not_drawn = tell_not_drawn(source.scene, *source.snapshot);
   add_selection(options.select, source.scene);
   name_by_types(options, source);
+  use_lengths(options, source);
   std::vector<OutputFile> outputs;
   for (const std::filesystem::path& output : options.outputs) {
     check_map_output(output, source.scene, source.snapshot->info());

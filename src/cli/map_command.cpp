@@ -33,6 +33,19 @@ void add_quantity_options(CLI::App& sub, MapOptions& options) {
                wrapped("Add a second plane: the effective number of particles in each pixel"));
 }
 
+void add_velocity_options(CLI::App& sub, MapOptions& options) {
+  sub.add_option("--channels", options.channels,
+                 wrapped("A cube: the sum in so many channels of velocity along the line of sight"))
+      ->type_name("N");
+  sub.add_option("--velocity-range", options.velocity_range,
+                 wrapped("Of the channels, in the snapshot's unit; default: all velocities"))
+      ->type_name("V,V");
+  sub.add_option("--line-mass", options.line_mass,
+                 wrapped("Lines of a cube have the thermal width of particles of so many proton "
+                         "masses"))
+      ->type_name("M");
+}
+
 void add_view_options(CLI::App& sub, MapOptions& options) {
   sub.add_option(
          "--view", options.view,
@@ -41,9 +54,11 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
       ->type_name("NAME");
   sub.add_option(
          "--center", options.center,
-         wrapped("Centre of the map: X,Y,Z in the snapshot's lengths, or box, mass or densest"))
+         wrapped("Centre of the map: X,Y,Z in the snapshot's lengths, or in a unit that the last "
+                 "has: 25,25,25Mpc; or box, mass or densest"))
       ->type_name("PLACE");
-  sub.add_option("--width", options.width, wrapped("Width of the map, in the snapshot's lengths"))
+  sub.add_option("--width", options.width,
+                 wrapped("Width of the map, in the snapshot's lengths or with a unit: 4Mpc"))
       ->type_name("LENGTH");
   sub.add_option("--distance", options.distance,
                  wrapped("Distance of the observer, such as '16.5 Mpc', or redshift: adds "
@@ -56,8 +71,13 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
                  wrapped("Contour lines on figures: how many, or at which values"))
       ->type_name("N|V,V,...");
   sub.add_option("--depth", options.depth,
-                 wrapped("Depth along the line of sight; particles outside are left out"))
+                 wrapped("Depth along the line of sight, likewise; particles outside are left out"))
       ->type_name("LENGTH");
+  sub.add_option("--units", options.units,
+                 wrapped("Units of a snapshot that does not say them: gadget stands for a kpc/h, "
+                         "1e10 Msun/h and a^0.5 km/s"))
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"gadget"}));
   sub.add_option("--size", options.size, wrapped("Size of the map, in pixels"))->type_name("WxH");
 }
 
@@ -98,6 +118,7 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_quantity_options(*sub, *options);
+  add_velocity_options(*sub, *options);
   add_view_options(*sub, *options);
   add_drawing_options(*sub, *options);
   sub->footer(

@@ -239,9 +239,9 @@ Column ComponentFields::masses() const {
   return collected("mass", [](const TypeFields& type) { return type.masses(); });
 }
 
-Column ComponentFields::volumes(const std::string& key) const {
+Column ComponentFields::volumes(const std::string& key, double unit) const {
   return collected("volume of mass and density",
-                   [&](const TypeFields& type) { return type.volumes(key); });
+                   [&](const TypeFields& type) { return type.volumes(key, unit); });
 }
 
 bool ComponentFields::stand_for_the_same() const {

@@ -49,8 +49,9 @@ class ComponentFields {
   Column vectors(const std::string& field, const std::string& key) const;
   bool masses_are_known() const;
   Column masses() const;
-  // Mass over density; `key` is the scene's that asked for it.
-  Column volumes(const std::string& key) const;
+  // Mass over density, in units of `unit` of it: in cgs a float may not hold it. `key` is the
+  // scene's that asked for it.
+  Column volumes(const std::string& key, double unit) const;
   // How many particles of the snapshot each stands for, where only a part of them is read: the
   // mean over the component's types.
   double particles_per_drawn() const;

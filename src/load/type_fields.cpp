@@ -189,9 +189,9 @@ std::optional<double> TypeFields::unit_of_volumes() const {
                     unit_factors(snapshot_->info()));
 }
 
-Column TypeFields::volumes(const std::string& key) const {
-  const std::optional<double> unit = unit_of_densities();
-  if (!unit) {
+Column TypeFields::volumes(const std::string& key, double unit) const {
+  const std::optional<double> of_densities = unit_of_densities();
+  if (!of_densities) {
     throw UsageError(fmt::format(
         "{}: {} needs volumes, which are mass over density, but the densities of type {} in {} are "
         "in \"{}\", expected a unit that can be compared with {}, those of its masses and "
@@ -199,7 +199,7 @@ Column TypeFields::volumes(const std::string& key) const {
         label_, key, type_->type, file(), find_field(*type_, "density")->unit,
         unit_of_matching_density(*type_)));
   }
-  return volumes_of(masses(), scalars("density", key), *unit, count(), streams());
+  return volumes_of(masses(), scalars("density", key), *of_densities * unit, count(), streams());
 }
 
 // From densities and masses or the volumes of cells, where they give all particles a size.

@@ -30,8 +30,8 @@ class TypeFields {
   Column vectors(const std::string& field, const std::string& key) const;
   Column positions() const;
   Column masses() const;
-  // Mass over density, in the cube of the positions' unit.
-  Column volumes(const std::string& key) const;
+  // Mass over density, in so many of the cube of the positions' unit.
+  Column volumes(const std::string& key, double unit) const;
   // The file's; else from densities or neighbours.
   Column smoothing_lengths() const;
   std::vector<std::uint64_t> ids() const;

@@ -166,7 +166,34 @@ void describe_place(const MapGeometry& geometry, const MapSettings& settings,
   map.sky = decide_sky(settings, snapshot, units, map.pixel);
 }
 
+// Of a range that is set.
+void note_outside(const VelocityChannels& channels, std::size_t count,
+                  std::vector<std::string>& notes) {
+  const double end = channels.first_edge + channels.count * channels.width;
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto velocity = static_cast<double>(channels.velocity[i]);
+    outside += velocity < channels.first_edge || velocity > end ? 1 : 0;
+  }
+  if (outside == 0) return;
+  notes.push_back(fmt::format(
+      "key map.velocity_range: {} of {} particles have a velocity outside of it", outside, count));
+}
+
+VelocityAxis axis_of(const VelocityChannels& channels, const std::pair<std::string, double>& told) {
+  const auto& [unit, factor] = told;
+  return {channels.count, factor * (channels.first_edge + 0.5 * channels.width),
+          factor * channels.width, unit};
+}
+
 }  // namespace
+
+double read_map_length(const std::string& text, const Scene& scene, const Snapshot& snapshot,
+                       const std::string& what) {
+  const std::vector<int> types = present_types(choose_component(scene), snapshot.info());
+  if (types.empty()) throw UsageError(what + ": the map's component has no particles");
+  return length_in_snapshot(text, scene.map, snapshot.info(), types.front(), what);
+}
 
 Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
              std::vector<std::string>& notes, const LoadProgress& progress) {
@@ -180,15 +207,18 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   fields.select();
   const MapMatter matter = read_matter(component, settings, fields);
   const MapGeometry geometry = decide_geometry(one, matter, region);
-  const MapQuantity quantity = read_quantity(settings, geometry, fields, matter.count);
+  const std::vector<int> types = present_types(component, fields.snapshot_info());
+  const MapQuantity quantity =
+      read_quantity(settings, geometry, fields, types.front(), matter.count);
   refuse_all_bad(matter, quantity, fields);
-  const MapUnits units =
-      decide_units(settings, fields.snapshot_info(),
-                   present_types(component, fields.snapshot_info()), quantity.kind);
+  const MapUnits units = decide_units(settings, fields.snapshot_info(),
+                                      present_types(component, fields.snapshot_info()),
+                                      quantity.kind, geometry.width * geometry.pixel);
 
   const PlacedParticles placed =
       place_particles(matter, geometry, one.kernel.width, settings.slice);
-  WeightedValues weighted(placed, quantity, settings.floor, geometry, fields.particles_per_drawn());
+  WeightedValues weighted(placed, quantity, settings.floor, geometry, one.kernel.width,
+                          fields.particles_per_drawn());
   const SumPicture picture = {geometry.width, geometry.height, one.kernel.width, one.tolerance};
 
   Map map;
@@ -199,12 +229,18 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
   describe_place(geometry, settings, fields.snapshot_info(), units, map);
   map.tolerance = one.tolerance;
   map.floor = weighted.floor();
-  map.value_floor = weighted.value_floor() * units.factor;
   map.particles = matter.count;
   map.images = placed.count();
   map.bad_particles = placed.bad + weighted.bad();
-  const std::vector<double> values = weighted.draw(picture, draw);
+  const VelocityChannels& channels = quantity.channels;
+  const std::vector<double> values = channels.count > 0
+                                         ? weighted.draw_channels(channels, picture, draw)
+                                         : weighted.draw(picture, draw);
+  if (channels.count > 0)
+    map.velocity =
+        axis_of(channels, told_velocity(settings, fields.snapshot_info(), types.front()));
   map.values = in_unit(values, units);
+  map.value_floor = weighted.value_floor() * units.factor;
   if (settings.noise) {
     map.effective_particles =
         draw_effective_particles(placed, weighted, picture, settings.floor, draw);
@@ -221,6 +257,7 @@ Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw
                     " particles are left out of the map: their position, smoothing length, weight "
                     "or value is not finite, the length not above 0, or the weight below 0");
   }
+  if (settings.velocity_range && channels.count > 0) note_outside(channels, matter.count, notes);
   if (matter.count > 0 && placed.count() == 0)
     notes.push_back("no particle reaches the map, which is empty");
   return map;

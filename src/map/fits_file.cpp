@@ -1,5 +1,6 @@
 #include <fitsio.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -43,9 +44,11 @@ class FitsFile {
   }
 
   void add_image(const Map& map, const std::vector<float>& values) {
-    long sides[2] = {map.width, map.height};
-    std::vector<float> rows = upside_down(values, map.width);
-    fits_create_img(file_.get(), FLOAT_IMG, 2, sides, &status_);
+    const std::size_t planes = values.size() / (static_cast<std::size_t>(map.width) *
+                                                static_cast<std::size_t>(map.height));
+    std::array<long, 3> sides = {map.width, map.height, static_cast<long>(planes)};
+    std::vector<float> rows = upside_down(values, map.width, map.height);
+    fits_create_img(file_.get(), FLOAT_IMG, map.velocity ? 3 : 2, sides.data(), &status_);
     fits_write_img(file_.get(), TFLOAT, 1, static_cast<LONGLONG>(rows.size()), rows.data(),
                    &status_);
     check();
@@ -105,13 +108,14 @@ struct Axis {
   std::string name, unit;
   double center, step;
   int pixels;
+  const char* of_middle = "the middle of the map";
 };
 
 // `number` is that of the axis, with the letter of the system of coordinates.
 void add_axis(FitsFile& file, const std::string& number, const Axis& axis) {
   file.add_text(("CTYPE" + number).c_str(), axis.name, "");
   file.add_text(("CUNIT" + number).c_str(), axis.unit, "");
-  file.add_number(("CRPIX" + number).c_str(), 0.5 * axis.pixels + 0.5, "the middle of the map");
+  file.add_number(("CRPIX" + number).c_str(), 0.5 * axis.pixels + 0.5, axis.of_middle);
   file.add_number(("CRVAL" + number).c_str(), axis.center, "");
   file.add_number(("CDELT" + number).c_str(), axis.step, "");
 }
@@ -130,20 +134,36 @@ void add_place(FitsFile& file, const Map& map) {
   add_axis(file, "2" + letter, {map.up_name, unit, map.center_up, map.pixel, map.height});
 }
 
+// Spectral where it is known to be a velocity: positive away from who looks.
+void add_velocities(FitsFile& file, const Map& map) {
+  if (!map.velocity) return;
+  const VelocityAxis& axis = *map.velocity;
+  const bool is_known = axis.unit == "km/s";
+  const double middle = axis.first + 0.5 * (axis.channels - 1) * axis.step;
+  const Axis of_fits = {
+      is_known ? "VELO" : "velocity", fits_unit(axis.unit), middle, axis.step, axis.channels,
+      "the middle of the channels"};
+  add_axis(file, "3", of_fits);
+  if (map.sky) add_axis(file, "3P", of_fits);
+}
+
 }  // namespace
 
 std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
-                                       const MapMetadata& metadata) {
+                                       const SnapshotInfo& snapshot, const MapMetadata& metadata) {
   FitsFile file(path);
   const FitsUnit unit = readable_fits_unit(map.unit);
   file.add_image(map, times(map.values, unit.factor));
   file.announce_long_texts();
   file.add_text("BUNIT", unit.text, "");
   add_place(file, map);
+  add_velocities(file, map);
   file.add_text("QUANTITY", map.quantity, "");
   file.add_text("VIEW", map.view, "axes to the right and upwards");
   file.add_number("TOLERANC", map.tolerance, "of each sum, relative to max(sum, FLOOR)");
   file.add_number("FLOOR", map.floor, "of the column of weights, in the data's units");
+  if (snapshot.redshift) file.add_number("REDSHIFT", *snapshot.redshift, "");
+  file.add_number("TIME", snapshot.time, "as the snapshot has it");
   for (const auto& [key, text] : metadata)
     file.add_history(key + ": " + text);
   if (!map.effective_particles.empty()) {

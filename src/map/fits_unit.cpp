@@ -23,8 +23,9 @@ bool belongs_to_name(char c) {
 
 std::string name_in_fits(const std::string& name) {
   static const std::map<std::string, std::string> names = {
-      {"Msun", "solMass"}, {"M_sun", "solMass"},   {"Rsun", "solRad"},    {"R_sun", "solRad"},
-      {"au", "AU"},        {"particles", "count"}, {"a", "scale_factor"}, {"h", "little_h"},
+      {"Msun", "solMass"},    {"M_sun", "solMass"},  {"Rsun", "solRad"}, {"R_sun", "solRad"},
+      {"Lsun", "solLum"},     {"L_sun", "solLum"},   {"ly", "lyr"},      {"au", "AU"},
+      {"particles", "count"}, {"a", "scale_factor"}, {"h", "little_h"},
   };
   const auto found = names.find(name);
   return found == names.end() ? name : found->second;
@@ -75,7 +76,9 @@ void append_power(std::string& text, const char* base, double power) {
 }
 
 FitsUnit in_cgs(const Unit& unit) {
-  const double exponent = std::floor(std::log10(unit.in_cgs));
+  // A factor of ten by itself is no number of the standard's.
+  double exponent = std::floor(std::log10(unit.in_cgs));
+  if (exponent == 1) exponent = 0;
   FitsUnit result;
   result.factor = unit.in_cgs / std::pow(10, exponent);
   append_power(result.text, "10", exponent);

@@ -176,6 +176,15 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
                  "map.mass_unit and map.velocity_unit, as far as the quantity needs them"));
 }
 
+[[noreturn]] void refuse_unknown_length(const std::string& found, const NamedUnits& length,
+                                        const std::string& what) {
+  throw UsageError(
+      fmt::format("{}: found \"{}\", but the snapshot's lengths are in {}, which is not known, "
+                  "expected numbers "
+                  "alone; or set map.length_unit, such as \"a kpc/h\"",
+                  what, found, length.name));
+}
+
 // The field whose values the map's quantity or weight is made of; null where there is none.
 const FieldInfo* source_of(const ParticleTypeInfo& type, const std::string& name) {
   if (name.empty()) return nullptr;
@@ -206,24 +215,38 @@ void check_types_agree(const MapSettings& settings, const SnapshotInfo& snapshot
   }
 }
 
-// Lengths without a and h, by a name that other programs know.
-void set_lengths(const DataUnits& data, MapUnits& units) {
+void set_lengths_to(const std::string& name, const NamedUnits& length, MapUnits& units) {
+  const Unit known = parse_unit(name, {}, "key map.axis_unit");
+  units.length_name = name;
+  units.length_factor = length.unit.in_cgs / known.in_cgs;
+  units.length_in_cgs = known.in_cgs;
+}
+
+// In the unit that is asked for, or the largest one that the map is as wide as: without a and h, by
+// a name that other programs know.
+void set_lengths(const MapSettings& settings, const DataUnits& data, double width,
+                 MapUnits& units) {
   const NamedUnits length = data.length();
-  units.length_name = length.name;
   const Unit centimeter = parse_unit("cm", {}, "unit");
-  if (!length.is_known || !same_dimension(length.unit, centimeter)) return;
-  units.length_name = "cm";
-  units.length_in_cgs = 1;
-  for (const char* const name : {"Mpc", "kpc", "pc", "AU", "km"}) {
-    const Unit known = parse_unit(name, {}, "unit");
-    const double factor = length.unit.in_cgs / known.in_cgs;
-    if (factor < 0.05) continue;
-    units.length_name = name;
-    units.length_factor = factor;
-    units.length_in_cgs = known.in_cgs;
+  units.length_name = length.name;
+  const bool is_known = length.is_known && same_dimension(length.unit, centimeter);
+  if (!settings.axis_unit.empty()) {
+    const Unit wanted = parse_unit(settings.axis_unit, {}, "key map.axis_unit");
+    if (!same_dimension(wanted, centimeter) || !is_size(wanted)) {
+      throw UsageError(
+          fmt::format("key map.axis_unit: found \"{}\", expected a unit of length, such as Mpc",
+                      settings.axis_unit));
+    }
+    if (!is_known) refuse_unknown_length(settings.axis_unit, length, "key map.axis_unit");
+    set_lengths_to(settings.axis_unit, length, units);
     return;
   }
-  units.length_factor = length.unit.in_cgs;
+  if (!is_known) return;
+  for (const char* const name : {"Gpc", "Mpc", "kpc", "pc", "AU", "km"}) {
+    set_lengths_to(name, length, units);
+    if (width * units.length_factor >= 1) return;
+  }
+  set_lengths_to("cm", length, units);
 }
 
 }  // namespace
@@ -236,15 +259,50 @@ std::string name_of_density(const ParticleTypeInfo& type) {
   return DataUnits::product({mass->unit, true, {}}, {position->unit, true, {}}, -3).name;
 }
 
+double length_in_snapshot(const std::string& text, const MapSettings& settings,
+                          const SnapshotInfo& snapshot, int type, const std::string& what) {
+  if (const std::optional<double> number = parse_number(text)) return *number;
+  const DataUnits data(settings, snapshot, type);
+  const NamedUnits length = data.length();
+  const Unit given = parse_unit(text, data.factors(), what);
+  const Unit centimeter = parse_unit("cm", {}, "unit");
+  if (!same_dimension(given, centimeter) || end_of_number(text) == 0) {
+    throw UsageError(fmt::format(
+        "{}: found \"{}\", expected a number, or a length such as \"4 Mpc\"", what, text));
+  }
+  if (!length.is_known || !same_dimension(length.unit, centimeter))
+    refuse_unknown_length(text, length, what);
+  return given.in_cgs / length.unit.in_cgs;
+}
+
+double velocity_in_cgs(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
+                       const std::string& what) {
+  const NamedUnits velocity = DataUnits(settings, snapshot, type).velocity();
+  if (velocity.is_known) return velocity.unit.in_cgs;
+  throw UsageError(
+      fmt::format("{}: the snapshot does not say its unit of velocity, expected it; set "
+                  "map.velocity_unit, such "
+                  "as \"km/s\"",
+                  what));
+}
+
+std::pair<std::string, double> told_velocity(const MapSettings& settings,
+                                             const SnapshotInfo& snapshot, int type) {
+  constexpr double kilometer = 1e5;
+  const NamedUnits velocity = DataUnits(settings, snapshot, type).velocity();
+  if (!velocity.is_known) return {velocity.name, 1};
+  return {"km/s", velocity.unit.in_cgs / kilometer};
+}
+
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
-                      const std::vector<int>& types, MapQuantity::Kind kind) {
+                      const std::vector<int>& types, MapQuantity::Kind kind, double width) {
   check_types_agree(settings, snapshot, types);
   const DataUnits data(settings, snapshot, types.front());
   data.check_settings();
   const NamedUnits found = unit_of(settings, data, kind);
   MapUnits units;
   units.name = found.name;
-  set_lengths(data, units);
+  set_lengths(settings, data, width, units);
   if (settings.unit.empty() || settings.unit == found.name) return units;
   const Unit wanted = parse_unit(settings.unit, data.factors(), "key map.unit");
   if (!is_size(wanted)) {

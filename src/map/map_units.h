@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "map/quantity.h"
@@ -29,9 +30,22 @@ struct MapUnits {
 // Of a mass per volume in the units that the file names for the type's; empty where it does not.
 std::string name_of_density(const ParticleTypeInfo& type);
 
-// Of types that are there, at least one. Throws UsageError where their units differ, for a unit
+// A length such as "4Mpc" in the snapshot's unit of length, for a type that it has; a number alone
+// is in that already. `what` begins the UsageError for what is none, or cannot be converted.
+double length_in_snapshot(const std::string& text, const MapSettings& settings,
+                          const SnapshotInfo& snapshot, int type, const std::string& what);
+
+// The snapshot's unit of velocity. `what` begins the UsageError where it does not say it.
+double velocity_in_cgs(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
+                       const std::string& what);
+// What velocities are told in, and from the snapshot's to that: km/s, or code units.
+std::pair<std::string, double> told_velocity(const MapSettings& settings,
+                                             const SnapshotInfo& snapshot, int type);
+
+// `width` is the map's, in the snapshot's lengths, which decides what coordinates are told in. Of
+// types that are there, at least one. Throws UsageError where their units differ, for a unit
 // that is none, that has another dimension, or that is asked for where the snapshot's is not known.
 MapUnits decide_units(const MapSettings& settings, const SnapshotInfo& snapshot,
-                      const std::vector<int>& types, MapQuantity::Kind kind);
+                      const std::vector<int>& types, MapQuantity::Kind kind, double width);
 
 }  // namespace splotchcl

@@ -16,23 +16,21 @@ std::vector<float> draw_effective_particles(const PlacedParticles& placed,
                                             const SumPicture& picture, double floor,
                                             const DrawFrame& draw) {
   const std::size_t count = placed.count();
-  std::vector<float> size(count), weight(count), factors(3 * count, 0.0F);
+  std::vector<float> size(count), weight(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double sigma = picture.kernel_width * static_cast<double>(placed.size[i]);
     const double square = sigma * sigma + 1 / (2 * pi);
     const auto mass = static_cast<double>(weighted.weights()[i]);
     size[i] = static_cast<float>(static_cast<double>(placed.size[i]) / std::sqrt(2.0));
     weight[i] = static_cast<float>(mass * mass / (2 * pi * square));
-    factors[3 * i] = 1;
   }
   // By the square of the floor below the mean, since squares of many small weights are small.
   double squares = 0;
   for (std::size_t i = 0; i < count; ++i)
     squares += static_cast<double>(placed.share[i]) * static_cast<double>(weight[i]);
   const double pixels = static_cast<double>(picture.width) * picture.height;
-  const double white = squares > 0 ? floor * floor * squares / pixels : 1;
-  const PixelSums sums =
-      draw_sums(placed, size, {std::move(weight), std::move(factors), white}, picture, draw);
+  const double least = squares > 0 ? floor * floor * squares / pixels : 1;
+  const PixelSums sums = draw_sums(placed, size, {weight, {}, least}, picture, draw);
   // Of equal weights all would count, and one at least does: beyond that lies the error of both
   // sums.
   const auto most = static_cast<double>(std::count_if(

@@ -6,13 +6,15 @@
 
 namespace splotchcl {
 
-std::vector<float> upside_down(const std::vector<float>& values, int width) {
-  const auto row = static_cast<std::size_t>(width);
+std::vector<float> upside_down(const std::vector<float>& values, int width, int height) {
+  const auto row = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   std::vector<float> turned;
   turned.reserve(values.size());
-  for (std::size_t end = values.size(); end > 0; end -= row) {
-    const float* const first = values.data() + (end - row);
-    turned.insert(turned.end(), first, first + row);
+  for (std::size_t plane = 0; plane < values.size(); plane += row * rows) {
+    for (std::size_t y = rows; y-- > 0;) {
+      const float* const first = values.data() + plane + y * row;
+      turned.insert(turned.end(), first, first + row);
+    }
   }
   return turned;
 }
@@ -20,10 +22,12 @@ std::vector<float> upside_down(const std::vector<float>& values, int width) {
 // Version 1.0 of NumPy's format: the header is padded so that the values begin at a multiple of 64
 // bytes.
 std::vector<unsigned char> encode_npy(const Map& map) {
-  const bool has_two = !map.effective_particles.empty();
+  const std::string planes = map.velocity ? fmt::format("{}, ", map.velocity->channels)
+                             : map.effective_particles.empty() ? ""
+                                                               : "2, ";
   std::string header =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}, {}), }}",
-                  has_two ? "2, " : "", map.height, map.width);
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}, {}), }}", planes,
+                  map.height, map.width);
   constexpr std::size_t start = 10, alignment = 64;
   while ((start + header.size() + 1) % alignment != 0)
     header += ' ';
@@ -33,8 +37,8 @@ std::vector<unsigned char> encode_npy(const Map& map) {
   bytes += static_cast<char>(header.size() & 0xff);
   bytes += static_cast<char>(header.size() >> 8);
   bytes += header;
-  std::vector<float> values = upside_down(map.values, map.width);
-  const std::vector<float> second = upside_down(map.effective_particles, map.width);
+  std::vector<float> values = upside_down(map.values, map.width, map.height);
+  const std::vector<float> second = upside_down(map.effective_particles, map.width, map.height);
   values.insert(values.end(), second.begin(), second.end());
   std::vector<unsigned char> file(bytes.size() + values.size() * sizeof(float));
   std::memcpy(file.data(), bytes.data(), bytes.size());

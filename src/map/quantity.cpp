@@ -17,19 +17,6 @@ bool is_column(const MapSettings& settings) {
   return settings.quantity == "surface_density" || settings.quantity == "counts";
 }
 
-// Positive for what moves away from who looks at the map.
-Column velocities_along(const Vec3& forward, const ComponentFields& fields, std::size_t count) {
-  const Column velocity = fields.vectors("velocity", quantity_key);
-  std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    double along = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      along += forward.a[axis] * static_cast<double>(velocity[3 * i + axis]);
-    values[i] = static_cast<float>(along);
-  }
-  return Column::owning(std::move(values));
-}
-
 // What a map needs masses for can often be had without.
 void require_masses(const ComponentFields& fields, const std::string& what, const char* instead) {
   if (fields.masses_are_known()) return;
@@ -38,14 +25,31 @@ void require_masses(const ComponentFields& fields, const std::string& what, cons
                                instead));
 }
 
+// Volumes in cm^3 are beyond a float: in units of the first one that there is, where they are.
+double unit_of_volumes(const ComponentFields& fields, const char* key, std::size_t count) {
+  constexpr double large = 1e25;
+  const Column mass = fields.masses(), density = fields.scalars("density", key);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double volume = static_cast<double>(mass[i]) / static_cast<double>(density[i]);
+    if (!std::isfinite(volume) || !(volume > 0)) continue;
+    return volume < large && volume > 1 / large ? 1 : std::exp2(std::ilogb(volume));
+  }
+  return 1;
+}
+
+void weigh_by_volume(const ComponentFields& fields, const char* key, std::size_t count,
+                     MapQuantity& quantity) {
+  quantity.weight_unit = unit_of_volumes(fields, key, count);
+  quantity.weight = fields.volumes(key, quantity.weight_unit);
+}
+
 Column weights(const std::string& name, const ComponentFields& fields, std::size_t count) {
   if (name == "constant") return Column::uniform(1);
   if (name == "mass" || name == "volume") {
     require_masses(fields, fmt::format("a mean weighted by {}", name),
                    "set map.weight to \"constant\", or to a field");
   }
-  if (name == "mass") return fields.masses();
-  if (name == "volume") return fields.volumes("map.weight");
+  if (name == "mass" || name == "volume") return fields.masses();
   Column weight = fields.scalars(name, "map.weight");
   for (std::size_t i = 0; i < count; ++i) {
     if (!(weight[i] < 0)) continue;
@@ -57,47 +61,76 @@ Column weights(const std::string& name, const ComponentFields& fields, std::size
 
 Column values(const std::string& name, const MapGeometry& geometry, const ComponentFields& fields,
               std::size_t count) {
-  if (name == "line_of_sight_velocity") return velocities_along(geometry.forward, fields, count);
+  if (name == "line_of_sight_velocity")
+    return velocities_along(geometry.forward, fields, count, quantity_key);
   return fields.scalars(name, quantity_key);
 }
 
 MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields) {
   if (settings.quantity == "counts") {
-    return {MapQuantity::Kind::counts, Column::uniform(1), {}, "particles per pixel"};
+    return {MapQuantity::Kind::counts, Column::uniform(1), 1, {}, "particles per pixel", {}};
   }
   const char* const what = settings.slice ? "density in a plane" : "surface density";
   require_masses(fields, fmt::format("a map of {}", what),
                  "set map.quantity to \"counts\", or to a field");
-  return {MapQuantity::Kind::column, fields.masses(), {}, what};
+  return {MapQuantity::Kind::column, fields.masses(), 1, {}, what, {}};
 }
 
 MapQuantity read_unweighted(const MapSettings& settings, const MapGeometry& geometry,
                             const ComponentFields& fields, std::size_t count) {
   if (is_column(settings)) return column_of(settings, fields);
-  const Column value = values(settings.quantity, geometry, fields, count);
+  MapQuantity quantity;
+  quantity.value = values(settings.quantity, geometry, fields, count);
   if (settings.statistic == MapStatistic::integral) {
     require_masses(fields, "an integral", "set map.statistic to \"mean\"");
-    return {MapQuantity::Kind::integral, fields.volumes("map.statistic"), value,
-            fmt::format("integral of {} along the line of sight", settings.quantity)};
+    quantity.kind = MapQuantity::Kind::integral;
+    weigh_by_volume(fields, "map.statistic", count, quantity);
+    quantity.description = fmt::format("integral of {} along the line of sight", settings.quantity);
+    return quantity;
   }
   const bool is_mean = settings.statistic == MapStatistic::mean;
   // A slice of a field is its value in the plane: space counts there, not mass.
   const std::string weight =
       settings.weight.empty() ? (settings.slice ? "volume" : "mass") : settings.weight;
-  return {is_mean ? MapQuantity::Kind::mean : MapQuantity::Kind::dispersion,
-          weights(weight, fields, count), value,
-          fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion",
-                      settings.quantity, weight, settings.slice ? ", in a plane" : "")};
+  quantity.kind = is_mean ? MapQuantity::Kind::mean : MapQuantity::Kind::dispersion;
+  quantity.weight = weights(weight, fields, count);
+  if (weight == "volume") weigh_by_volume(fields, "map.weight", count, quantity);
+  quantity.description =
+      fmt::format("{} of {}, weighted by {}{}", is_mean ? "mean" : "dispersion", settings.quantity,
+                  weight, settings.slice ? ", in a plane" : "");
+  return quantity;
 }
 
 }  // namespace
 
 bool MapQuantity::is_good(std::size_t i) const {
   const bool needs_value = kind != Kind::column && kind != Kind::counts;
-  return std::isfinite(weight[i]) && weight[i] >= 0 && (!needs_value || std::isfinite(value[i]));
+  return std::isfinite(weight[i]) && weight[i] >= 0 && (!needs_value || std::isfinite(value[i])) &&
+         (channels.count == 0 || channels.is_good(i));
+}
+
+void check_channels(const MapSettings& settings) {
+  if (settings.channels == 0) {
+    if (!settings.velocity_range && settings.line_mass == 0) return;
+    throw UsageError(fmt::format("key map.{}: found it without map.channels, expected both",
+                                 settings.velocity_range ? "velocity_range" : "line_mass"));
+  }
+  const auto refuse = [](const char* key, const char* found, const char* expected) {
+    throw UsageError(fmt::format("key map.channels: found it beside map.{} = {}, expected {}", key,
+                                 found, expected));
+  };
+  if (!is_column(settings))
+    refuse("quantity", settings.quantity.c_str(), "\"surface_density\" or \"counts\"");
+  if (settings.slice) refuse("slice", "true", "a sum along the line of sight");
+  if (settings.noise) refuse("noise", "true", "one of them");
+  if (settings.velocity_range && !((*settings.velocity_range)[0] < (*settings.velocity_range)[1])) {
+    throw UsageError(fmt::format("key map.velocity_range: found {} to {}, expected a rising range",
+                                 (*settings.velocity_range)[0], (*settings.velocity_range)[1]));
+  }
 }
 
 void check_quantity(const MapSettings& settings) {
+  check_channels(settings);
   if (settings.slice && settings.quantity == "counts") {
     throw UsageError(
         "key map.slice: found true beside map.quantity = \"counts\", expected another quantity: a "
@@ -125,8 +158,9 @@ void check_quantity(const MapSettings& settings) {
 }
 
 MapQuantity read_quantity(const MapSettings& settings, const MapGeometry& geometry,
-                          const ComponentFields& fields, std::size_t count) {
+                          const ComponentFields& fields, int type, std::size_t count) {
   MapQuantity quantity = read_unweighted(settings, geometry, fields, count);
+  quantity.channels = read_channels(settings, geometry, fields, type, count);
   quantity.weight = fields.with_factors(quantity.weight);
   return quantity;
 }

@@ -9,73 +9,56 @@ namespace {
 
 constexpr std::size_t denominator = 0, above = 1, below = 2;  // the channels of a frame
 
-// The one in the middle of those that are not 0; 1 where all are.
-double typical_size(std::vector<float> values) {
-  for (float& value : values)
-    value = std::abs(value);
-  values.erase(std::remove(values.begin(), values.end(), 0.0F), values.end());
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
 }  // namespace
 
 WeightedValues::WeightedValues(const PlacedParticles& placed, const MapQuantity& quantity,
-                               double floor, const MapGeometry& geometry,
+                               double floor, const MapGeometry& geometry, double kernel_width,
                                double particles_per_drawn)
     : placed_(placed),
       kind_(quantity.kind),
       pixel_(geometry.pixel),
       is_slice_(!placed.in_plane.empty()),
-      weight_(placed.count(), 0.0F),
-      value_(needs_values() ? placed.count() : 0, 0.0F) {
-  if (needs_values()) read_values(quantity);
+      weight_(placed.count(), 0.0F) {
+  if (needs_values()) value_ = quantity.value;
   read_weights(quantity);
   double inside = 0;
   for (std::size_t i = 0; i < placed.count(); ++i)
     inside += static_cast<double>(placed.share[i]) * static_cast<double>(weight_[i]);
   const double mean = inside / (static_cast<double>(geometry.width) * geometry.height);
-  white_ = mean > 0 ? floor * mean : 1;
-  weight_unit_ *= particles_per_drawn;
+  floor_ = std::max(floor * mean, least_floor(placed.size, weight_, {}, kernel_width));
+  if (!(floor_ > 0)) floor_ = 1;
+  weight_unit_ *= particles_per_drawn * quantity.weight_unit;
 }
 
 bool WeightedValues::needs_values() const {
   return kind_ != MapQuantity::Kind::column && kind_ != MapQuantity::Kind::counts;
 }
 
-void WeightedValues::read_values(const MapQuantity& quantity) {
-  for (std::size_t i = 0; i < placed_.count(); ++i)
-    value_[i] = quantity.value[placed_.source[i]];
-  std::vector<float> finite;
-  std::copy_if(value_.begin(), value_.end(), std::back_inserter(finite),
-               [](float value) { return std::isfinite(value); });
-  value_unit_ = typical_size(std::move(finite));
-  for (float& value : value_)
-    value = static_cast<float>(static_cast<double>(value) / value_unit_);
+double WeightedValues::weight_of(const MapQuantity& quantity, std::size_t i) const {
+  return static_cast<double>(quantity.weight[placed_.source[i]]) *
+         (is_slice_ ? placed_.in_plane[i] : 1);
 }
 
 void WeightedValues::read_weights(const MapQuantity& quantity) {
-  std::vector<double> weights(placed_.count(), 0);
   double sum = 0;
   // Images of a particle follow each other.
   const auto is_first_image = [this](std::size_t i) {
     return i == 0 || placed_.source[i] != placed_.source[i - 1];
   };
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (!quantity.is_good(placed_.source[i])) {
-      if (is_first_image(i)) ++bad_;
-      if (!value_.empty()) value_[i] = 0;
+  std::vector<std::size_t> bad;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    if (quantity.is_good(placed_.source[i])) {
+      sum += weight_of(quantity, i);
       continue;
     }
-    weights[i] = static_cast<double>(quantity.weight[placed_.source[i]]) *
-                 (is_slice_ ? placed_.in_plane[i] : 1);
-    sum += weights[i];
+    bad.push_back(i);
+    if (is_first_image(i)) ++bad_;
   }
-  if (sum > 0) weight_unit_ = sum / static_cast<double>(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    weight_[i] = static_cast<float>(weights[i] / weight_unit_);
+  if (sum > 0) weight_unit_ = sum / static_cast<double>(weight_.size());
+  for (std::size_t i = 0; i < weight_.size(); ++i)
+    weight_[i] = static_cast<float>(weight_of(quantity, i) / weight_unit_);
+  for (const std::size_t i : bad)
+    weight_[i] = 0;
 }
 
 // From a sum per pixel to one per area, or per volume in a plane; counts stay per pixel.
@@ -85,7 +68,7 @@ double WeightedValues::area_factor() const {
 }
 
 double WeightedValues::floor() const {
-  return white_ * weight_unit_ * area_factor();
+  return floor_ * weight_unit_ * area_factor();
 }
 
 double WeightedValues::value_floor() const {
@@ -102,78 +85,114 @@ double WeightedValues::value_floor() const {
   return 0;
 }
 
-// One for the weights alone, and what of the values lies above 0 and below it: colors cannot be
-// negative.
-std::vector<float> WeightedValues::factors(double subtracted) const {
+double WeightedValues::mean_of(const OfValue& of_value) const {
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    const double weight = static_cast<double>(placed_.share[i]) * static_cast<double>(weight_[i]);
+    if (!(weight > 0)) continue;
+    sum += weight * of_value(value_of(i));
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+PixelSums WeightedValues::draw_weights(const SumPicture& picture, const DrawFrame& draw) const {
+  return draw_sums(placed_, placed_.size, {weight_, {}, floor_}, picture, draw);
+}
+
+// One for the weights alone, and what lies above 0 and below it: colors cannot be negative. In
+// their unit all have the same mean, and so the same floor.
+WeightedValues::ValueSums WeightedValues::draw_values(const OfValue& of_value,
+                                                      const SumPicture& picture,
+                                                      const DrawFrame& draw) const {
+  constexpr double most = std::numeric_limits<float>::max();
+  ValueSums drawn;
+  const double size = mean_of([&](double value) { return std::abs(of_value(value)); });
+  if (size > 0) drawn.unit = size;
   std::vector<float> factors(3 * weight_.size(), 0.0F);
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     factors[3 * i + denominator] = 1;
-    if (value_.empty()) continue;
-    const auto value = static_cast<float>(static_cast<double>(value_[i]) - subtracted);
-    factors[3 * i + above] = std::max(value, 0.0F);
-    factors[3 * i + below] = std::max(-value, 0.0F);
+    if (!(weight_[i] > 0)) continue;
+    const double value = of_value(value_of(i)) / drawn.unit;
+    factors[3 * i + (value > 0 ? above : below)] =
+        static_cast<float>(std::min(std::abs(value), most));
   }
-  return factors;
+  drawn.sums =
+      draw_sums(placed_, placed_.size, {weight_, std::move(factors), floor_}, picture, draw);
+  return drawn;
 }
 
-PixelSums WeightedValues::draw_factors(const std::vector<float>& factors, const SumPicture& picture,
-                                       const DrawFrame& draw) const {
-  return draw_sums(placed_, placed_.size, {weight_, factors, white_}, picture, draw);
-}
-
-std::vector<double> WeightedValues::means(const PixelSums& sums) const {
+std::vector<double> WeightedValues::means(const ValueSums& drawn) const {
+  const PixelSums& sums = drawn.sums;
   std::vector<double> means(sums[denominator].size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < means.size(); ++i) {
     const double weight = sums[denominator][i];
-    if (is_known(weight)) means[i] = (sums[above][i] - sums[below][i]) / weight;
+    if (is_known(weight)) means[i] = drawn.unit * (sums[above][i] - sums[below][i]) / weight;
   }
   return means;
 }
 
-std::vector<double> WeightedValues::draw(const SumPicture& picture, const DrawFrame& draw) {
-  // Deviations from the mean of all lose fewer digits than the values themselves.
-  double mean = 0, sum = 0;
-  for (std::size_t i = 0; i < value_.size() && kind_ == MapQuantity::Kind::dispersion; ++i) {
-    mean += static_cast<double>(weight_[i]) * static_cast<double>(value_[i]);
-    sum += static_cast<double>(weight_[i]);
-  }
-  mean = sum > 0 ? mean / sum : 0;
-  PixelSums sums = draw_factors(factors(mean), picture, draw);
-  weight_sums_ = sums[denominator];
-
-  std::vector<double> values;
-  switch (kind_) {
-    case MapQuantity::Kind::column:
-    case MapQuantity::Kind::counts:
-      values = weight_sums_;
-      for (double& value : values)
-        value *= weight_unit_ * area_factor();
-      return values;
-    case MapQuantity::Kind::integral:
-      values.resize(weight_sums_.size());
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = (sums[above][i] - sums[below][i]) * weight_unit_ * value_unit_ * area_factor();
-      return values;
-    case MapQuantity::Kind::mean:
-      values = means(sums);
-      for (double& value : values)
-        value *= value_unit_;
-      return values;
-    case MapQuantity::Kind::dispersion:
-      break;
-  }
-  const std::vector<double> first = means(sums);
-  std::vector<float> squares = factors(mean);
-  for (std::size_t i = 0; i < weight_.size(); ++i) {
-    const float deviation = squares[3 * i + above] - squares[3 * i + below];
-    squares[3 * i + above] = deviation * deviation;
-    squares[3 * i + below] = 0;
-  }
-  values = means(draw_factors(squares, picture, draw));
+// Of deviations from the mean of all, which lose fewer digits than the values themselves.
+std::vector<double> WeightedValues::draw_dispersion(const SumPicture& picture,
+                                                    const DrawFrame& draw) {
+  const double mean = mean_of([](double value) { return value; });
+  const ValueSums drawn = draw_values([mean](double value) { return value - mean; }, picture, draw);
+  weight_sums_ = drawn.sums[denominator];
+  const std::vector<double> first = means(drawn);
+  const auto square = [mean](double value) { return (value - mean) * (value - mean); };
+  std::vector<double> values = means(draw_values(square, picture, draw));
   for (std::size_t i = 0; i < values.size(); ++i) {
     // Rounding may leave a hair below 0 where all values are the same.
     const double variance = values[i] - first[i] * first[i];
-    values[i] = std::isnan(variance) ? variance : value_unit_ * std::sqrt(std::max(0.0, variance));
+    values[i] = std::isnan(variance) ? variance : std::sqrt(std::max(0.0, variance));
+  }
+  return values;
+}
+
+// Three channels are the colors of a frame.
+std::vector<double> WeightedValues::draw_channels(const VelocityChannels& channels,
+                                                  const SumPicture& picture,
+                                                  const DrawFrame& draw) const {
+  constexpr int at_once = 3;
+  std::vector<double> values;
+  for (int first = 0; first < channels.count; first += at_once) {
+    const int end = std::min(first + at_once, channels.count);
+    std::vector<float> factors(at_once * weight_.size(), 0.0F);
+    for (std::size_t i = 0; i < weight_.size(); ++i) {
+      if (!(weight_[i] > 0)) continue;
+      for (int c = first; c < end; ++c)
+        factors[at_once * i + static_cast<std::size_t>(c - first)] =
+            static_cast<float>(channels.part(placed_.source[i], c));
+    }
+    const SumRequest request = {weight_, std::move(factors), floor_ / channels.count, false};
+    PixelSums sums = draw_sums(placed_, placed_.size, request, picture, draw);
+    for (int c = first; c < end; ++c) {
+      const std::vector<double>& sum = sums[static_cast<std::size_t>(c - first)];
+      values.insert(values.end(), sum.begin(), sum.end());
+    }
+  }
+  for (double& value : values)
+    value *= weight_unit_ * area_factor();
+  return values;
+}
+
+std::vector<double> WeightedValues::draw(const SumPicture& picture, const DrawFrame& draw) {
+  if (kind_ == MapQuantity::Kind::dispersion) return draw_dispersion(picture, draw);
+  if (!needs_values()) {
+    weight_sums_ = draw_weights(picture, draw)[denominator];
+    std::vector<double> values = weight_sums_;
+    for (double& value : values)
+      value *= weight_unit_ * area_factor();
+    return values;
+  }
+  const ValueSums drawn = draw_values([](double value) { return value; }, picture, draw);
+  weight_sums_ = drawn.sums[denominator];
+  if (kind_ == MapQuantity::Kind::mean) return means(drawn);
+  value_unit_ = drawn.unit;
+  std::vector<double> values(weight_sums_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] =
+        (drawn.sums[above][i] - drawn.sums[below][i]) * value_unit_ * weight_unit_ * area_factor();
   }
   return values;
 }

@@ -74,6 +74,11 @@ Image numbers_as_image(const Map& map) {
 
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot) {
+  if (scene.map.channels > 0 && (is_figure(path) || lower_ending(path) == ".exr")) {
+    throw UsageError(path.string() +
+                     ": holds one map, not the channels of map.channels, expected .fits, .hdf5 or "
+                     ".npy");
+  }
   if (is_figure(path)) check_figure(scene, snapshot);
 }
 
@@ -95,10 +100,10 @@ std::vector<std::string> write_map(const std::filesystem::path& path, const Map&
   if (is_figure(path)) return write_figure(path, map, scene, snapshot);
   const std::string ending = lower_ending(path);
   if (is_fits(ending)) {
-    write_bytes(path, encode_fits(path, map, metadata));
+    write_bytes(path, encode_fits(path, map, snapshot, metadata));
   } else if (is_hdf5(ending)) {
     UnfinishedFile file(path);
-    write_hdf5(file.temporary_path(), path, map, metadata);
+    write_hdf5(file.temporary_path(), path, map, snapshot, metadata);
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));

@@ -22,6 +22,16 @@ py::buffer_info buffer_of(const Map& map, const std::vector<float>& values) {
   const auto height = static_cast<py::ssize_t>(map.height);
   constexpr bool is_read_only = true;
   float* const last_row = const_cast<float*>(values.data()) + (height - 1) * width;
+  if (map.velocity && &values == &map.values) {
+    const py::ssize_t channels = map.velocity->channels;
+    return {last_row,
+            size,
+            py::format_descriptor<float>::format(),
+            3,
+            {channels, height, width},
+            {size * width * height, -size * width, size},
+            is_read_only};
+  }
   return {last_row,
           size,
           py::format_descriptor<float>::format(),
@@ -66,6 +76,14 @@ py::tuple draw_map_object(const Scene& scene, const Source& source, const std::s
   return py::make_tuple(std::move(map), std::move(notes));
 }
 
+double read_length(const std::string& text, const Scene& scene, const Source& source,
+                   const std::string& what) {
+  return without_python([&] {
+    return source.in_turn(
+        [&](const Snapshot& snapshot) { return read_map_length(text, scene, snapshot, what); });
+  });
+}
+
 std::vector<std::string> write(const Map& map, const std::filesystem::path& path,
                                const Scene& scene, const Source& source) {
   return without_python([&] {
@@ -99,6 +117,13 @@ void bind_maps(py::module_& module) {
       .def_readonly("right_name", &Map::right_name)
       .def_readonly("up_name", &Map::up_name)
       .def_readonly("pixel", &Map::pixel)
+      .def_property_readonly(
+          "velocity",
+          [](const Map& map) -> std::optional<std::tuple<int, double, double, std::string>> {
+            if (!map.velocity) return std::nullopt;
+            const VelocityAxis& axis = *map.velocity;
+            return std::make_tuple(axis.channels, axis.first, axis.step, axis.unit);
+          })
       .def_readonly("center_right", &Map::center_right)
       .def_readonly("center_up", &Map::center_up)
       .def_readonly("tolerance", &Map::tolerance)
@@ -106,6 +131,7 @@ void bind_maps(py::module_& module) {
       .def_readonly("bad_particles", &Map::bad_particles)
       .def("save", &write);
   module.def("draw_map", &draw_map_object);
+  module.def("read_map_length", &read_length);
 }
 
 }  // namespace splotchcl::python

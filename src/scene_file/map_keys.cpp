@@ -67,6 +67,20 @@ Keys quantity_keys() {
   };
 }
 
+Keys velocity_keys() {
+  return {
+      key("map.channels", integer(0, 4096), &MapSettings::channels,
+          {"A sum in so many channels of velocity along the line of sight, as a cube, in place of "
+           "a "
+           "map."}),
+      key("map.velocity_range", two_numbers({}, "[from, to]"), &MapSettings::velocity_range,
+          {"From the first to the last channel.", "the snapshot's", "that of all particles"}),
+      key("map.line_mass", number(at_least(0)), &MapSettings::line_mass,
+          {"Lines are as wide as the thermal motion of particles of so many proton masses makes "
+           "them; 0: a particle has one velocity."}),
+  };
+}
+
 Keys view_keys() {
   return {
       key("map.view",
@@ -91,6 +105,9 @@ Keys view_keys() {
           {"Only particles whose centres lie within half of it from the centre along the line of "
            "sight.",
            "length", "one side of a periodic box; otherwise no limit"}),
+      text_key("axis_unit", &MapSettings::axis_unit,
+               {"The unit of coordinates in files and figures, such as `Mpc`.", "",
+                "the largest that the map is as wide as"}),
       key("map.periodic", boolean(), &MapSettings::periodic,
           {"Draw every periodic image of a particle that the map shows.", "",
            "whether the snapshot has a box that its particles lie in"}),
@@ -165,7 +182,8 @@ Keys figure_keys() {
 
 Keys map_keys() {
   Keys keys;
-  for (const Keys& part : {quantity_keys(), view_keys(), number_keys(), sky_keys(), figure_keys()})
+  for (const Keys& part :
+       {quantity_keys(), velocity_keys(), view_keys(), number_keys(), sky_keys(), figure_keys()})
     append(keys, part);
   return written_if_set(std::move(keys));
 }

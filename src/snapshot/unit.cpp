@@ -23,10 +23,17 @@ struct NamedUnit {
 };
 
 constexpr std::array<double, 4> length = {1, 0, 0, 0}, mass = {0, 1, 0, 0}, duration = {0, 0, 1, 0},
-                                temperature = {0, 0, 0, 1}, energy = {2, 1, -2, 0};
+                                temperature = {0, 0, 0, 1}, energy = {2, 1, -2, 0},
+                                power_of_light = {2, 1, -3, 0}, frequency = {0, 0, -1, 0},
+                                flux_density = {0, 1, -2, 0}, magnetic_field = {-0.5, 0.5, -1, 0},
+                                number = {};
 
-// pc and au: IAU 2012 B2 and 2015 B2. M_sun: GM_sun of IAU 2015 B3 over G of CODATA 2018. R_sun:
-// IAU 2015 B3. m_p, k_B, eV: CODATA 2018. yr: the Julian year.
+constexpr double degree = 3.14159265358979323846 / 180, light_year_in_cm = 9.4607304725808e17,
+                 sun_in_erg_per_s = 3.828e33;
+
+// L_sun: IAU 2015 B3. ly: the light's way in a Julian year. G is Gaussian: a gauss is the root of
+// an erg in a cubic centimeter. pc and au: IAU 2012 B2 and 2015 B2. M_sun: GM_sun of IAU 2015 B3
+// over G of CODATA 2018. R_sun: IAU 2015 B3. m_p, k_B, eV: CODATA 2018. yr: the Julian year.
 const std::vector<NamedUnit>& known_units() {
   static const std::vector<NamedUnit> units = {
       {"cm", {1, length}},
@@ -56,6 +63,27 @@ const std::vector<NamedUnit>& known_units() {
       {"J", {1e7, energy}},
       {"eV", {1.602176634e-12, energy}},
       {"keV", {1.602176634e-9, energy}},
+      {"MeV", {1.602176634e-6, energy}},
+      {"GeV", {1.602176634e-3, energy}},
+      {"ly", {light_year_in_cm, length}},
+      {"lyr", {light_year_in_cm, length}},
+      {"kyr", {3.15576e10, duration}},
+      {"W", {1e7, power_of_light}},
+      {"Lsun", {sun_in_erg_per_s, power_of_light}},
+      {"L_sun", {sun_in_erg_per_s, power_of_light}},
+      {"solLum", {sun_in_erg_per_s, power_of_light}},
+      {"G", {1, magnetic_field}},
+      {"uG", {1e-6, magnetic_field}},
+      {"Hz", {1, frequency}},
+      {"MHz", {1e6, frequency}},
+      {"GHz", {1e9, frequency}},
+      {"Jy", {1e-23, flux_density}},
+      {"mJy", {1e-26, flux_density}},
+      {"rad", {1, number}},
+      {"deg", {degree, number}},
+      {"arcmin", {degree / 60, number}},
+      {"arcsec", {degree / 3600, number}},
+      {"sr", {1, number}},
   };
   return units;
 }
@@ -112,12 +140,13 @@ class Parser {
       ++next_;
       return unit;
     }
-    if ((c >= '0' && c <= '9') || c == '.') return {number(), {}};
+    if ((c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+') return {number(), {}};
     return named();
   }
 
+  // As in "4Mpc" the unit may follow at once.
   double number() {
-    const std::string rest = text_.substr(next_, text_.find_first_of(" */()^", next_) - next_);
+    const std::string rest = text_.substr(next_, end_of_number(text_, next_) - next_);
     const std::optional<double> value = parse_number(rest);
     if (!value || !std::isfinite(*value)) refuse(fmt::format("'{}' for a number", rest));
     next_ += rest.size();
@@ -162,6 +191,24 @@ class Parser {
 };
 
 }  // namespace
+
+std::size_t end_of_number(const std::string& text, std::size_t first) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < text.size() && text[i] >= '0' && text[i] <= '9';
+  };
+  std::size_t i = first;
+  if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+  while (is_digit(i) || (i < text.size() && text[i] == '.'))
+    ++i;
+  if (i == first || i >= text.size() || (text[i] != 'e' && text[i] != 'E')) return i;
+  const std::size_t sign =
+      i + 1 < text.size() && (text[i + 1] == '-' || text[i + 1] == '+') ? 1 : 0;
+  if (!is_digit(i + 1 + sign)) return i;  // "4 erg"
+  i += 1 + sign;
+  while (is_digit(i))
+    ++i;
+  return i;
+}
 
 Unit operator*(const Unit& a, const Unit& b) {
   Unit product = {a.in_cgs * b.in_cgs, a.powers};

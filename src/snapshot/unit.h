@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 #include "splotchcl/snapshot.h"
@@ -23,9 +24,12 @@ struct UnitFactors {
 };
 UnitFactors unit_factors(const SnapshotInfo& snapshot);
 
+// Where the number that begins at `first` ends; there, where none does.
+std::size_t end_of_number(const std::string& text, std::size_t first = 0);
+
 // A product of numbers, names and their powers: "1e10 M_sun Mpc^-3 a^-3", "Msun/pc^2",
-// "(km/s)^2". A slash divides by what follows it next. `what` begins the message of the UsageError
-// for a text that is none, or that needs a or h where they are not known.
+// "(km/s)^2", "4Mpc". A slash divides by what follows it next. `what` begins the message of the
+// UsageError for a text that is none, or that needs a or h where they are not known.
 Unit parse_unit(const std::string& text, const UnitFactors& factors, const std::string& what);
 
 }  // namespace splotchcl

@@ -70,6 +70,24 @@ TEST(ExpectedNeeds, AreNoneOfSamplesWhereSourcesWithoutABrightestShineThroughWha
       << "of all particles some are known";
 }
 
+// Clouds of this width in one place, which nothing absorbs.
+Frame crowd_of_light(double sigma) {
+  const std::vector<Cloud> clouds(5000, Cloud{0.3, 0.2, 1, sigma, 0.5});
+  Frame frame = frame_of(picture_size, picture_size, {component_of(clouds, one_color(1, 1, 1))});
+  frame.components[0].absorption = {Absorption::Kind::none, 0};
+  return frame;
+}
+
+// Those of wider ones follow from how bright the frame is (make_plan.cpp).
+TEST(ExpectedNeeds, OfLightThatNothingAbsorbsAreThoseOfNarrowSplats) {
+  const std::optional<SplatNeeds> narrow = needs_of(crowd_of_light(0.6));
+  ASSERT_TRUE(narrow);
+  EXPECT_GT(narrow->widths[0].light, 2500);
+  EXPECT_GT(narrow->widths[0].farther, 1);
+  const std::optional<SplatNeeds> wide = needs_of(crowd_of_light(12));
+  EXPECT_TRUE(!wide || (wide->grid_light == 1 && wide->widths[4].farther == 0));
+}
+
 // Clouds of sigma 6 in the middle of a dark picture, where the ends of all of them lie around it.
 Frame cluster_in_the_dark(std::size_t count, double depth) {
   std::vector<Cloud> clouds;

@@ -24,6 +24,9 @@ TEST(FitsUnits, ThatNoProgramReadsAreWrittenInPlainOnes) {
   EXPECT_EQ(number.text, "10**20 cm");
   EXPECT_NEAR(number.factor, 2.5, 1e-12);
   EXPECT_EQ(readable_fits_unit("K kpc^0.5").text, "10**10 cm**(0.5) K");
+  const FitsUnit tens = readable_fits_unit("40 g/cm^2");
+  EXPECT_EQ(tens.text, "g cm**-2") << "10 alone is no number of the standard's";
+  EXPECT_NEAR(tens.factor, 40, 1e-12);
   EXPECT_EQ(readable_fits_unit("2 K").text, "K");
   EXPECT_EQ(readable_fits_unit("2 K").factor, 2);
 }

@@ -40,6 +40,28 @@ TEST(Units, KnowASolarMassPerSquareParsec) {
   EXPECT_NEAR(ratio("Msun/pc^2", "g/cm^2"), 2.0884e-4, 1e-8);
 }
 
+TEST(Units, KnowThoseOfLight) {
+  EXPECT_NEAR(ratio("Lsun", "erg/s"), 3.828e33, 1e24);
+  EXPECT_NEAR(ratio("solLum", "W"), 3.828e26, 1e17);
+  EXPECT_NEAR(ratio("Jy", "W Hz^-1 m^-2"), 1e-26, 1e-38);
+  EXPECT_NEAR(ratio("GHz", "s^-1"), 1e9, 1e-3);
+  EXPECT_NEAR(ratio("keV", "erg"), 1.602176634e-9, 1e-20);
+}
+
+TEST(Units, KnowLightYearsGaussesAndAngles) {
+  EXPECT_NEAR(ratio("pc", "ly"), 3.261563777, 1e-8);
+  EXPECT_NEAR(ratio("G^2", "erg/cm^3"), 1, 1e-12);
+  EXPECT_NEAR(ratio("deg", "arcsec"), 3600, 1e-9);
+  EXPECT_NEAR(ratio("erg/s/cm^2/arcsec^2", "erg s^-1 cm^-2 sr^-1"), 4.25451703e10, 10);
+}
+
+TEST(Units, MayFollowANumberAtOnce) {
+  EXPECT_NEAR(ratio("4Mpc", "kpc"), 4000, 1e-9);
+  EXPECT_NEAR(ratio("1e-3Gyr", "Myr"), 1, 1e-12);
+  EXPECT_NEAR(ratio("4 erg", "erg"), 4, 1e-12);
+  EXPECT_NEAR(ratio("2eV", "eV"), 2, 1e-12);
+}
+
 TEST(Units, ReadWhatTheReadersWrite) {
   EXPECT_NEAR(ratio("1e10 M_sun Mpc^-3 a^-3", "Msun/pc^3", {0.5, 0}), 8e10 / 1e18, 1e-18);
   EXPECT_NEAR(ratio("(1e10 M_sun)^-0.666667 Mpc^2 (km/s)^2", "Msun^-0.666667 pc^2 cm^2/s^2"),

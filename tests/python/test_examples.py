@@ -78,6 +78,16 @@ def test_beside_pynbody(renderer, tmp_path, real_file):
     assert is_picture(tmp_path / "a.png")
 
 
+def test_beside_yt(renderer, tmp_path, real_file):
+    pytest.importorskip("yt")
+    pytest.importorskip("matplotlib")
+    told = run("beside_yt.py", real_file("lcdm/fmt3_snapshot_006.hdf5"), tmp_path / "a.png")
+    mass, difference = (line.split(": ")[1] for line in told.splitlines())
+    assert float(mass.split()[0]) == pytest.approx(1, abs=0.005)
+    assert float(difference) < 0.01
+    assert is_picture(tmp_path / "a.png")
+
+
 def test_the_notebook(renderer, universe, tmp_path):
     cells = json.loads((EXAMPLES / "first_look.ipynb").read_text())["cells"]
     script = tmp_path / "notebook.py"

@@ -22,11 +22,13 @@ except ImportError as error:
 from ._core import version as __version__
 from ._galaxy import galaxy
 from ._image import Difference, Image
+from ._inside import inside
 from ._maps import Map, column
 from ._movie import Film, movie
 from ._render import Renderer, devices, reference, render, suggest
 from ._scene import Scene, UnknownKey
 from ._sources import Particles, ParticleType, Snapshot
+from ._statistics import Histogram, Profile, histogram, profile
 
 __all__ = [
     "DataError",
@@ -34,10 +36,12 @@ __all__ = [
     "Difference",
     "Error",
     "Film",
+    "Histogram",
     "Image",
     "Map",
     "ParticleType",
     "Particles",
+    "Profile",
     "Renderer",
     "Scene",
     "Snapshot",
@@ -47,7 +51,10 @@ __all__ = [
     "column",
     "devices",
     "galaxy",
+    "histogram",
+    "inside",
     "movie",
+    "profile",
     "reference",
     "render",
     "suggest",

@@ -99,6 +99,7 @@ class Map(Buffer):
     pixel: float
     center_right: float
     center_up: float
+    velocity: tuple[int, float, float, str] | None
     tolerance: float
     particles: int
     bad_particles: int
@@ -107,6 +108,7 @@ class Map(Buffer):
 def draw_map(
     scene: Scene, source: Source, device: str, by_reference: bool, progress: _Progress
 ) -> tuple[Map, list[str]]: ...
+def read_map_length(text: str, scene: Scene, source: Source, what: str) -> float: ...
 def make_galaxy_file(
     picture: Path,
     output: Path,

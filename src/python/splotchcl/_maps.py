@@ -33,7 +33,7 @@ class Map:
 
     @property
     def values(self) -> np.ndarray[Any, np.dtype[np.float32]]:
-        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest.
+        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest. Of a cube (channels, height, width).
 
         Not a number where a mean has too little matter to be known.
         """
@@ -71,6 +71,19 @@ class Map:
     def axes(self) -> tuple[str, str]:
         """What points to the right and upwards: ("x", "y")."""
         return self._map.right_name, self._map.up_name
+
+    @property
+    def velocities(self) -> np.ndarray[Any, Any] | None:
+        """The middles of a cube's channels in `velocity_unit`, positive away from who looks; else None."""
+        if self._map.velocity is None:
+            return None
+        channels, first, step, _ = self._map.velocity
+        return first + step * np.arange(channels)
+
+    @property
+    def velocity_unit(self) -> str | None:
+        """Of `velocities`: "km/s", or "code_velocity" where it is not known."""
+        return None if self._map.velocity is None else self._map.velocity[3]
 
     @property
     def pixel(self) -> float:
@@ -111,12 +124,15 @@ def column(
     statistic: str | None = None,
     slice: bool = False,
     view: str = "xy",
-    center: Sequence[float] | str | None = None,
-    width: float | None = None,
-    depth: float | None = None,
+    center: Sequence[float | str] | str | None = None,
+    width: float | str | None = None,
+    depth: float | str | None = None,
     size: tuple[int, int] | str | None = None,
     unit: str | None = None,
     noise: bool = False,
+    channels: int | None = None,
+    velocity_range: tuple[float, float] | None = None,
+    line_mass: float | None = None,
     tolerance: float | None = None,
     device: str | None = None,
     settings: Mapping[str, Any] | None = None,
@@ -142,14 +158,22 @@ def column(
     view : {"xy", "xz", "yz", "camera"}
         The first axis points to the right, the second upwards.
     center : 3 floats or {"box", "mass", "densest"}, optional
-        The middle, in the snapshot's unit of length; values with a unit of their own are converted.
-    width, depth : float, optional
-        In the snapshot's unit of length; a value with a unit of its own is converted.
+        The middle, in the snapshot's unit of length; values with a unit of their own, such as
+        "25 Mpc", are converted.
+    width, depth : float or str, optional
+        In the snapshot's unit of length; a value with a unit of its own, such as "4 Mpc", is
+        converted. The map's `length_unit` is that of the width, or of the center.
     unit : str, optional
         Of the map, such as "Msun/pc^2"; None: what the snapshot's units give, or those that arrays
         carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
     noise : bool
         Also the effective number of particles.
+    channels : int, optional
+        A cube: the surface density or the counts in so many channels of velocity along the line of sight.
+    velocity_range : 2 floats, optional
+        Of the channels, in the snapshot's unit; None: all velocities.
+    line_mass : float, optional
+        Lines of a cube have the thermal width of particles of so many proton masses.
 
     Returns
     -------
@@ -165,8 +189,13 @@ def column(
         keys["map.center_at"], center = center, None
     lengths = {"map.center": center, "map.width": width, "map.depth": depth}
     lengths = {key: value for key, value in lengths.items() if value is not None}
-    with_units = {key for key, value in lengths.items() if _carries_unit(value)}
-    keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units}
+    written = {key for key, value in lengths.items() if _is_written(value)}
+    with_units = {key for key, value in lengths.items() if _carries_unit(value)} - written
+    keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units - written}
+    cube = {"map.channels": channels, "map.velocity_range": velocity_range, "map.line_mass": line_mass}
+    keys |= {key: value for key, value in cube.items() if value is not None}
+    if velocity_range is not None:
+        keys["map.velocity_range"] = [float(v) for v in velocity_range]
     if slice:
         keys["map.slice"] = True
     if noise:
@@ -180,6 +209,12 @@ def column(
     what.scene.update(
         {key: _converted(key, lengths[key], what.scene, what.source) for key in with_units}
     )
+    for key in ("map.width", "map.center", "map.depth"):
+        if key in written:
+            what.scene[key] = _read_lengths(key, lengths[key], what.scene, what.source)
+            unit_of_axes = what.scene["map.axis_unit"] or _written_unit(lengths[key])
+            if unit_of_axes:
+                what.scene["map.axis_unit"] = unit_of_axes
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
@@ -216,6 +251,25 @@ def _carries_unit(length: Any) -> bool:
     return unit_of(length) is not None or (
         isinstance(length, list | tuple) and any(unit_of(x) is not None for x in length)
     )
+
+
+# As "4 Mpc" has its unit; of a center each may.
+def _is_written(length: Any) -> bool:
+    return isinstance(length, str) or (
+        isinstance(length, list | tuple) and any(isinstance(x, str) for x in length)
+    )
+
+
+def _read_lengths(key: str, length: Any, scene: Scene, source: Source) -> float | list[float]:
+    def read(one: Any) -> float:
+        return float(_core.read_map_length(str(one), scene._scene, source._source, f"key {key}"))
+
+    return read(length) if isinstance(length, str) else [read(one) for one in length]
+
+
+def _written_unit(length: Any) -> str:
+    texts = [length] if isinstance(length, str) else [x for x in length if isinstance(x, str)]
+    return texts[-1].strip().lstrip("+-.0123456789eE").strip()
 
 
 # A width or a center, without its units.

@@ -137,10 +137,15 @@ def _is_swiftsimio(obj: Any) -> bool:
     return hasattr(getattr(obj, "metadata", None), "present_group_names")
 
 
+def reach_of_swift(metadata: Any) -> float:
+    """Where the kernel of a run of SWIFT ends, in its smoothing lengths."""
+    return float(np.ravel(metadata.hydro_scheme.get("Kernel gamma", _CUBIC_SPLINE_GAMMA))[0])
+
+
 def _load_swiftsimio(data: Any, fields: Sequence[str]) -> Loaded:
     loaded = Loaded()
     metadata = data.metadata
-    reach = float(np.ravel(metadata.hydro_scheme.get("Kernel gamma", _CUBIC_SPLINE_GAMMA))[0])
+    reach = reach_of_swift(metadata)
     for group in metadata.present_group_names:
         particles = getattr(data, group)
         if group not in _SWIFT_TYPES or not hasattr(particles, "coordinates"):
