@@ -1,4 +1,4 @@
-// Two pages say by which test each promise is held: those tests exist.
+// Two pages_with_tests say by which test each promise is held: those tests exist.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -44,7 +44,7 @@ std::set<std::string> tests_of_python() {
   return tests;
 }
 
-constexpr const char* pages[] = {"docs/robustness.md", "docs/dev/security.md"};
+constexpr const char* pages_with_tests[] = {"docs/robustness.md", "docs/dev/security.md"};
 
 // `Suite.Name`, `.Name` of the suite before it, `Suite.*` and `*.Name`.
 std::vector<TestName> tests_that_are_named(const std::string& page) {
@@ -69,7 +69,7 @@ bool is_among(const TestName& named, const std::set<TestName>& tests) {
 
 TEST(RobustnessPage, NamesTestsThatExist) {
   const std::set<TestName> tests = tests_of_the_project();
-  for (const char* const page : pages) {
+  for (const char* const page : pages_with_tests) {
     const std::vector<TestName> named = tests_that_are_named(page);
     EXPECT_GT(named.size(), 15U);
     for (const TestName& name : named)
@@ -79,7 +79,7 @@ TEST(RobustnessPage, NamesTestsThatExist) {
 
 TEST(RobustnessPage, NamesTestsOfPythonThatExist) {
   const std::set<std::string> tests = tests_of_python();
-  for (const char* const page : pages) {
+  for (const char* const page : pages_with_tests) {
     const std::string text = content_of(test::source_folder() / page);
     const auto named = matches_of(text, R"(`(test_\w+)`)");
     EXPECT_FALSE(named.empty());
