@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 
 #include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
@@ -40,6 +41,8 @@ void guard_crashes() {
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGILL})
     ::sigaction(signal, &action, nullptr);
+  // The usual one has lines of its own before it aborts.
+  std::set_terminate([] { std::abort(); });
 }
 
 }  // namespace splotchcl

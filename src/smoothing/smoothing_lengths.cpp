@@ -95,11 +95,13 @@ class NearestDistances {
   std::size_t size() const { return distances_.size(); }
   bool full() const { return distances_.size() >= k_; }
   double worstDist() const { return worst_; }
+  // False ends the search: nothing is nearer than where all k coincide with the particle, and
+  // there may be any number that do.
   bool addPoint(double squared, std::size_t point) {
     if (point == self_ || squared >= worst_) return true;
     distances_.push_back(squared);
     if (distances_.size() == 2 * k_) drop_largest();
-    return true;
+    return worst_ > 0;
   }
 
   // The k-th smallest. Infinite where there are not so many below the bound.
@@ -221,6 +223,7 @@ class NeighborWalk {
       constexpr double rounding = 1 + 1e-5;  // of places in single precision, and below
       const double farthest = last_distance_ + search_.distance(last_, point);
       bound = rounding * farthest * farthest;
+      if (bound == 0) bound = infinity;  // nothing is below 0
     }
     double squared = search_.farthest_squared(point, bound, nearest_);
     if (squared == infinity) squared = search_.farthest_squared(point, infinity, nearest_);

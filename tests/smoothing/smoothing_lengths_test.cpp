@@ -123,6 +123,20 @@ TEST(SmoothingLengths, OfCoincidentParticlesAreTheSmallestOfOthers) {
     ASSERT_EQ(lengths[i], 2);
 }
 
+// As where a file was cut, or a code keeps what has left its box at one place. Where each looked at
+// all the others it would take hours.
+TEST(SmoothingLengths, OfVeryManyCoincidentParticlesTakeNoLongerThanOfOthers) {
+  constexpr std::size_t coincident = 400000, others = 1000;
+  std::vector<float> positions = random_positions(others, 1, 9);
+  positions.resize(3 * (others + coincident), 0.5F);
+  const Column lengths = find_smoothing_lengths(Column::owning(positions), others + coincident);
+  float smallest = lengths[0];
+  for (std::size_t i = 0; i < others; ++i)
+    smallest = std::min(smallest, lengths[i]);
+  for (std::size_t i = others; i < others + coincident; ++i)
+    ASSERT_EQ(lengths[i], smallest);
+}
+
 TEST(SmoothingLengths, WhereAllCoincideAreAThousandthOfTheExtent) {
   std::vector<float> positions(3 * 50, 0);
   positions.resize(3 * 100, 8);
