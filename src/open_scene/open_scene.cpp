@@ -68,6 +68,11 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own), sets_types);
   if (own.empty()) return suggested;
   const Scene wanted = apply_settings(suggested, own);
+  const bool are_suggested =
+      std::equal(wanted.components.begin(), wanted.components.end(), suggested.components.begin(),
+                 suggested.components.end(),
+                 [](const Component& a, const Component& b) { return a.types == b.types; });
+  if (are_suggested) return suggested;
   for (std::size_t i = 0; i < wanted.components.size(); ++i) {
     const std::vector<int>& types = wanted.components[i].types;
     if (types == suggested.components[i].types) continue;

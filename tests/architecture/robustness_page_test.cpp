@@ -1,4 +1,4 @@
-// Two pages_with_tests say by which test each promise is held: those tests exist.
+// Two pages say by which test each promise is held: those tests exist.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -51,11 +51,13 @@ SplatNeeds first_needs(const FramePlan& plan, double light_of_errors) {
 // Frames that are less bright rarely need it, and it costs them four tenths of their time. What is
 // brighter than `most` may err by as much more, but for its edges (docs/tuning.md).
 void add_needs_of_light(double brightness, FramePlan& plan) {
-  constexpr double bright = 3, most = 12, of_grids = 15, of_ends = 4, of_means = 6;
+  constexpr double bright = 3, most = 12, most_on_grids = 9, of_grids = 15, of_ends = 4,
+                   of_means = 6;
   constexpr std::size_t first_octave = 2, end_of_means = 4;
   if (plan.is_extended() || brightness < bright) return;
   brightness = std::min(brightness, most);
-  plan.needs.grid_light = std::max(plan.needs.grid_light, of_grids * brightness);
+  plan.needs.grid_light =
+      std::max(plan.needs.grid_light, of_grids * std::min(brightness, most_on_grids));
   for (std::size_t octave = first_octave; octave < plan.needs.widths.size(); ++octave) {
     WidthNeed& need = plan.needs.widths[octave];
     need.farther += std::log(of_ends * brightness);
