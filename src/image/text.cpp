@@ -9,8 +9,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "image/font_folders.h"

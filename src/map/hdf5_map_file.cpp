@@ -18,8 +18,8 @@ OpenDataset write_plane(const Hdf5Writer& writer, const char* name, const Map& m
 void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::path& path,
                 const Map& map, const SnapshotInfo& snapshot, const MapMetadata& metadata) {
   const Hdf5Silence silence;
-  const Hdf5Writer writer(temporary, path);
-  const OpenDataset values = write_plane(writer, "map", map, map.values);
+  Hdf5Writer writer(temporary, path);
+  OpenDataset values = write_plane(writer, "map", map, map.values);
   writer.write_text(values.id(), "quantity", map.quantity);
   writer.write_text(values.id(), "unit", map.unit);
   const double half_width = 0.5 * map.width * map.pixel, half_height = 0.5 * map.height * map.pixel;
@@ -48,6 +48,7 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
   }
   for (const auto& [key, text] : metadata)
     writer.write_text(writer.file(), key, text);
+  values = {};
   writer.finish();
 }
 

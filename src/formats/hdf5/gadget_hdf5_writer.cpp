@@ -71,7 +71,7 @@ void write_gadget_hdf5(const std::filesystem::path& path, const WrittenSnapshot&
   const Hdf5Silence silence;
   UnfinishedFile file(path);
   {
-    const Hdf5Writer writer(file.temporary_path(), path);
+    Hdf5Writer writer(file.temporary_path(), path);
     write_header(writer, snapshot);
     for (const WrittenType& type : snapshot.types) {
       if (type.count > 0) write_type(writer, type);

@@ -21,6 +21,8 @@ class Hdf5Handle {
   }
   hid_t id() const { return id_; }
   bool is_valid() const { return id_ >= 0; }
+  // For who must know whether that went well.
+  herr_t close() { return Close(std::exchange(id_, H5I_INVALID_HID)); }
 
  private:
   void reset() {

@@ -72,8 +72,9 @@ void Hdf5Writer::write_text(hid_t object, const std::string& name, const std::st
   write_attribute(object, name, type.id(), type.id(), 1, text.c_str());
 }
 
-void Hdf5Writer::finish() const {
+void Hdf5Writer::finish() {
   require(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "the file");
+  require(file_.close(), "the file");
 }
 
 }  // namespace splotchcl

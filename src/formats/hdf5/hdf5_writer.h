@@ -35,8 +35,8 @@ class Hdf5Writer {
   }
   // In UTF-8.
   void write_text(hid_t object, const std::string& name, const std::string& text) const;
-  // Closing flushes; a full disk shows only then. Call it last.
-  void finish() const;
+  // Closing flushes; a full disk shows only then. Call it last, when all else of it is closed.
+  void finish();
 
  private:
   template <typename Result>
