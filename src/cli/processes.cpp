@@ -1,6 +1,7 @@
 #include "cli/processes.h"
 
 #include "cli/version.h"
+#include "common/crash_guard.h"
 #include "ranks/agreement.h"
 #include "ranks/mpi_library.h"
 #include "ranks/shared_host.h"
@@ -46,6 +47,7 @@ void expect_one_process(const Communicator* ranks, const std::string& option) {
 void leave_processes(int code, bool is_agreed) {
   Processes& all = processes();
   if (!all.ranks) return;
+  let_libraries_exit();
   if (!is_agreed) all.ranks->abort(code);
   all.ranks.reset();
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -13,6 +14,9 @@
 
 namespace splotchcl {
 namespace {
+
+std::atomic<bool> may_exit = false;
+pid_t guarded_process = 0;
 
 // Only what POSIX lets a signal handler do: no memory, no streams.
 extern "C" void handle_crash(int) {
@@ -25,7 +29,16 @@ extern "C" void handle_crash(int) {
   ::_exit(1);
 }
 
+// The program itself never calls exit(); HDF5 does where memory runs out, without a word.
+extern "C" void handle_exit() {
+  if (!may_exit && ::getpid() == guarded_process) handle_crash(0);
+}
+
 }  // namespace
+
+void let_libraries_exit() {
+  may_exit = true;
+}
 
 void guard_crashes() {
   if (std::getenv("SPLOTCHCL_CORE") != nullptr) return;
@@ -43,6 +56,8 @@ void guard_crashes() {
     ::sigaction(signal, &action, nullptr);
   // The usual one has lines of its own before it aborts.
   std::set_terminate([] { std::abort(); });
+  guarded_process = ::getpid();
+  std::atexit(handle_exit);
 }
 
 }  // namespace splotchcl

@@ -7,6 +7,7 @@
 //   program where memory runs out, and nobody but they can change that,
 // - what libraries do while they are loaded: OpenImageIO brings some along that end the program, or
 //   wait for ever, where they find no memory or no thread then,
+// - what HDF5 does as it starts: where memory runs out then, it ends the program in a loop,
 // - what other programs do that are started. With SPLOTCHCL_FAULT_IN=children it is those of the
 //   program itself, which compile kernels for it, that fail, and not the first one.
 #include <CL/cl.h>
@@ -361,6 +362,12 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
   if (fails("thread")) return EAGAIN;
   if (elsewhere == 0) return original(thread, attributes, start, argument);
   return original(thread, attributes, &run_elsewhere, new ThreadOfOpenCl{start, argument});
+}
+
+extern "C" int H5open() {
+  static auto* const original = next(&H5open, "H5open");
+  const Elsewhere here;
+  return original();
 }
 
 extern "C" void* dlopen(const char* path, int mode) noexcept {

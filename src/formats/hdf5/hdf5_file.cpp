@@ -87,7 +87,16 @@ std::optional<std::string> variable_text(hid_t attribute, hid_t type) {
 
 }  // namespace
 
+// HDF5 would start with its first call otherwise; where memory runs out in that, all later calls
+// fail and print why.
+void start_hdf5() {
+  if (H5open() < 0)
+    throw DataError(
+        "HDF5 cannot be started, most likely for want of memory; free some and try again");
+}
+
 Hdf5Silence::Hdf5Silence() {
+  start_hdf5();
   H5Eget_auto2(H5E_DEFAULT, &printer_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -112,7 +121,7 @@ bool Hdf5File::has_signature(const std::byte* data, std::uint64_t size) {
 }
 
 Hdf5File::Hdf5File(const std::filesystem::path& path)
-    : path_(path), links_(std::make_unique<Hdf5Links>()), rules_(*links_) {
+    : path_(path), links_((start_hdf5(), std::make_unique<Hdf5Links>())), rules_(*links_) {
   const Hdf5Silence silence;
   require_regular_file(path);
   OpenedFile opened = open_to_read(path);

@@ -14,6 +14,9 @@
 
 namespace splotchcl {
 
+// Before any other call of HDF5; as often as wanted. Throws DataError.
+void start_hdf5();
+
 // While one lives, HDF5 does not print its errors: ours say what is wrong.
 class Hdf5Silence {
  public:
