@@ -29,7 +29,7 @@ def program():
 def universe(program, tmp_path_factory) -> Path:
     """A snapshot of 20000 particles of gas and stars."""
     path = tmp_path_factory.mktemp("universe") / "universe.gadget"
-    program_source("generate", "universe", "--particles", 20000, "-o", path)
+    program("generate", "universe", "--particles", 20000, "-o", path)
     return path
 
 

@@ -26,7 +26,7 @@ FEW = {"disk_stars": 500, "bulge_stars": 300, "clusters": 2, "cluster_stars": 20
 def test_a_galaxy_is_that_of_the_command(program, picture, tmp_path):
     made = splotchcl.galaxy(picture, tmp_path / "a.hdf5", size=20, clockwise=True, **FEW)
     few = [word for name, n in FEW.items() for word in ("--" + name.replace("_", "-"), n)]
-    program_source("galaxy", picture, "-o", tmp_path / "b.hdf5", "--size", 20, "--clockwise", *few)
+    program("galaxy", picture, "-o", tmp_path / "b.hdf5", "--size", 20, "--clockwise", *few)
     expected = splotchcl.Snapshot(tmp_path / "b.hdf5")
     assert set(made.types) == set(expected.types) == {"gas", "disk", "bulge", "stars", "boundary"}
     for name, kind in made.types.items():

@@ -14,13 +14,13 @@ SIZE = (96, 64)
 
 
 def test_a_snapshot_has_the_bits_of_the_command_line(renderer, program, universe, tmp_path):
-    program_source("render", universe, "--size", "96x64", "-o", tmp_path / "program.exr")
+    program("render", universe, "--size", "96x64", "-o", tmp_path / "program.exr")
     image = renderer.render(universe, size=SIZE)
     assert np.array_equal(image.linear, Image.open(tmp_path / "program.exr").linear)
 
 
 def test_a_saved_picture_has_the_bytes_of_the_command_line(renderer, program, universe, tmp_path):
-    program_source("render", universe, "--size", "96x64", "-o", tmp_path / "program.png")
+    program("render", universe, "--size", "96x64", "-o", tmp_path / "program.png")
     renderer.render(universe, size=SIZE).save(tmp_path / "python.png")
     assert (tmp_path / "python.png").read_bytes() == (tmp_path / "program.png").read_bytes()
 
