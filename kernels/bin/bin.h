@@ -1,4 +1,4 @@
-// What host and kernels share of the lists: 4-byte members only (splat.h).
+// What host and kernels share of the lists: 4-byte members only (grid.h).
 #include "kernels/common/ellipse.h"
 #include "kernels/common/grid.h"
 

@@ -1,4 +1,4 @@
-// What host and kernels share of clearing memory: 4-byte members only (splat.h).
+// What host and kernels share of clearing memory: 4-byte members only (grid.h).
 #ifndef SPLOTCHCL_CLEAR_H
 #define SPLOTCHCL_CLEAR_H
 

@@ -1,4 +1,4 @@
-// Stencils (splat.h), of which the host made the polynomials (src/scene/plan/stencil.h), on VALUEs
+// Stencils (grid.h), of which the host made the polynomials (src/scene/plan/stencil.h), on VALUEs
 // (lanes.cl).
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"

@@ -1,4 +1,4 @@
-// What host and kernels share of columns between two snapshots: 4-byte members only (splat.h).
+// What host and kernels share of columns between two snapshots: 4-byte members only (grid.h).
 #ifndef SPLOTCHCL_INTERPOLATE_H
 #define SPLOTCHCL_INTERPOLATE_H
 

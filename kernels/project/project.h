@@ -1,4 +1,4 @@
-// What host and kernels share of the projection: 4-byte members only (splat.h).
+// What host and kernels share of the projection: 4-byte members only (grid.h).
 #include "kernels/common/grid.h"
 
 #ifndef SPLOTCHCL_PROJECT_H

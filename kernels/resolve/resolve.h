@@ -1,5 +1,5 @@
 // What host and kernels share of the way from planes to the picture: 4-byte members only
-// (splat.h).
+// (grid.h).
 #ifndef SPLOTCHCL_RESOLVE_H
 #define SPLOTCHCL_RESOLVE_H
 

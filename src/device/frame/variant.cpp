@@ -110,8 +110,6 @@ bool Variant::has_whole_sectors() const {
   return !rows && !ellipses && !vector_colors && !fine_places;
 }
 
-// The lanes that project a splat know its tiles. With that word a splat is as many words as there
-// are lanes, and most of those that are gathered in sorted order lie in one line of the cache.
 std::size_t Variant::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses ? sizeof(shared::WidthAlongX) : 0) +
          (face_of_cube ? sizeof(shared::Tilt) + sizeof(cl_float) : 0) +

@@ -41,7 +41,9 @@ struct Variant {
   // Floats per pixel of a grid: sums, or 3 sources and 3 opacities; in extended precision a high
   // and a low part of each.
   std::uint32_t planes() const { return (is_ordered() ? 6u : sums) * (extended ? 2u : 1u); }
-  // Whether a splat in memory has its tiles with it.
+  // Whether a splat in memory has its tiles with it, which the lanes that project it know. With
+  // that word a splat is as many words as there are lanes, and most of those that are gathered in
+  // sorted order lie in one line of the cache.
   bool has_own_tiles() const { return rows && !ellipses && !extended; }
   bool has_whole_sectors() const;
   // Bytes of the structures that the variant makes larger or smaller (shared.h).

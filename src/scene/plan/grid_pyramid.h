@@ -31,7 +31,7 @@ GridPyramid make_pyramid(const Frame& frame, const PyramidNeeds& needs);
 // Pixels of a coarse grid beside what is wanted that its blur looks at, the widest of its level.
 int reach_of_blurs(const GridPyramid& pyramid);
 
-// Of a coarse level. MOST_BLURS of kernels (splat.h).
+// Of a coarse level. MOST_BLURS of kernels (grid.h).
 constexpr int most_grids_of_level = 4;
 
 // How many grids a coarse level may have in this picture.
