@@ -8,7 +8,7 @@
 #include "kernels/composite/entry_windows.cl"
 #include "kernels/composite/narrow_splats.cl"
 
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
 #if LANES != 8 || ENTRIES_OF_GROUP != 64
 #error "kinds of entries are bits of bytes, and of a word"
 #endif

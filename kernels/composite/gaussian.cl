@@ -19,7 +19,7 @@ OVERLOADED static inline VALUE exp2_to_five_digits(VALUE f) {
   return p * f + 0.999999261f;
 }
 
-#ifdef FULL_PRECISION
+#if FULL_PRECISION
 #define exp2_of_fraction exp2_to_all_digits
 #else
 #define exp2_of_fraction exp2_to_five_digits
@@ -86,7 +86,7 @@ OVERLOADED static inline VALUE erf_to_all_digits(VALUE x) {
   return x * p;
 }
 
-#ifdef FULL_PRECISION
+#if FULL_PRECISION
 #define error_function erf_to_all_digits
 #else
 #define error_function erf_to_five_digits

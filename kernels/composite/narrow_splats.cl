@@ -10,12 +10,11 @@
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/waiting.cl"
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 #include "kernels/composite/splat_rows.cl"
 #endif
 
-#if !defined(KERNEL_CUT) && !defined(ELLIPSES) && !defined(FACE_OF_CUBE) && \
-    !defined(FINE_PLACES) && SUMMED == 3
+#if !KERNEL_CUT && !ELLIPSES && !FACE_OF_CUBE && !FINE_PLACES && SUMMED == 3
 #define NARROW_SPLATS
 
 // Pixels along both axes of those that are taken as means over pixels, of which an eight of edges
@@ -31,7 +30,7 @@
 #endif
 
 // Of windows up to so many pixels all rows are drawn, whether a splat touches them or not.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define WHOLE_WINDOW GRAIN
 #else
 #define WHOLE_WINDOW SEVEN
@@ -177,7 +176,7 @@ INLINED void fill_middle(const NarrowSplats* narrow, int i, TwoEights* across, T
 }
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 // Draws it in one window of eight columns, or two.
 INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
                               __global const TileSplat* splat, int form) {

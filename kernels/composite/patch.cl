@@ -27,7 +27,7 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #define store_patch store_eight
 #endif
 
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 #if PLANES == 6
 #define PATCH_HEIGHT (PATCH_WIDTH / 4)
 #else
@@ -39,7 +39,7 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 
 // A bit of a word for each. The more there are, the less often patches are loaded and stored, and
 // loops over a patch's splats end; layers in registers of sixteen took longer with 64.
-#if !defined(LIGHT_ORDERED) || !defined(ROWS_OF_16)
+#if !LIGHT_ORDERED || !defined(ROWS_OF_16)
 #define MOST_SHAPES 64
 typedef ulong ShapeBits;
 #else
@@ -50,7 +50,7 @@ typedef uint ShapeBits;
 // What the shapes of splats along one axis of the tile follow from.
 typedef struct AxisOfSplats {
   float place[MOST_SHAPES];  // of the center
-#ifdef FINE_PLACES
+#if FINE_PLACES
   float low[MOST_SHAPES];  // what is to be added to it
 #endif
   float sigma[MOST_SHAPES], factor[MOST_SHAPES];  // as factor_of() has it
@@ -69,7 +69,7 @@ INLINED ShapeBits without_first(ShapeBits splats) {
 }
 
 // Of centers of pixels from that of splat k, along an axis.
-#ifdef FINE_PLACES
+#if FINE_PLACES
 #define DISTANCE_ALONG(axis, k, centers) ((centers) - (axis)->place[k] - (axis)->low[k])
 #else
 #define DISTANCE_ALONG(axis, k, centers) ((centers) - (axis)->place[k])

@@ -4,7 +4,7 @@
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/rows.cl"
 
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 #define PATCH_COLUMNS (TILE_WIDTH / PATCH_WIDTH)
 #define PATCH_ROWS (TILE_HEIGHT / PATCH_HEIGHT)
 
@@ -28,7 +28,7 @@ static inline void clear_reach(PatchReach* reach) {
 }
 
 // The pixel that holds the center of a splat keeps its light, however far its own center is.
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
 #define BESIDE_PIXEL 0.5f
 #else
 #define BESIDE_PIXEL 0.0f

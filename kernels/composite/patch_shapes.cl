@@ -11,13 +11,13 @@
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/shape.cl"
 
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 
 typedef struct PatchShapes {
   AxisOfSplats x, y;
 #ifdef CUT_BY_ROWS
   float cut2[MOST_SHAPES];
-#ifdef ELLIPSES
+#if ELLIPSES
   float squeeze[MOST_SHAPES];
 #endif
 #endif
@@ -25,7 +25,7 @@ typedef struct PatchShapes {
   PatchReach reach;
 } PatchShapes;
 
-#ifdef ELLIPSES
+#if ELLIPSES
 #define SQUEEZE_OF(shapes, k) (shapes)->squeeze[k]
 #else
 #define SQUEEZE_OF(shapes, k) 1.0f
@@ -112,7 +112,7 @@ INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, PATC
 
 // Written out: compilers leave loops as they are.
 INLINED void put_light(float* light, __global const TileSplat* splat) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   light[0] = splat->emission[0];
   light[1] = splat->emission[1];
   light[2] = splat->emission[2];
@@ -139,7 +139,7 @@ INLINED float factor_of(float sigma, float mean_sigma) {
 INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, float sigma,
                       float factor, int is_mean, int2 pixels) {
   axis->place[number] = place;
-#ifdef FINE_PLACES
+#if FINE_PLACES
   axis->low[number] = low;
 #endif
   axis->sigma[number] = sigma;
@@ -156,7 +156,7 @@ INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns
                        __global const TileSplat* splat, float mean_sigma) {
   const float sigma = splat->sigma, factor = factor_of(sigma, mean_sigma);
   const int is_mean = sigma < mean_sigma;
-#ifdef ELLIPSES
+#if ELLIPSES
   const float sigma_x = SIGMA_X(*splat), factor_x = factor_of(sigma_x, mean_sigma);
   const int is_mean_x = sigma_x < mean_sigma;
 #else
@@ -167,7 +167,7 @@ INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns
   put_axis(&shapes->y, number, splat->y, LOW_Y(*splat), sigma, factor, is_mean, rows);
 #ifdef CUT_BY_ROWS
   shapes->cut2[number] = cut_radius(splat->radius) * cut_radius(splat->radius);
-#ifdef ELLIPSES
+#if ELLIPSES
   shapes->squeeze[number] = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif
 #endif

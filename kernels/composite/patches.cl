@@ -7,7 +7,7 @@
 #include "kernels/composite/patch_shapes.cl"
 #include "kernels/composite/rows.cl"
 
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 
 // Bits of the splats whose layers take more than one term, and of those that take three.
 typedef struct LayerForms {
@@ -48,7 +48,7 @@ INLINED void store_patch_row(const PatchRow row, float* pixel) {
 
 // A splat in the columns of a patch.
 typedef struct PatchSplat {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   PATCH across;
   const float* light;
 #else
@@ -61,7 +61,7 @@ typedef struct PatchSplat {
 #ifdef CUT_BY_ROWS
   PATCH square;
   const float* limits;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   PATCH dx;
   float dy;  // of the first row
 #endif
@@ -73,7 +73,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
   PatchSplat splat;
   const PATCH across = load_patch(values->across + k * PATCH_WIDTH);
   splat.along = values->along + (size_t)k * TILE_HEIGHT + y;
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   splat.across = across;
   splat.light = shapes->light + k * PLANES;
 #else
@@ -89,7 +89,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
 #ifdef CUT_BY_ROWS
   splat.square = load_patch(values->squares + k * PATCH_WIDTH);
   splat.limits = values->limits + (size_t)k * TILE_HEIGHT + y;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   splat.dx = DISTANCE_ALONG(&shapes->x, k, ((float)x + FIRST_X) + lanes);
   splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
 #endif
@@ -101,7 +101,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
 #ifndef CUT_BY_ROWS
 #define WHERE_DRAWN(splat, k, drawn, otherwise) (drawn)
 #else
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
 // The pixel that holds the center keeps its light.
 #define OR_HOLDS_CENTER(splat, k)                                                             \
   | (((splat).dx > -0.5f) & ((splat).dx <= 0.5f) &                                            \
@@ -114,7 +114,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
   select(otherwise, drawn, ((splat).square <= (splat).limits[k]) OR_HOLDS_CENTER(splat, k))
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
   return WHERE_DRAWN(splat, k, NOT_NEGATIVE(splat.across * splat.along[k]), (PATCH)(0.0f));
 }
@@ -206,7 +206,7 @@ INLINED void add_to_patch(float* tile, int x, int y, const PatchShapes* shapes,
   if (splats == 0) return;
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   if ((splats & forms.more_terms) == 0) {
     ADD_EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
   } else {

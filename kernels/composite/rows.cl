@@ -23,7 +23,7 @@
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
 // Shapes of a splat on a face of a cube come row by row, and cut (face_rows.cl).
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #define SHAPE_OF_ROW(k) load_eight(along + 8 * (k))
 #else
 #define SHAPE_OF_ROW(k) (across * along[k])
@@ -34,21 +34,21 @@ static inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
 }
 
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
+#if KERNEL_CUT && !FACE_OF_CUBE
 #define CUT_BY_ROWS
 #endif
 // Where values along y are, those of rows are followed by how far from the center columns may lie
 // in each at most, squared: along[LIMITS + k] of row k.
 #define LIMITS (TILE_HEIGHT + 16)
 #ifdef CUT_BY_ROWS
-#ifdef ELLIPSES
+#if ELLIPSES
 #define SQUEEZED(dx) (dx * squeeze)
 #else
 #define SQUEEZED(dx) (dx)
 #endif
 // `shape` of the pixels of a row, zero beyond its limit; with means the pixel that holds the center
 // keeps its light.
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
 #define BESIDE_CENTER (dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
 #else
 #define BESIDE_CENTER (int8)(-1)
@@ -72,7 +72,7 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define fill_limits(along, first, low, count, splat)
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
 // by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
 // since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
@@ -113,7 +113,7 @@ static inline void fill_limits(float* along, float first, float low, int count,
 
 // Differences of the error function may be negative by their error. A thin layer's opacity must
 // not be: it would be read as a transmittance.
-#ifdef KEEP_TRANSMITTANCE
+#if KEEP_TRANSMITTANCE
 #define NOT_NEGATIVE(shape) max(shape, 0.0f)
 #else
 #define NOT_NEGATIVE(shape) (shape)
@@ -138,7 +138,7 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define BY_SERIES 3
 #define IN_FULL 4
 
-#ifdef KEEP_TRANSMITTANCE
+#if KEEP_TRANSMITTANCE
 // Of a block of splats that are no deeper than this together no pixel is so opaque that its
 // transmittance is carried.
 #define DEPTH_OF_OPACITIES 0.45f
@@ -155,7 +155,7 @@ static inline int form_of_layer(float deepest, float depth_of_block, const Compo
 }
 #endif
 
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
 // A row of a splat added to the sums, written out for each of them, as layers are.
 #define SUMMED_CHANNEL(c) const float8 summed##c = across * splat->summed[c];
 #define ADD_CHANNEL(c) \
@@ -197,11 +197,11 @@ static inline int first_of_eights(int2 columns) {
 // Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
 // the first.
 static inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   const float last = FIRST_X + (float)(width - 1);
   const float nearest =
       clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
-#ifdef ELLIPSES
+#if ELLIPSES
   const float part_of_radius = nearest / splat->along_x.radius;
   const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
 #else
@@ -225,7 +225,7 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif
   float* pixel = tile + window->y * ROW + window->x;
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
@@ -244,7 +244,7 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   SUMMED_CHANNELS
 #pragma unroll 4
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
     const float8 shape = SHAPE_OF_ROW(k);
 #else
     const float8 shape =

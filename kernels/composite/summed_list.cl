@@ -16,13 +16,13 @@
 #include "kernels/composite/stencil_rows.cl"
 #include "kernels/composite/tile_planes.cl"
 #include "kernels/composite/waiting.cl"
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #include "kernels/composite/face_rows.cl"
 #else
 #include "kernels/composite/splat_rows.cl"
 #endif
 
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
 
 typedef struct SummedList {
   float* tile;

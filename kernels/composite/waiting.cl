@@ -8,7 +8,7 @@
 #include "kernels/composite/patches.cl"
 #include "kernels/composite/rows.cl"
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 // None waits.
 typedef struct WaitingSplats {
   uint count;
@@ -40,8 +40,8 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
 
 // Splats up to so many pixels are drawn row by row, of those whose rows have no loop over columns
 // (narrow_splats.cl): in patches they would fill too few pixels.
-#if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED) && \
-                            (defined(ELLIPSES) || defined(FINE_PLACES) || SUMMED == 6))
+#if KERNEL_CUT || \
+    (defined(ROWS_OF_16) && !LIGHT_ORDERED && (ELLIPSES || FINE_PLACES || SUMMED == 6))
 #define WIDEST_ALONE 7
 #else
 #define WIDEST_ALONE 16
@@ -53,7 +53,7 @@ static inline int waits(const WaitingSplats* waiting, int2 rows, int2 columns,
                         __global const TileSplat* splat, int form) {
   const int widest = max(columns.y - columns.x, rows.y - rows.x) + 1;
   const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   return form <= BY_THREE_TERMS && is_dim && (widest > WIDEST_ALONE || waiting->count > 0);
 #else
   return is_dim && widest > WIDEST_ALONE;
@@ -65,7 +65,7 @@ static inline void let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2
                             __global const TileSplat* splat, float mean_sigma, int form) {
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
   waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
 #endif
@@ -79,7 +79,7 @@ static inline int let_wait_if_it_does(float* tile, WaitingSplats* waiting, int2 
     let_wait(tile, waiting, rows, columns, splat, mean_sigma, form);
     return 1;
   }
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   add_waiting(tile, waiting);
 #endif
   return 0;

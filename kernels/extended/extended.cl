@@ -7,7 +7,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#ifdef DOUBLE_NUMBERS
+#if DOUBLE_NUMBERS
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double Extended;
 

@@ -12,7 +12,7 @@
 
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
 // that are padded to whole eights.
-#ifdef BACKGROUND_IMAGE
+#if BACKGROUND_IMAGE
 #define BACKGROUND_PARAMETER __global const float *background,
 #define BACKGROUND_ARGUMENT background,
 #define BACKGROUND(c, x, y) \
@@ -31,27 +31,27 @@ INLINED void resolve_eight(const ResolveParameters p, const Grid grid, __global 
   float8 transmitted = (float8)(0.0f);
 #pragma unroll
   for (int c = 0; c < 3; ++c) {
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
     // The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
     __global const float* parts = pixels + (size_t)(2 * c) * grid.plane_size;
     const float8 sum = vload8(0, parts), low = vload8(0, parts + grid.plane_size);
 #else
     const float8 sum = vload8(0, pixels + (size_t)c * grid.plane_size);
 #endif
-#if defined(EXTENDED_NUMBERS) && defined(LIGHT_ORDERED)
+#if EXTENDED_NUMBERS && LIGHT_ORDERED
     const float8 depth = vload8(0, parts + (size_t)6 * grid.plane_size);
     const float8 transmittance =
         precise_exp_negative(depth, vload8(0, parts + (size_t)7 * grid.plane_size));
     const float8 own = sum;
-#elif defined(EXTENDED_NUMBERS) && !defined(LIGHT_EMISSION)
+#elif EXTENDED_NUMBERS && !LIGHT_EMISSION
     const float8 opacity = sum * precise_phi(sum);
     const float8 transmittance = precise_exp_negative(sum, low);
     const float8 own = p.source[c] * opacity;
-#elif defined(LIGHT_ORDERED)
+#elif LIGHT_ORDERED
     const float8 transmittance =
         transmittance_of(vload8(0, pixels + (size_t)(c + 3) * grid.plane_size));
     const float8 own = sum;
-#elif defined(LIGHT_EMISSION)
+#elif LIGHT_EMISSION
     const float8 transmittance = (float8)(1.0f);
     // Coarse grids ring by a part of the tolerance: a sum may be slightly negative. No particle's
     // weight or color is.

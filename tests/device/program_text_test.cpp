@@ -36,8 +36,8 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
 std::vector<ProgramSource> programs_of_all_frames() {
   return {program_source("kernels/interpolate/interpolate.cl", lanes_of(true)),
           program_source("kernels/interpolate/interpolate.cl", lanes_of(false)),
-          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS"}),
-          program_source("kernels/project/boxes.cl"),
+          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS 1"}),
+          program_source("kernels/project/boxes.cl", {"VECTOR_COLORS 0"}),
           program_source("kernels/project/compact.cl"),
           program_source("kernels/sort/sort.cl"),
           program_source("kernels/sort/sort_groups.cl"),

@@ -3,16 +3,15 @@
 namespace splotchcl {
 namespace {
 
-Choices choices_of(ProjectOutput output) {
-  switch (output) {
-    case ProjectOutput::splats:
-      return {"OUTPUT_SPLATS"};
-    case ProjectOutput::splats_and_keys:
-      return {"OUTPUT_SPLATS", "OUTPUT_KEYS"};
-    case ProjectOutput::key_counts:
-      return {"COUNT_KEYS"};
-  }
-  return {};
+// Lists are counted with sums alone, and on processors.
+Choices choices_of(ProjectOutput output, bool counts_tiles) {
+  const auto flag = [](const char* name, bool is_set) {
+    return std::string(name) + (is_set ? " 1" : " 0");
+  };
+  return {flag("OUTPUT_SPLATS", output != ProjectOutput::key_counts),
+          flag("OUTPUT_KEYS", output == ProjectOutput::splats_and_keys),
+          flag("COUNT_KEYS", output == ProjectOutput::key_counts),
+          flag("COUNT_TILES", counts_tiles)};
 }
 
 Choices rows_of_16(const Variant& variant) {
@@ -30,9 +29,8 @@ std::string composite_file(const Variant& variant) {
 }  // namespace
 
 ProgramSource project_program(const Variant& variant, ProjectOutput output) {
-  Choices choices = choices_of(output);
+  Choices choices = choices_of(output, variant.rows && output == ProjectOutput::splats);
   if (!variant.rows) return program_source(variant, "kernels/project/project_groups.cl", choices);
-  if (output == ProjectOutput::splats) choices.emplace_back("COUNT_TILES");
   // Extended numbers are of one particle at a time.
   if (variant.rows_of_16 && !variant.extended) choices.emplace_back("LANES_16");
   return program_source(variant, "kernels/project/project.cl", choices);
