@@ -27,7 +27,7 @@
 #endif
 
 // Of functions that there are for eight numbers and for sixteen.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 #define OVERLOADED __attribute__((overloadable))
 #else
 #define OVERLOADED

@@ -104,7 +104,7 @@ INLINED TwoEights grain_means(float across, float along, float per_sigma) {
 
 // Means between the edges of seven pixels along both axes, the first of which are so many pixels
 // from the center; the eighths are 0.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 INLINED TwoEights halves_of(float16 numbers) {
   TwoEights halves;
   halves.first = numbers.lo;
@@ -133,7 +133,7 @@ INLINED TwoEights seven_means_of_axes(float across, float along, float per_sigma
 #ifdef MIDDLE_SPLATS
 // The same between fifteen along one axis, the sixteenth of which is 0, and values at sixteen
 // centers.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 INLINED TwoEights fifteen_means(float first, float per_sigma) {
   const float16 within = error_function((first + PATCH_LANES) * per_sigma);
   return halves_of(within.s123456789abcdeff - within);
@@ -256,7 +256,7 @@ INLINED void add_seven(float* tile, const NarrowSplats* narrow, int i,
 }
 
 #ifdef MIDDLE_SPLATS
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 #define MIDDLE_CHANNEL(c) const float16 light##c = sixteen * splat->summed[c]
 #define ADD_MIDDLE(c)                                     \
   {                                                       \
@@ -283,7 +283,7 @@ INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
   float rows[16];
   store_eight(along.first, rows);
   store_eight(along.second, rows + 8);
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
   const float16 sixteen = (float16)(across.first, across.second);
 #endif
   MIDDLE_CHANNEL(0);

@@ -4,12 +4,11 @@
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/rows.cl"
 
-#if !FACE_OF_CUBE
 #define PATCH_COLUMNS (TILE_WIDTH / PATCH_WIDTH)
 #define PATCH_ROWS (TILE_HEIGHT / PATCH_HEIGHT)
 
 // Only a part of the patches of a disc's square are the disc's.
-#ifdef CUT_BY_ROWS
+#if CUT_BY_ROWS
 #if PATCH_COLUMNS > 8 || MOST_SHAPES % 32 != 0
 #error "columns of patches and words of splats are taken in eights and whole words"
 #endif
@@ -112,5 +111,4 @@ INLINED ShapeBits splats_of_column(const PatchReach* reach, int column) {
 INLINED ShapeBits splats_of_row(const PatchReach* reach, int row) {
   return reach->of_rows[row];
 }
-#endif
 #endif

@@ -15,7 +15,7 @@ Choices choices_of(ProjectOutput output, bool counts_tiles) {
 }
 
 Choices rows_of_16(const Variant& variant) {
-  return variant.takes_rows_of_16() ? Choices{"ROWS_OF_16"} : Choices{};
+  return {variant.takes_rows_of_16() ? "ROWS_OF_16 1" : "ROWS_OF_16 0"};
 }
 
 // By rows of a tile, or a pixel for each item of a group.
