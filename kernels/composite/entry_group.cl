@@ -9,9 +9,8 @@
 #include "kernels/composite/narrow_splats.cl"
 
 #if !LIGHT_ORDERED
-#if LANES != 8 || ENTRIES_OF_GROUP != 64
-#error "kinds of entries are bits of bytes, and of a word"
-#endif
+// Kinds of entries are bits of bytes, and of a word.
+REQUIRE(kinds_in_bits, LANES == 8 && ENTRIES_OF_GROUP == 64);
 
 // What entries are drawn by. Numbers of four bytes alone, ROOM_OF_ENTRIES of each.
 typedef struct EntryGroup {

@@ -25,9 +25,7 @@
 // Of those that are taken at pixels' centers, two eights of these.
 #define SIXTEEN 16
 // Where WIDEST_ALONE is less, all beyond seven pixels wait (waiting.cl).
-#if WIDEST_ALONE == SIXTEEN
-#define MIDDLE_SPLATS
-#endif
+#define MIDDLE_SPLATS (WIDEST_ALONE == SIXTEEN)
 
 // Of windows up to so many pixels all rows are drawn, whether a splat touches them or not.
 #if LIGHT_ORDERED
@@ -51,7 +49,7 @@ typedef struct NarrowSplats {
 
 INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
   const INTEGER of_means = select((INTEGER)(SEVEN), (INTEGER)(GRAIN), pixels <= GRAIN);
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   const INTEGER wider = select((INTEGER)(SIXTEEN), (INTEGER)(FIFTEEN), sigma < mean_sigma);
   const INTEGER found = select(wider, of_means, pixels <= SEVEN & sigma < mean_sigma);
   return found & (sigma > 0.0f) & (pixels <= wider);
@@ -130,7 +128,7 @@ INLINED TwoEights seven_means_of_axes(float across, float along, float per_sigma
 }
 #endif
 
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
 // The same between fifteen along one axis, the sixteenth of which is 0, and values at sixteen
 // centers.
 #if ROWS_OF_16
@@ -188,7 +186,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
     across.first = axes.first * narrow->scale[i];
     along.first = axes.second;
   }
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   else if (pixels > SEVEN) {
     fill_middle(narrow, i, &across, &along);
   }
@@ -207,7 +205,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
   window.y = narrow->y[i];
   window.rows = pixels == GRAIN ? GRAIN : narrow->rows[i];
   update_window(tile, &window, across.first, of_rows, splat, form);
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   if (pixels <= SEVEN || narrow->columns[i] <= 8) return;
   window.x += 8;
   update_window(tile, &window, across.second, of_rows, splat, form);
@@ -255,7 +253,7 @@ INLINED void add_seven(float* tile, const NarrowSplats* narrow, int i,
     ADD_ROW
 }
 
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
 #if ROWS_OF_16
 #define MIDDLE_CHANNEL(c) const float16 light##c = sixteen * splat->summed[c]
 #define ADD_MIDDLE(c)                                     \

@@ -28,9 +28,7 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #endif
 
 #define PATCH_HEIGHT (PLANES == 6 ? PATCH_WIDTH / 4 : PATCH_WIDTH / 2)
-#if TILE_WIDTH % PATCH_WIDTH != 0 || TILE_HEIGHT % PATCH_WIDTH != 0
-#error "a tile is not made of whole patches"
-#endif
+REQUIRE(whole_patches, TILE_WIDTH % PATCH_WIDTH == 0 && TILE_HEIGHT % PATCH_WIDTH == 0);
 
 // A bit of a word for each. The more there are, the less often patches are loaded and stored, and
 // loops over a patch's splats end; layers in registers of sixteen took longer with 64.

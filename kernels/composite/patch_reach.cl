@@ -9,9 +9,8 @@
 
 // Only a part of the patches of a disc's square are the disc's.
 #if CUT_BY_ROWS
-#if PATCH_COLUMNS > 8 || MOST_SHAPES % 32 != 0
-#error "columns of patches and words of splats are taken in eights and whole words"
-#endif
+// Columns of patches and words of splats are taken in eights and whole words.
+REQUIRE(columns_in_eights, PATCH_COLUMNS <= 8 && MOST_SHAPES % 32 == 0);
 
 // Bits of 32 splats in each word; words of eight rows are together.
 #define WORDS_OF_SPLATS (MOST_SHAPES / 32)
@@ -62,11 +61,10 @@ INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, co
 
 // Those that touch a patch.
 INLINED ShapeBits splats_of_patch(const PatchReach* reach, int column, int row) {
-  ShapeBits splats = reach->touched[0][column][row];
-#if WORDS_OF_SPLATS == 2
-  splats |= (ShapeBits)reach->touched[1][column][row] << 32;
-#endif
-  return splats;
+  const ShapeBits first = reach->touched[0][column][row];
+  if (WORDS_OF_SPLATS == 1) return first;
+  const int last = WORDS_OF_SPLATS - 1;
+  return first | (ShapeBits)reach->touched[last][column][row] << 32 * last;
 }
 
 INLINED ShapeBits splats_of_column(const PatchReach* reach, int column) {

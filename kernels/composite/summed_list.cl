@@ -92,7 +92,7 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
 #ifdef NARROW_SPLATS
   EACH_ENTRY(kinds.smallest, add_grain(tile, &group->narrow, i, entry);)
   EACH_ENTRY(kinds.small, add_seven(tile, &group->narrow, i, entry);)
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   EACH_ENTRY(kinds.middle, add_middle_splat(tile, &group->narrow, i, entry);)
 #endif
 #endif

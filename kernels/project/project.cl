@@ -67,7 +67,7 @@ INLINED uint list_all_lanes(const SplatArrays* found, uint slot, __global Splat*
   for (uint k = 0; k < LANES; ++k) {
     __global Splat* kept = splats + slot;
     ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
-    STORE_SPLAT(*found, k, found->splats[k], kept);
+    store_splat(found, k, found->splats[k], kept);
     // Vectors' comparisons give -1.
     const uint is_visible = -(uint)found->visible[k];
     count[corner_tile_of(found, k, grids)] += is_visible;
@@ -172,7 +172,7 @@ __attribute__((noinline)) static void project_block(
           if (COPIES) put_copy(&listed, copy, y, p);
           __global Splat* kept = to.splats + slot;
           ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
-          STORE_SPLAT(found, k, listed, kept);
+          store_splat(&found, k, listed, kept);
           if (EXTENDED_NUMBERS)
             to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
           if (COUNT_TILES) {

@@ -97,13 +97,13 @@ INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
   }
 }
 
-#if SPLATS_OF_EIGHT_WORDS
 // In one piece: a structure is copied in pieces.
-#define STORE_SPLAT(found, k, splat, to) \
-  store_global_eight(load_eight((const float*)((found).splats + (k))), (__global float*)(to))
-#else
-#define STORE_SPLAT(found, k, splat, to) *(to) = splat
-#endif
+INLINED void store_splat(const SplatArrays* found, uint k, const Splat splat, __global Splat* to) {
+  if (SPLATS_OF_EIGHT_WORDS)
+    store_global_eight(load_eight((const float*)(found->splats + k)), (__global float*)to);
+  else
+    *to = splat;
+}
 
 INLINED Splat splat_of(const SplatArrays* a, uint k) {
   if (SPLATS_OF_EIGHT_WORDS) return a->splats[k];

@@ -396,16 +396,17 @@ void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels)
   DeviceContext& device = context_.device;
   const std::size_t width_strips = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   shared::ResolveParameters parameters = parameters_;
-  Buffer<float> background;
-  if (context_.variant.background_image) {
-    parameters.background_stride = static_cast<int>(8 * width_strips);
-    background = upload_background(8 * width_strips);
-  }
-  Launch launch(device, "resolve", program_.create_kernel("resolve"));
-  launch.value(parameters).arg(context_.grids).arg(planes.light);
-  if (context_.variant.background_image) launch.arg(background);
-  launch.arg(pixels).run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height),
-                              1);
+  parameters.background_stride = static_cast<int>(8 * width_strips);
+  const Buffer<float> background = context_.variant.background_image
+                                       ? upload_background(8 * width_strips)
+                                       : device.pool.get<float>(0, "unused");
+  Launch(device, "resolve", program_.create_kernel("resolve"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(background)
+      .arg(pixels)
+      .run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height), 1);
 }
 
 }  // namespace splotchcl

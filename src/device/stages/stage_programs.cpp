@@ -3,19 +3,20 @@
 namespace splotchcl {
 namespace {
 
+std::string flag(const std::string& name, bool is_set) {
+  return name + (is_set ? " 1" : " 0");
+}
+
 // Lists are counted with sums alone, and on processors.
 Choices choices_of(ProjectOutput output, bool counts_tiles) {
-  const auto flag = [](const char* name, bool is_set) {
-    return std::string(name) + (is_set ? " 1" : " 0");
-  };
   return {flag("OUTPUT_SPLATS", output != ProjectOutput::key_counts),
           flag("OUTPUT_KEYS", output == ProjectOutput::splats_and_keys),
           flag("COUNT_KEYS", output == ProjectOutput::key_counts),
           flag("COUNT_TILES", counts_tiles)};
 }
 
-Choices rows_of_16(const Variant& variant) {
-  return {variant.takes_rows_of_16() ? "ROWS_OF_16 1" : "ROWS_OF_16 0"};
+Choices composite_choices(const Variant& variant, bool has_clouds) {
+  return {flag("ROWS_OF_16", variant.takes_rows_of_16()), flag("CLOUDS_IN_LISTS", has_clouds)};
 }
 
 // By rows of a tile, or a pixel for each item of a group.
@@ -41,13 +42,11 @@ ProgramSource bin_program(const Variant& variant) {
 }
 
 ProgramSource composite_program(const Variant& variant) {
-  return program_of_layers(variant, composite_file(variant), rows_of_16(variant));
+  return program_of_layers(variant, composite_file(variant), composite_choices(variant, false));
 }
 
 ProgramSource composite_with_clouds_program(const Variant& variant) {
-  Choices choices = rows_of_16(variant);
-  choices.emplace_back("CLOUDS_IN_LISTS 1");
-  return program_of_layers(variant, composite_file(variant), choices);
+  return program_of_layers(variant, composite_file(variant), composite_choices(variant, true));
 }
 
 ProgramSource join_program(const Variant& variant) {
