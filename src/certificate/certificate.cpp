@@ -69,7 +69,7 @@ class FrameErrors {
  public:
   FrameErrors(const CollectedSplats& splats, const Image& image, const Frame& frame,
               const FramePlan& plan)
-      : picture_(measure_light(image, frame, plan)),
+      : picture_(measure_light(image, splats.passed, frame, plan)),
         is_bound_(plan.certify),
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
@@ -102,8 +102,7 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise +
-                part_of_layers_ * light.layers / promise_;
+    sums.rest = (rest_ + part_of_all_ * light.parts + part_of_layers_ * light.layers) / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);

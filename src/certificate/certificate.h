@@ -29,6 +29,8 @@ struct CollectedSplats {
   // where there are no slabs.
   std::vector<float> of_slabs;
   double around = 0;  // the part of the promise that clouds around the camera spend
+  // Ordered: the least transmittance of any pixel and channel of each block.
+  std::vector<float> passed = {};
 };
 
 // docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.

@@ -86,6 +86,8 @@ Resolver::Resolver(const StageContext& context)
     if (context.plan.pyramid.is_blurred())
       blur_program_ = context.device.programs.get(blur_program(context.variant));
   }
+  if (context.plan.needs_sort() && !context.plan.is_extended())
+    passed_program_ = context.device.programs.get(passed_program(context.variant));
   if (context.plan.slabs > 0)
     slab_program_ = context.device.programs.get(lay_slab_program(context.variant));
 }
@@ -340,6 +342,34 @@ std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
       float& block = blocks[y / side * columns + x * 8 / side];
       block = std::max(block, of_eights[y * eights + x]);
     }
+  }
+  return blocks;
+}
+
+Buffer<float> Resolver::least_passed(const Planes& planes) const {
+  static_assert(BlockErrors::block_pixels == ROWS_OF_BLOCK);
+  const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
+  const auto rows = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height));
+  auto passed = context_.device.pool.get<float>(eights * rows, "light that is let through");
+  Launch(context_.device, "resolve", passed_program_.create_kernel("least_passed"))
+      .value(parameters_)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(passed)
+      .run_grid(eights, rows, 1);
+  return passed;
+}
+
+std::vector<float> Resolver::least_of_blocks(const Buffer<float>& passed) const {
+  constexpr std::size_t eights_of_block = BlockErrors::block_pixels / 8;
+  const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
+  const auto columns = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.width));
+  const auto rows = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height));
+  const std::vector<float> of_eights = context_.device.pool.download(passed, eights * rows);
+  std::vector<float> blocks(columns * rows, 1.0f);
+  for (std::size_t i = 0; i < of_eights.size(); ++i) {
+    float& block = blocks[i / eights * columns + i % eights / eights_of_block];
+    block = std::min(block, of_eights[i]);
   }
   return blocks;
 }

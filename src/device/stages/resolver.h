@@ -15,6 +15,11 @@ class Resolver {
   explicit Resolver(const StageContext& context);
 
   Image resolve(Planes planes) const;
+  // Of an ordered plan's planes, before they are resolved: how much of what lies behind them shows
+  // at least, eight pixels wide and one block of the picture (BlockErrors) high.
+  Buffer<float> least_passed(const Planes& planes) const;
+  // The least of each block.
+  std::vector<float> least_of_blocks(const Buffer<float>& passed) const;
 
   // An ordered plan's planes before its first slab.
   SlabLight start_slabs() const;
@@ -57,7 +62,7 @@ class Resolver {
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
-  Program program_, grids_program_, blur_program_, slab_program_;
+  Program program_, grids_program_, blur_program_, slab_program_, passed_program_;
 };
 
 }  // namespace splotchcl

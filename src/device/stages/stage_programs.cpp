@@ -86,6 +86,10 @@ ProgramSource resolve_program(const Variant& variant) {
   return program_source(variant, "kernels/resolve/resolve.cl");
 }
 
+ProgramSource passed_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/passed.cl");
+}
+
 ProgramSource list_around_program(const Variant& variant) {
   return program_source(variant, "kernels/project/list_around.cl");
 }
