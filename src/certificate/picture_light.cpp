@@ -20,11 +20,11 @@ struct Range {
 // What a block does for an error of 1 in a sum of splats, and of a part of every splat alike; and
 // over max(1, I), pixel by pixel, of a part of every splat that may differ (BlockLight).
 struct Response {
-  double of_sum = 0, of_parts = 0, parts = 0, layers = 0, relative = 1;
+  double of_sum = 0, of_parts = 0, parts = 0, layers = 0, behind = 0, relative = 1;
 };
 
 Response of_emission(const Range& light) {
-  return {1, light.most, std::min(light.most, 1.0), 0, 1};
+  return {1, light.most, std::min(light.most, 1.0), 0, 0, 1};
 }
 
 // I = q + (background - q) T with T = exp(-x): dI / dx = q - I, and errors of parts of splats are
@@ -39,7 +39,7 @@ Response of_proportional(const Range& light, double source, double contrast) {
   const double of_parts = at > 0 ? std::max(0.0, -at * std::log(at / contrast)) : 0;
   const double faintest = std::max(1.0, light.least);
   // What has faded below 1 counts as an error of the sum.
-  return {most, of_parts, of_parts / faintest, 0, std::max({1.0, most, of_parts}) / faintest};
+  return {most, of_parts, of_parts / faintest, 0, 0, std::max({1.0, most, of_parts}) / faintest};
 }
 
 // What lies behind layers in an ordered pixel: how deep the deepest channel is, and the brightest
@@ -72,8 +72,13 @@ double scaled_alike(double light, const Behind& behind) {
 // the light. Over max(1, I) both are largest at I = 1 or below (docs/dev/accuracy.md).
 Response of_ordered(double light, const Behind& behind) {
   const double counted = std::min(light, 1.0), taken = taken_away(counted, behind);
-  return {std::max(1.0, light / behind.expected), scaled_alike(light, behind), counted + taken,
-          std::max(counted, taken), std::max(1 + taken_away(1, behind), 1 / behind.expected)};
+  const double taken_of_1 = taken_away(1, behind);
+  return {std::max(1.0, light / behind.expected),
+          scaled_alike(light, behind),
+          counted + taken,
+          std::max(counted, taken),
+          taken_of_1,
+          std::max(1 + taken_of_1, 1 / behind.expected)};
 }
 
 struct BlockRanges {
@@ -135,6 +140,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
     block.even = std::max(block.even, response.of_parts);
     block.parts = std::max(block.parts, response.parts);
     block.layers = std::max(block.layers, response.layers);
+    block.behind = std::max(block.behind, response.behind);
     block.relative = std::max(block.relative, response.relative);
     least = std::min(least, ranges.channels[c].least);
   }

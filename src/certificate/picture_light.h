@@ -16,6 +16,7 @@ struct BlockLight {
   // and over max(1, I) of that pixel, where each errs by up to the whole of itself: of either sign,
   double parts = 0;
   double layers = 0;    // ordered, of one sign,
+  double behind = 0;    // of what lies behind, where that is 1 together with them,
   double relative = 1;  // or, of either sign, by itself where it has not faded below 1.
 };
 
