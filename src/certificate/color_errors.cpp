@@ -24,7 +24,7 @@ struct FieldRoundings {
 
 FieldRoundings roundings_of(const FramePlan& plan) {
   // Of numbers of 45 bits, and of their logarithms.
-  if (plan.is_extended()) return {1e-10, 5e-12, 0x1p-42};
+  if (plan.is_extended()) return {3e-10, 3e-11, 0x1p-42};
   if (plan.certify) return {24 * rounding, 4 * rounding, 4 * rounding};
   return {6 * rounding, 2 * rounding, 2 * rounding};
 }
