@@ -93,7 +93,7 @@ ErrorBudget make_extended_budget() {
 ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
                               bool coarse_grids) {
   ErrorBudget budget;
-  if (frame.tolerance == 0) return make_extended_budget();
+  if (frame.tolerance < extended_tolerance) return make_extended_budget();
   budget.precision = drawn_for < fast_tolerance ? Precision::full : Precision::fast;
   const bool is_wide = std::max(frame.width, frame.height) > widest_of_integers;
   budget.has_fine_places =
