@@ -74,13 +74,13 @@ class FrameErrors {
  public:
   FrameErrors(const CollectedSplats& splats, const Image& image, const Frame& frame,
               const FramePlan& plan)
-      : picture_(measure_light(image, splats.passed, frame, plan)),
+      : picture_(measure_light(image, splats.depths, frame, plan)),
         is_bound_(plan.certify),
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
         rest_(error_of_all_pixels(splats, plan)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
-        colors_(image, frame, plan),
+        colors_(image, splats.depths, frame, plan),
         part_of_colors_(part_of_colors(frame, plan)),
         part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
@@ -253,13 +253,14 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   return certificate;
 }
 
-Certificate certify_extended(const Image& image, const Frame& frame, const FramePlan& plan) {
+Certificate certify_extended(const CollectedSplats& splats, const Image& image, const Frame& frame,
+                             const FramePlan& plan) {
   const double promise = std::max(frame.tolerance, extended_tolerance);
   Certificate certificate = even_certificate(image, extended_tolerance, promise);
   const double part = part_of_colors(frame, plan);
   if (part == 0) return certificate;
-  const PictureLight picture = measure_light(image, {}, frame, plan);
-  const ColorLight colors(image, frame, plan);
+  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
+  const ColorLight colors(image, splats.depths, frame, plan);
   std::vector<float>& errors = certificate.blocks.errors;
   for (std::size_t b = 0; b < errors.size(); ++b) {
     const double of_colors = part * colors.in_block(b, picture.blocks[b].behind);

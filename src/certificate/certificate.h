@@ -31,8 +31,8 @@ struct CollectedSplats {
   // where there are no slabs.
   std::vector<float> of_slabs;
   double around = 0;  // the part of the promise that clouds around the camera spend
-  // Ordered: the least transmittance of any pixel and channel of each block.
-  std::vector<float> passed = {};
+  // Of matter that absorbs: how deep the deepest channel of each block is.
+  std::vector<float> depths = {};
 };
 
 // docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
@@ -41,6 +41,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
 
 // Of a picture in extended precision, which keeps its promise whatever the splats, but for the
 // colors of light that is far brighter in one channel than in another.
-Certificate certify_extended(const Image& image, const Frame& frame, const FramePlan& plan);
+Certificate certify_extended(const CollectedSplats& splats, const Image& image, const Frame& frame,
+                             const FramePlan& plan);
 
 }  // namespace splotchcl

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
@@ -13,7 +14,9 @@ namespace splotchcl {
 // intensities").
 class ColorLight {
  public:
-  ColorLight(const Image& image, const Frame& frame, const FramePlan& plan);
+  // `depths` as of measure_light().
+  ColorLight(const Image& image, const std::vector<float>& depths, const Frame& frame,
+             const FramePlan& plan);
 
   // The most that a pixel of this block (BlockErrors) errs over max(1, I), where every splat errs
   // by the whole of itself. `layers`: of an ordered block, how many times what is added is taken
@@ -21,9 +24,10 @@ class ColorLight {
   double in_block(std::size_t block, double layers) const;
 
  private:
-  double of_pixel(const float* pixel) const;
+  double of_pixel(const float* pixel, double deepest) const;
 
   const Image& image_;
+  const std::vector<float>& depths_;
   LightPlan light_;
   double source_, contrast_;  // proportional
 };

@@ -106,13 +106,11 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
   return ranges;
 }
 
-// The deepest channel of an ordered block. An opacity of floats errs by ten roundings of 1
-// (plan.h, keeps_transmittance), and alpha is the mean of three.
-double deepest(double opacity, const float* passed, const FramePlan& plan) {
-  constexpr double roundings = 10 * 0x1p-24, deepest_of_floats = 88;
-  const double least = passed != nullptr ? static_cast<double>(*passed) : 1 - 3 * opacity;
-  const double known = plan.layers.keeps_transmittance ? least : least - roundings;
-  return known > 0 ? std::min(-std::log(known), deepest_of_floats) : deepest_of_floats;
+// The deepest channel of a block of which only alpha is known, the mean of three.
+double deepest_by_alpha(double opacity) {
+  constexpr double deepest_of_floats = 88;
+  const double passed = 1 - 3 * opacity;
+  return passed > 0 ? -std::log(passed) : deepest_of_floats;
 }
 
 // What all blocks of a picture share.
@@ -150,7 +148,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
 
 }  // namespace
 
-PictureLight measure_light(const Image& image, const std::vector<float>& passed, const Frame& frame,
+PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
                            const FramePlan& plan) {
   constexpr int side = BlockErrors::block_pixels;
   PictureLight picture;
@@ -164,8 +162,8 @@ PictureLight measure_light(const Image& image, const std::vector<float>& passed,
     for (std::size_t b = first; b < last; ++b) {
       const BlockRanges ranges = ranges_of(image, static_cast<int>(b % columns) * side,
                                            static_cast<int>(b / columns) * side);
-      const float* const of_block = passed.empty() ? nullptr : &passed[b];
-      const double depth = deepest(ranges.opacity, of_block, plan);
+      const double depth =
+          depths.empty() ? deepest_by_alpha(ranges.opacity) : static_cast<double>(depths[b]);
       picture.blocks[b] = light_of(ranges, around, {depth, brightest, plan.light_behind});
     }
   });

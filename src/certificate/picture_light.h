@@ -26,9 +26,8 @@ struct PictureLight {
   std::vector<BlockLight> blocks;
 };
 
-// `passed`: ordered, the least transmittance of any pixel and channel of each block; where there
-// are none, what alpha says of it.
-PictureLight measure_light(const Image& image, const std::vector<float>& passed, const Frame& frame,
+// `depths`: of the deepest channel of each block; where there are none, what alpha says of it.
+PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
                            const FramePlan& plan);
 
 }  // namespace splotchcl

@@ -123,7 +123,7 @@ class Pipeline {
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
-  Buffer<float> passed_;  // of what lies behind an ordered picture's layers
+  Buffer<float> deepest_;  // layers of the picture
   const Surroundings surroundings_;
   CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
   CloudLayers around_;      // ... or layers between them

@@ -267,7 +267,7 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
     const double before = thread_seconds();
     if (is_first()) {
       picture.certificate = drawn.is_extended()
-                                ? certify_extended(picture.image, frame, drawn)
+                                ? certify_extended(splats.collected, picture.image, frame, drawn)
                                 : certify(splats.collected, picture.image, frame, drawn);
     }
     share(picture.certificate);

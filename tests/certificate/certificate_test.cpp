@@ -236,11 +236,11 @@ Image even_picture(double light, double opacity) {
   return image;
 }
 
-// A picture without splats whose blocks let so much light through.
-CollectedSplats passing(double transmittance) {
+// A picture without splats whose blocks are so deep.
+CollectedSplats as_deep(double depth) {
   CollectedSplats splats;
-  splats.passed.assign(static_cast<std::size_t>(size / 16) * (size / 16),
-                       static_cast<float>(transmittance));
+  splats.depths.assign(static_cast<std::size_t>(size / 16) * (size / 16),
+                       static_cast<float>(depth));
   return splats;
 }
 
@@ -249,17 +249,17 @@ CollectedSplats passing(double transmittance) {
 TEST_F(CertificateTest, CountsTheSeriesOfLayersByTheLightThatTheyShowIn) {
   frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
   plan_ = make_plan(frame_);
-  const auto of_layers = [&](double light, double transmittance) {
+  const auto of_layers = [&](double light, double depth) {
     const Image image = even_picture(light, 0);
-    const Certificate certificate = certify(passing(transmittance), image, frame_, plan_);
+    const Certificate certificate = certify(as_deep(depth), image, frame_, plan_);
     return certificate.worst.rest * frame_.tolerance - plan_.shares.early_stop;
   };
   const double part = plan_.layers.part;
-  EXPECT_NEAR(of_layers(0, 0.5), 0, 1e-8);
-  EXPECT_NEAR(of_layers(0.05, 0.5), 0.05 * part, 1e-8);
-  EXPECT_NEAR(of_layers(0.05, std::exp(-3)), 3 * 0.05 * part, 1e-8);
-  EXPECT_NEAR(of_layers(0.05, 0), (1 + std::log(1 / 0.05)) * 0.05 * part, 1e-8);
-  EXPECT_NEAR(of_layers(1, 0), part, 1e-8);
+  EXPECT_NEAR(of_layers(0, 0.7), 0, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 0.7), 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 3), 3 * 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 88), (1 + std::log(1 / 0.05)) * 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(1, 88), part, 1e-8);
 }
 
 // Alpha is a mean of three channels, of which one may hide all that the others show.
@@ -298,8 +298,8 @@ TEST_F(CertificateTest, CountsLayersBeforeAStarAsPartsOfItsLight) {
   Image image = even_picture(0.01, 0.5);
   const std::size_t star = image.pixels.size() / 2;
   std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(star), 3, 1000.0f);
-  EXPECT_TRUE(certify(passing(0.5), image, frame_, plan_).keeps_promise());
-  EXPECT_FALSE(certify(passing(1e-30), image, frame_, plan_).keeps_promise());
+  EXPECT_TRUE(certify(as_deep(0.7), image, frame_, plan_).keeps_promise());
+  EXPECT_FALSE(certify(as_deep(70), image, frame_, plan_).keeps_promise());
 }
 
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {

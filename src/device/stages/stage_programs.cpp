@@ -86,8 +86,8 @@ ProgramSource resolve_program(const Variant& variant) {
   return program_source(variant, "kernels/resolve/resolve.cl");
 }
 
-ProgramSource passed_program(const Variant& variant) {
-  return program_source(variant, "kernels/resolve/passed.cl");
+ProgramSource deepest_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/deepest.cl");
 }
 
 ProgramSource list_around_program(const Variant& variant) {
