@@ -46,6 +46,8 @@ struct RefineParameters {
   float weights[REFINEMENT_TAPS];
 };
 
+#define ROWS_OF_BLOCK 16
+
 struct ResolveParameters {
   int width, height;   // pixels
   int crop_x, crop_y;  // in the picture

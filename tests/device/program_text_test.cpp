@@ -28,7 +28,7 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
   for (const ProgramSource& program :
        {join_program(variant), composite_program(variant.of_slabs()),
         join_program(variant.of_slabs()), certify_program(variant), refine_program(variant),
-        blur_program(variant), lay_slab_program(variant)})
+        blur_program(variant), lay_slab_program(variant), deepest_program(variant)})
     programs.push_back(program);
   return programs;
 }

@@ -77,6 +77,10 @@ ProgramSource resolve_program(const Variant& variant) {
   return program_source(variant, "kernels/resolve/resolve.cl");
 }
 
+ProgramSource deepest_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/deepest.cl");
+}
+
 ProgramSource list_around_program(const Variant& variant) {
   return program_source(variant, "kernels/project/list_around.cl");
 }
