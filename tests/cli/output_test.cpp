@@ -212,6 +212,31 @@ TEST(HomeThatCannotBeWritten, IsNamedWhereNothingElseCanBe) {
   EXPECT_THAT(result.err, HasSubstr("/proc/nothing"));
 }
 
+TEST(HomeThatCannotBeWritten, IsNamedWhereKernelsAreNotCompiledInIt) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_in(folder,
+             "export POCL_CACHE_DIR=/dev/null SPLOTCHCL_CACHE=; \"$splotchcl\" generate halo "
+             "--particles 2000 -o s; \"$splotchcl\" render s -o a.png --size 32x24");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/dev/null"));
+}
+
+TEST(HomeThatCannotBeWritten, MayBeNoNameAtAll) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  for (const std::string variables : {"POCL_CACHE_DIR=", "XDG_CACHE_HOME=/proc"}) {
+    const ProgramResult result = run_in(
+        folder,
+        "unset SPLOTCHCL_CACHE POCL_CACHE_DIR; mkdir -p tmp; export TMPDIR=$PWD/tmp; export " +
+            variables +
+            "; \"$splotchcl\" generate halo --particles 2000 -o s; \"$splotchcl\" render s "
+            "-o a.png --size 32x24");
+    EXPECT_EQ(result.exit_code, 0) << variables << "\n" << result.err;
+  }
+}
+
 // What lies there, PoCL would run.
 class KernelsOfOthers : public ::testing::Test {
  protected:
