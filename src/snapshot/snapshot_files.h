@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/word_hash.h"
+#include "scene/word_hash.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {

@@ -192,6 +192,19 @@ TEST_F(ClosedStreams, ArePartsOfNoFilmAndNoMap) {
   EXPECT_EQ(splotchcl_in(folder_, "info s 0<&-").out, told);
 }
 
+TEST_F(RenderedOutput, OfASnapshotThatIsWrittenToMeanwhileIsNotKept) {
+  for (const std::string command :
+       {"render h --reference --size 64x48 -o a.png", "map h --reference --size 16x16 -o a.fits"}) {
+    const ProgramResult result =
+        run_in(folder_, "(while :; do touch h; done) & busy=$!; \"$splotchcl\" " + command +
+                            "; code=$?; kill $busy; exit $code");
+    EXPECT_EQ(result.exit_code, 1) << command;
+    EXPECT_THAT(result.err, HasSubstr("h: changed while it was used")) << command;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.fits"));
+}
+
 // Of a service, or of a container with another user.
 TEST(HomeThatCannotBeWritten, IsDoneWithout) {
   SKIP_WITHOUT_DEVICE();
