@@ -69,6 +69,21 @@ TEST(Info, WritesJsonAndNoControlCharactersWhateverFieldsAreCalled) {
               AllOf(HasSubstr("?[31m"), ::testing::Not(HasSubstr("\x1b"))));
 }
 
+TEST(Info, WritesNoControlCharactersWhateverTheFileIsCalled) {
+  const TemporaryFolder folder;
+  // To begin commands of a terminal there is a character of one byte, and one of two.
+  for (const std::string name : {"a\x1b[31m.csv", "a\u009b31m.csv"}) {
+    std::ofstream(folder / name) << "x,y,z,v [\x1b[31m]\n1,2,3,4\n2,3,4,5\n";
+    for (const std::string command : {"info", "info --json", "info --header", "fields",
+                                      "render --reference --size 8x8 -o a.png --explain"}) {
+      const ProgramResult result = splotchcl_in(folder, command + " '" + name + "'");
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_EQ((result.out + result.err).find('\x1b'), std::string::npos) << command;
+      EXPECT_EQ((result.out + result.err).find("\u009b"), std::string::npos) << command;
+    }
+  }
+}
+
 TEST(Info, NamesAFileThatIsNoSnapshot) {
   const TemporaryFolder folder;
   std::ofstream(folder / "text") << "neither snapshot nor scene, but long enough for a header\n";

@@ -105,5 +105,25 @@ TEST_F(OddFiles, OfManyLettersAreToldInFew) {
   EXPECT_LT(result.err.size(), 5000U);
 }
 
+// A scene, which every picture keeps, is UTF-8.
+TEST_F(OddFiles, WhoseNamesAreNoUtf8AreReadOrRefusedInOneLine) {
+  const std::string name = "h\xff";
+  ASSERT_EQ(run_in(folder_, "ln h '" + name + "'; ln a.png '" + name + ".png'").exit_code, 0);
+  for (const std::string command : {"render --reference -o o.png", "movie --reference -o o_%d.png",
+                                    "map --reference -o o.fits", "render --explain"}) {
+    const ProgramResult result = run(command + " '" + name + "'");
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("\"h?\" is not UTF-8")) << command;
+  }
+  for (const std::string command : {"info --json", "index", "info"})
+    EXPECT_EQ(run(command + " '" + name + "'").exit_code, 0) << command;
+  EXPECT_EQ(run("compare --json a.png '" + name + ".png'").exit_code, 0);
+  EXPECT_EQ(run("generate halo --particles 1000 -o '" + name + ".new'").exit_code, 0);
+  EXPECT_EQ(run("render h --reference --size 8x8 -o '" + name + "o.png'").exit_code, 0);
+  EXPECT_THAT(run("render h --reference -o o.png --set component.0.palette=" + name).err,
+              HasSubstr("is not UTF-8"));
+}
+
 }  // namespace
 }  // namespace splotchcl::test

@@ -192,6 +192,19 @@ TEST_F(ClosedStreams, ArePartsOfNoFilmAndNoMap) {
   EXPECT_EQ(splotchcl_in(folder_, "info s 0<&-").out, told);
 }
 
+TEST_F(RenderedOutput, OfASnapshotThatIsWrittenToMeanwhileIsNotKept) {
+  for (const std::string command :
+       {"render h --reference --size 64x48 -o a.png", "map h --reference --size 16x16 -o a.fits"}) {
+    const ProgramResult result =
+        run_in(folder_, "(while :; do touch h; done) & busy=$!; \"$splotchcl\" " + command +
+                            "; code=$?; kill $busy; exit $code");
+    EXPECT_EQ(result.exit_code, 1) << command;
+    EXPECT_THAT(result.err, HasSubstr("h: changed while it was used")) << command;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.fits"));
+}
+
 // Of a service, or of a container with another user.
 TEST(HomeThatCannotBeWritten, IsDoneWithout) {
   SKIP_WITHOUT_DEVICE();
@@ -210,6 +223,31 @@ TEST(HomeThatCannotBeWritten, IsNamedWhereNothingElseCanBe) {
              "OPENCL_VENDOR_PATH=$PWD/none \"$splotchcl\" devices");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("/proc/nothing"));
+}
+
+TEST(HomeThatCannotBeWritten, IsNamedWhereKernelsAreNotCompiledInIt) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_in(folder,
+             "export POCL_CACHE_DIR=/dev/null SPLOTCHCL_CACHE=; \"$splotchcl\" generate halo "
+             "--particles 2000 -o s; \"$splotchcl\" render s -o a.png --size 32x24");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/dev/null"));
+}
+
+TEST(HomeThatCannotBeWritten, MayBeNoNameAtAll) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  for (const std::string variables : {"POCL_CACHE_DIR=", "XDG_CACHE_HOME=/proc"}) {
+    const ProgramResult result = run_in(
+        folder,
+        "unset SPLOTCHCL_CACHE POCL_CACHE_DIR; mkdir -p tmp; export TMPDIR=$PWD/tmp; export " +
+            variables +
+            "; \"$splotchcl\" generate halo --particles 2000 -o s; \"$splotchcl\" render s "
+            "-o a.png --size 32x24");
+    EXPECT_EQ(result.exit_code, 0) << variables << "\n" << result.err;
+  }
 }
 
 // What lies there, PoCL would run.
