@@ -234,6 +234,7 @@ def test_files_are_replaced_only_when_that_is_said(view, snapshot, tmp_path):
     assert "[camera]" in kept.read_text()
     assert "error" in save("scene.txt", False)
     assert "error" in save("nowhere/scene.toml", False)
+    assert "filesystem" not in save("x" * 300 + ".toml", False)["error"]
     linked = tmp_path / "snapshot.png"
     linked.symlink_to(snapshot)
     before = snapshot.read_bytes()
