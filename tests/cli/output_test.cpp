@@ -192,6 +192,13 @@ TEST_F(ClosedStreams, ArePartsOfNoFilmAndNoMap) {
   EXPECT_EQ(splotchcl_in(folder_, "info s 0<&-").out, told);
 }
 
+TEST_F(RenderedOutput, OfTheLiveViewIsItsAddressAndMissedAtOnce) {
+  const ProgramResult result =
+      run_in(folder_, "timeout 60 \"$splotchcl\" view h --size 16x12 > /dev/full");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("standard output could not be written"));
+}
+
 TEST_F(RenderedOutput, OfASnapshotThatIsWrittenToMeanwhileIsNotKept) {
   for (const std::string command :
        {"render h --reference --size 64x48 -o a.png", "map h --reference --size 16x16 -o a.fits"}) {

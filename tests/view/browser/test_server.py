@@ -268,6 +268,16 @@ def test_ctrl_c_ends_it_with_a_page_open(view):
     assert opened.end() == (0, "")
 
 
+def test_ctrl_c_again_and_again_is_no_other_end(view):
+    opened = view()
+    PageSocket(opened).receive()
+    deadline = time.monotonic() + PATIENCE
+    while opened.process.poll() is None and time.monotonic() < deadline:
+        opened.process.send_signal(signal.SIGINT)
+        time.sleep(0.001)
+    assert opened.process.returncode == 0
+
+
 def test_a_page_makes_the_program_read_no_file_through_a_keyframe(view):
     opened = view()
     secret = opened.folder / "secret"
