@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "common/unfinished_file.h"
+#include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot.h"
 #include "view/live_view.h"
@@ -14,8 +15,9 @@ namespace {
 
 constexpr std::chrono::milliseconds patience_at_the_end(1000);
 
-// Nothing ends a device that draws.
-[[noreturn]] void leave_what_is_drawn() {
+// Nothing ends a device that draws. What is taken apart would give back the handler of Ctrl-C, and
+// the second one would end the program by its signal.
+[[noreturn]] void leave_all_as_it_is() {
   remove_unfinished_files();
   ::_exit(0);
 }
@@ -48,9 +50,13 @@ int run_view(const ViewOptions& options, Console& console) {
   console.note_each_once(notes);
   console.done("the page is at the address below until Ctrl-C");
   std::cout << page.address() << std::endl;
+  if (!std::cout) {
+    throw DataError(
+        "standard output could not be written, where the page's address stands: is the disk full?");
+  }
   page.run();
-  if (!page.end_within(patience_at_the_end)) leave_what_is_drawn();
-  return 0;
+  page.end_within(patience_at_the_end);
+  leave_all_as_it_is();
 }
 
 }  // namespace splotchcl::cli

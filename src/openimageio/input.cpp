@@ -71,7 +71,8 @@ void check_claim_of_gif(const std::filesystem::path& path) {
 }  // namespace
 
 std::string first_line(const std::string& text) {
-  return text.empty() ? "the library does not say how; it may be cut" : text.substr(0, text.find('\n'));
+  return text.empty() ? "the library does not say how; it may be cut"
+                      : text.substr(0, text.find('\n'));
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path,
