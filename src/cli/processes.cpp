@@ -4,7 +4,6 @@
 #include "common/crash_guard.h"
 #include "ranks/agreement.h"
 #include "ranks/mpi_library.h"
-#include "ranks/shared_host.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

@@ -6,9 +6,8 @@
 
 #include "cli/commands.h"
 #include "cli/compiler_process.h"
-#include "cli/explanation.h"
+#include "cli/draw_options.h"
 #include "cli/processes.h"
-#include "cli/render_stats.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "open_scene/input_files.h"

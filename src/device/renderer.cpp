@@ -16,7 +16,6 @@
 #include "device/pipeline.h"
 #include "device/ranks/fetch_particles.h"
 #include "parallel/thread_pool.h"
-#include "parallel/thread_seconds.h"
 #include "ranks/agreement.h"
 #include "ranks/spread_particles.h"
 #include "ranks/values.h"

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "finish/layout.h"
-#include "finish/text_style.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/stereo.h"

@@ -10,7 +10,7 @@
 #include "formats/position_origin.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

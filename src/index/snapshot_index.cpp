@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "common/mapped_file.h"
-#include "common/marked_file.h"
 #include "common/unfinished_file.h"
 #include "common/word_hash.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
+#include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
-#include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

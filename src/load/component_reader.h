@@ -1,12 +1,22 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "load/component_fields.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/palette.h"
 #include "splotchcl/scene.h"
 
 namespace splotchcl {
+
+// What a component shines and absorbs in; white where particles have colors of their own. Throws
+// UsageError for a palette that there is not.
+Palette choose_palette(const Component& component);
+
+// Says that without a field all of a component's particles have the first color of its palette, if
+// that is much darker than the palette's others.
+std::optional<std::string> tell_dark_color(const Component& component, const Palette& palette);
 
 // Reads the particles of one component when they are first asked for, and once. Refers to the
 // component and its fields.

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "formats/snapshot_format.h"
-#include "load/choose_palette.h"
+#include "load/component_reader.h"
 #include "load/passes.h"
-#include "load/periodic_wrap.h"
+#include "load/periodic.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"

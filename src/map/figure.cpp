@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "finish/finish_picture.h"
-#include "finish/labels.h"
-#include "map/color_range.h"
+#include "finish/ticks.h"
+#include "map/map_colors.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/plan.h"
 

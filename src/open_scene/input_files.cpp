@@ -7,7 +7,6 @@
 #include "ranks/agreement.h"
 #include "scene_file/file_names.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"

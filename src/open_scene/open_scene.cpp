@@ -10,7 +10,7 @@
 #include "load/passes.h"
 #include "ranks/agreement.h"
 #include "scene_file/suggested.h"
-#include "snapshot/particle_types.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"

@@ -4,9 +4,8 @@
 
 #include "finish/anaglyph.h"
 #include "finish/cross_fade.h"
-#include "finish/fade.h"
 #include "finish/finish_picture.h"
-#include "finish/tone_levels.h"
+#include "finish/tone.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "finish/cross_fade.h"
-#include "finish/tone_levels.h"
+#include "finish/tone.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl {

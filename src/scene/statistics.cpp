@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "scene/hash.h"
+#include "scene/particle_columns.h"
 #include "scene/scalar_map.h"
-#include "scene/streamed_column.h"
 
 namespace splotchcl {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "snapshot/particle_types.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl::scene_file {
 namespace {

@@ -1,9 +1,8 @@
-#include "finish/fade.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "finish/cross_fade.h"
 #include "finish/finish_pictures.h"
 
 namespace splotchcl::test {

@@ -1,6 +1,6 @@
-#include "map/fits_unit.h"
-
 #include <gtest/gtest.h>
+
+#include "map/fits_file.h"
 
 namespace splotchcl {
 namespace {

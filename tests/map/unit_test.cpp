@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "map/fits_unit.h"
+#include "map/fits_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

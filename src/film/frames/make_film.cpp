@@ -7,11 +7,10 @@
 
 #include "common/output_files.h"
 #include "film/frames/film_drawer.h"
-#include "film/frames/film_manifest.h"
 #include "film/frames/film_scene.h"
 #include "film/movie/encoder.h"
 #include "film/movie/frame_files.h"
-#include "film/movie/frame_range.h"
+#include "film/movie/numbered_files.h"
 #include "pictures/other_scenes.h"
 #include "ranks/agreement.h"
 #include "ranks/values.h"
