@@ -11,7 +11,7 @@
 #include "common/unfinished_file.h"
 #include "film/frames/film_scene.h"
 #include "film/movie/numbered_files.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/load.h"

@@ -2,7 +2,7 @@
 
 #include "cli/version.h"
 #include "common/crash_guard.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "ranks/mpi_library.h"
 #include "splotchcl/error.h"
 

@@ -11,7 +11,7 @@
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "open_scene/input_files.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/image_file.h"

@@ -143,12 +143,12 @@ std::optional<WritingProcess> read_process(std::string_view text) {
   return process;
 }
 
-struct Unfinished {
+struct UnfinishedName {
   std::string target;  // as shortened_name() has it
   WritingProcess process;
 };
 
-std::optional<Unfinished> read_name(const std::string& name) {
+std::optional<UnfinishedName> read_name(const std::string& name) {
   const std::size_t dash = name.rfind('-');
   const bool is_one =
       name.size() > end_of_name.size() && name.front() == '.' &&
@@ -158,7 +158,7 @@ std::optional<Unfinished> read_name(const std::string& name) {
   if (dot == 0 || dot == std::string::npos) return std::nullopt;
   const auto process = read_process(std::string_view(name).substr(dot + 1, dash - dot - 1));
   if (!process) return std::nullopt;
-  return Unfinished{name.substr(1, dot - 1), *process};
+  return UnfinishedName{name.substr(1, dot - 1), *process};
 }
 
 // Long enough for whatever clocks of machines differ by, and for programs that are stopped over a
@@ -189,7 +189,7 @@ UnfinishedNames::UnfinishedNames(const std::filesystem::path& folder,
 }
 
 bool UnfinishedNames::has_leftover(const std::filesystem::path& entry) const {
-  const std::optional<Unfinished> file = read_name(entry.filename().string());
+  const std::optional<UnfinishedName> file = read_name(entry.filename().string());
   if (!file || targets_.count(file->target) == 0) return false;
   return file->process.is_of_this_machine() ? !file->process.is_running() : is_old(entry);
 }

@@ -8,7 +8,7 @@
 #include "device/ranks/slice_part.h"
 #include "device/ranks/splat_exchange.h"
 #include "device/stages/carry_splats.h"
-#include "ranks/values.h"
+#include "ranks/exchange.h"
 
 namespace splotchcl {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "finish/bars.h"
-#include "finish/cross_fade.h"
+#include "finish/joined_pictures.h"
 #include "finish/placeholders.h"
 #include "finish/tone.h"
 #include "image/text.h"

@@ -66,9 +66,9 @@ std::optional<FinishSettings> with_tone_of(const FinishSettings& finish,
 FinishSettings with_any_tone(const FinishSettings& finish, const LightHistogram& light);
 
 // Exposure, then tone, saturation and contrast, of linear light; alpha stays. Nothing happens to
-// pixels for settings that change nothing. Exposure and white are known (finish/tone_levels.h).
+// pixels for settings that change nothing. Exposure and white are known (above).
 //   exposure     L' = L 2^exposure
-//   tone         as finish/tone.h has it
+//   tone         as tone() has it
 //   saturation   L' = max(0, Y + saturation (L - Y)), Y = 0.2126 R + 0.7152 G + 0.0722 B
 //   contrast     L' = p (L / p)^contrast with p = contrast_pivot^gamma, which is
 //                v' = pivot (v / pivot)^contrast of display values v = L^(1/gamma)

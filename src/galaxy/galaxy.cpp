@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "galaxy/kinds.h"
-#include "galaxy/vector_at.h"
+#include "galaxy/matter.h"
 #include "scene/ceil_divide.h"
 #include "smoothing/smoothing_lengths.h"
 #include "splotchcl/error.h"

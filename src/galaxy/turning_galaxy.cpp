@@ -7,9 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "formats/hdf5/hdf5_writer.h"
-#include "galaxy/disk_types.h"
-#include "galaxy/vector_at.h"
+#include "formats/hdf5/gadget_hdf5_writer.h"
+#include "galaxy/matter.h"
 #include "scene/constants.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "formats/hdf5/hdf5_writer.h"
-#include "galaxy/disk_types.h"
+#include "formats/hdf5/gadget_hdf5_writer.h"
+#include "galaxy/matter.h"
 #include "splotchcl/galaxy.h"
 
 namespace splotchcl {

@@ -1,5 +1,3 @@
-#include "image/tiff_file.h"
-
 #include <tiffio.h>
 
 #include <algorithm>

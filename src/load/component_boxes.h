@@ -31,7 +31,8 @@ std::string tell_stale_index(const Snapshot& snapshot);
 
 // Boxes around the particles of a component that takes whole types, one after the other, as it
 // places them: from the index beside the snapshot, or from the cells of its own file
-// (index_of_cells). Null where there are none, or where they do not tell how large the particles are.
+// (index_of_cells). Null where there are none, or where they do not tell how large the particles
+// are.
 std::shared_ptr<const ParticleBoxes> component_boxes(const Component& component,
                                                      const Snapshot& snapshot,
                                                      const std::vector<int>& types);

@@ -22,7 +22,6 @@
 #include "scene/memory_advice.h"
 #include "scene/particle_pass.h"
 #include "scene/particle_rules.h"
-#include "scene/reference_column.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 #include "snapshot/load_memory.h"

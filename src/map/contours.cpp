@@ -1,5 +1,3 @@
-#include "map/contours.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

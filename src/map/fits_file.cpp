@@ -1,5 +1,3 @@
-#include "map/fits_file.h"
-
 #include <fitsio.h>
 #include <fmt/format.h>
 

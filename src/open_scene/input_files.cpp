@@ -4,7 +4,7 @@
 
 #include "common/file_identity.h"
 #include "finish/finish_picture.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "scene_file/file_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -8,7 +8,7 @@
 #include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "scene_file/suggested.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"

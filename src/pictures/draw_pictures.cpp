@@ -2,9 +2,8 @@
 #include <optional>
 #include <utility>
 
-#include "finish/anaglyph.h"
-#include "finish/cross_fade.h"
 #include "finish/finish_picture.h"
+#include "finish/joined_pictures.h"
 #include "finish/tone.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/load.h"

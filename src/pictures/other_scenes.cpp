@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "finish/cross_fade.h"
+#include "finish/joined_pictures.h"
 #include "finish/tone.h"
 #include "splotchcl/load.h"
 

@@ -6,8 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "ranks/agreement.h"
-#include "ranks/values.h"
+#include "ranks/exchange.h"
 #include "scene/particle_columns.h"
 #include "splotchcl/error.h"
 

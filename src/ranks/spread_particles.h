@@ -15,8 +15,8 @@ namespace splotchcl {
 class SpreadParticles;
 
 // A column of values of which each rank has a stretch in its memory: rank 0 the first ones. The
-// others come from their ranks, in the way that the particles are in at that time
-// (spread_particles.h). For one thread.
+// others come from their ranks, in the way that the particles are in at that time.
+// For one thread.
 class SpreadColumn final : public ColumnSource {
  public:
   // `begins` has the first value of each rank, and behind them the number of values.

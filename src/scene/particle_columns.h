@@ -8,7 +8,8 @@
 #include "scene/particle_pass.h"
 #include "splotchcl/particles.h"
 
-// Columns that are too large to be held in memory are made as they are wanted, stretch by stretch.
+// Columns of particles, which are made as they are wanted, stretch by stretch, where they are too
+// large to be held in memory.
 namespace splotchcl {
 
 // Values [begin, end) of a column: in place where they lie in memory, else made. Of a uniform

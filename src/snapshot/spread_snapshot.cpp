@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "ranks/exchange.h"
 #include "ranks/spread_particles.h"
-#include "ranks/values.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "finish/cross_fade.h"
 #include "finish/finish_pictures.h"
+#include "finish/joined_pictures.h"
 
 namespace splotchcl::test {
 namespace {

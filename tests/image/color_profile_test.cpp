@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "image/tiff_file.h"
+#include "image/picture_encoders.h"
 
 namespace splotchcl {
 namespace {

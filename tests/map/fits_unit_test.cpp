@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "map/fits_file.h"
+#include "map/map_files.h"
 
 namespace splotchcl {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "load/passes.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "ranks/forwarding_ranks.h"
 #include "scene/particle_columns.h"
 #include "splotchcl/error.h"

@@ -31,9 +31,6 @@ struct PythonLiteral {
   const PythonLiteral* find(std::string_view key) const;  // null where there is none
 };
 
-// None where the text is nothing of that, or nested deeper than any header is.
-std::optional<PythonLiteral> parse_python_literal(std::string_view text);
-
 class Parser {
  public:
   explicit Parser(std::string_view text) : rest_(text) {}
@@ -137,6 +134,7 @@ const PythonLiteral* PythonLiteral::find(std::string_view key) const {
   return nullptr;
 }
 
+// None where the text is nothing of that, or nested deeper than any header is.
 std::optional<PythonLiteral> parse_python_literal(std::string_view text) {
   return Parser(text).parse_all();
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+
 #include "splotchcl/turning_galaxy.h"
+#include "splotchcl/vector.h"
 
 namespace splotchcl {
 
@@ -14,5 +17,12 @@ constexpr bool is_disk_type(int type) {
 
 // The speed about the axis that a velocity shows, in radians per Myr.
 double shown_angular_speed(const OrbitState& state, const Vec3& axis);
+
+// The i-th vector of values in which the three of a vector lie side by side.
+template <class Values>
+Vec3 vector_at(const Values& values, std::size_t i) {
+  return {{static_cast<double>(values[3 * i]), static_cast<double>(values[3 * i + 1]),
+           static_cast<double>(values[3 * i + 2])}};
+}
 
 }  // namespace splotchcl

@@ -1,11 +1,19 @@
-#include "select/condition.h"
+#include "select/selection.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "common/mapped_file.h"
 #include "common/words.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -100,6 +108,41 @@ std::optional<Condition> parse_condition(const std::string& text) {
     condition.push_back(std::move(all));
   }
   return condition;
+}
+
+namespace {
+
+std::uint64_t parse_id(const std::string& text, const std::filesystem::path& path,
+                       std::size_t line) {
+  std::uint64_t id = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, id);
+  if (error == std::errc() && rest == end) return id;
+  constexpr std::size_t longest = 40;
+  throw DataError(fmt::format(
+      "{}:{}: found \"{}\"{}, expected one identifier on each line, a whole number "
+      "from 0 to 2^64 - 1",
+      path.string(), line, text.substr(0, longest), text.size() > longest ? "..." : ""));
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
+  const auto file = MappedFile::open(path);
+  std::string_view rest(reinterpret_cast<const char*>(file->data()), file->size());
+  std::vector<std::uint64_t> ids;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::string text = trimmed(std::string(line.substr(0, line.find('#'))));
+    if (!text.empty()) ids.push_back(parse_id(text, path, number));
+  }
+  if (ids.empty()) {
+    throw DataError(path.string() + ": found no identifier, expected one on each line");
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
 }  // namespace splotchcl

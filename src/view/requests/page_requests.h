@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -47,5 +48,14 @@ class AccessRules {
 struct AccessDenied {
   std::string reason;
 };
+
+// A file of the page, which is embedded in the program.
+struct PageFile {
+  std::string_view text;
+  std::string_view type;  // as HTTP names it
+};
+
+// By its name, "app.js"; the page itself has none. Nothing where there is no such file.
+std::optional<PageFile> find_page_file(std::string_view name);
 
 }  // namespace splotchcl::view

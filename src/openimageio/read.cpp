@@ -1,5 +1,3 @@
-#include "openimageio/input.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
