@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/json_answer.h"
 #include "common/output_files.h"
-#include "finish/canvas.h"
+#include "finish/overlay.h"
 #include "image/text.h"
 #include "scene/ceil_divide.h"
 #include "splotchcl/error.h"

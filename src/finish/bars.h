@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "finish/layout.h"
+#include "finish/overlay.h"
 #include "finish/ticks.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/scene.h"

@@ -6,7 +6,7 @@
 
 #include "finish/bars.h"
 #include "finish/inset.h"
-#include "finish/layout.h"
+#include "finish/overlay.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/views.h"
 

@@ -14,7 +14,7 @@
 #include "finish/finish_picture.h"
 #include "image/background_image.h"
 #include "load/component_fields.h"
-#include "load/component_reader.h"
+#include "load/components.h"
 #include "load/passes.h"
 #include "load/periodic.h"
 #include "load/placement.h"

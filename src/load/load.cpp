@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "finish/finish_picture.h"
+#include "load/components.h"
 #include "load/frame_loader.h"
 #include "load/missing_sizes.h"
-#include "load/open_components.h"
 #include "load/passes.h"
 #include "ranks/exchange.h"
 #include "ranks/spread_particles.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/words.h"
+#include "load/components.h"
 #include "load/missing_sizes.h"
-#include "load/open_components.h"
 #include "map/geometry.h"
 #include "map/map_units.h"
 #include "map/placed_particles.h"

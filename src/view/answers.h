@@ -41,10 +41,10 @@ struct FrameHeader {
 // picture's file.
 std::string frame_message(const FrameHeader& header, const ViewPicture& picture);
 
-// The state could not be drawn.
 // What a page is told of an error: words of a file, which messages quote, are left out.
 std::string text_for_page(const std::exception& error);
 
+// The state could not be drawn.
 std::string state_error(std::uint64_t state, const std::string& text);
 // A message could not be understood.
 std::string message_error(const std::string& text);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "finish/layout.h"
+#include "finish/overlay.h"
 #include "paths.h"
 #include "splotchcl/error.h"
 
