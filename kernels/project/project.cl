@@ -196,8 +196,6 @@ __attribute__((noinline)) static void project_block(
 #endif
 #ifdef SORT_KEYS
       const ulong key = (ulong)found.sort_keys[k];
-#endif
-#ifdef KEY_WINDOW
       if (!is_in_window(key, p)) continue;
 #endif
 #if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
@@ -264,21 +262,20 @@ __attribute__((noinline)) static void project_block(
 #endif
 }
 
-// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
-// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and
-// the 16 bits below them where depths are keys, too; with COUNT_TILES
-// tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
-// tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
-// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
-// a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
-// more, else 0.
+// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the splats are
+// written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and the 16 bits
+// below them where depths are keys, too; with COUNT_TILES tile_counts[b * tile_count + t] takes how
+// many of the block's splats touch tile t, and tiles[slot] which they are; with COUNT_KEYS
+// key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Where there
+// are keys, only splats in the window of keys are there. Of a block that no part of the picture
+// shows, left_out[b] is the number of its bad particles and 1 more, else 0.
 __kernel void project(const ProjectParameters p, const ExtendedParameters e,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const float* own_colors, __global const uint* offsets,
                       __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
-                      __global ushort* key_ends, __global uint* order,
+                      __global ushort* key_ends,
                       __global const WidthNeeds* width_needs, __global const uint* left_out,
                       __global const ComponentColors* component_colors, __global const float* knots,
                       __global ExtendedSplat* extended_splats, __global uint* key_counts,
@@ -288,7 +285,7 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   if (block == NO_PIECE) return;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
-  const ProjectTargets targets = {counts,          splats,     keys,     key_ends,    order,
+  const ProjectTargets targets = {counts,          splats,     keys,     key_ends,
                                   extended_splats, key_counts, key_bins, tile_counts, tiles};
   project_block(block, &p, &e, NUMBERS_OF_LANES, &columns, offsets, width_needs, left_out,
                 component_colors, knots, grids, &targets);

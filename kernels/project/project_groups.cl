@@ -1,6 +1,5 @@
-// Particles to splats for GPUs: a work-item per particle. A first pass counts the splats of each
-// group, and when these counts have been scanned a second one writes the splats without gaps, in
-// the order of the file.
+// Particles to splats for GPUs: a work-item per particle, a group for each block of them, which
+// writes its splats in the order of the file.
 #include "kernels/common/common.cl"
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
@@ -43,23 +42,22 @@ KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
   }
 }
 
-// As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
-// that counts, and counts[0] those of all groups. left_out[b] is that of a launch's group b, whose
-// items meet every barrier all the same.
+// As project.cl says. left_out[b] is that of a launch's group b, whose items meet every barrier all
+// the same.
 __kernel OF_GROUPS void project(
     const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
     __global const float* colors, __global const float* intensities,
-    __global const float* sort_fields, __global const float* own_colors, __global uint* offsets,
+    __global const float* sort_fields, __global const float* own_colors, __global const uint* offsets,
     __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
-    __global ushort* key_ends, __global uint* order, __global const WidthNeeds* width_needs,
+    __global ushort* key_ends, __global const WidthNeeds* width_needs,
     __global const uint* left_out, __global const ComponentColors* component_colors,
     __global const float* knots, __global ExtendedSplat* extended_splats, __global uint* key_counts,
     __global KeyBins* key_bins, __global const Grid* grids, __global uint* tile_counts,
     __global uint* tiles) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
-  const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+  const uint item = get_local_id(0), block = p.first_block + get_group_id(0);
   const uint bad_and_one = p.leaves_out_blocks ? left_out[get_group_id(0)] : 0;
 #ifdef COUNT_KEYS
   __local KeyBins bins;
@@ -82,8 +80,6 @@ __kernel OF_GROUPS void project(
 #ifdef SORT_KEYS
   ulong key = 0;
   if (count) key = sort_keys_of(columns, i, p.end_particle, lanes.sort_field, p);
-#endif
-#ifdef KEY_WINDOW
   count = count && is_in_window(key, p);
 #endif
 #ifdef EXTENDED_NUMBERS
@@ -115,8 +111,8 @@ __kernel OF_GROUPS void project(
   }
 #endif
   uint total;
+  uint slot = p.first_slot + offsets[block] + group_scan(count, sums, &total);
 #ifdef OUTPUT_SPLATS
-  uint slot = p.first_slot + offsets[group] + group_scan(count, sums, &total);
   for (uint k = 0; k < count; ++k, ++slot) {
     Splat listed = splat;
 #ifdef WHOLE_SECTORS
@@ -137,13 +133,14 @@ __kernel OF_GROUPS void project(
 #ifdef OUTPUT_KEYS
     keys[slot] = (uint)(key >> 16);
     if (!p.sort_by_field) key_ends[slot] = (ushort)key;
-    order[slot] = slot;
 #endif
   }
-#else
-  group_scan(count, sums, &total);
+#endif
   if (lanes.bad) atomic_inc(&of_group.bad);
   if (lanes.too_sharp) atomic_inc(&of_group.too_sharp);
+#ifdef CLOUDS_AROUND
+  if (lanes.around) atomic_inc(&of_group.around);
+#endif
 #ifdef COUNT_KEYS
   if (count > 0) {
     const uint bin = bin_of(key, p);
@@ -152,19 +149,12 @@ __kernel OF_GROUPS void project(
     atomic_max(&bins.most, bin);
   }
 #endif
-#ifdef CLOUDS_AROUND
-  if (lanes.around) atomic_inc(&of_group.around);
-#endif
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {
+    of_group.visible = total;
+    counts[block] = of_group;
 #ifdef COUNT_KEYS
     key_bins[get_group_id(0)] = bins;
 #endif
-    offsets[group] = total;
-    if (total > 0) atomic_add(&counts->visible, total);
-    if (of_group.bad > 0) atomic_add(&counts->bad, of_group.bad);
-    if (of_group.too_sharp > 0) atomic_add(&counts->too_sharp, of_group.too_sharp);
-    if (of_group.around > 0) atomic_add(&counts->around, of_group.around);
   }
-#endif
 }

@@ -211,7 +211,6 @@ typedef struct ProjectTargets {
   __global Splat* splats;
   __global uint* keys;        // the upper 32 bits of sort keys
   __global ushort* key_ends;  // the 16 bits below, of depths
-  __global uint* order;       // in the shape for GPUs
   __global ExtendedSplat* extended_splats;
   __global uint* key_counts;   // of each bin (sort_keys.cl)
   __global KeyBins* key_bins;  // of each block

@@ -5,18 +5,12 @@ namespace {
 
 Choices choices_of(ProjectOutput output) {
   switch (output) {
-    case ProjectOutput::counts:
-      return {};
     case ProjectOutput::splats:
       return {"OUTPUT_SPLATS"};
     case ProjectOutput::splats_and_keys:
       return {"OUTPUT_SPLATS", "OUTPUT_KEYS"};
     case ProjectOutput::key_counts:
-      return {"KEY_WINDOW", "COUNT_KEYS"};
-    case ProjectOutput::window_counts:
-      return {"KEY_WINDOW"};
-    case ProjectOutput::window_splats:
-      return {"OUTPUT_SPLATS", "OUTPUT_KEYS", "KEY_WINDOW"};
+      return {"COUNT_KEYS"};
   }
   return {};
 }
