@@ -130,7 +130,7 @@ __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint
   splats_of_entries[entry] = order[p.bin.first + number];
 }
 
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
 INLINED TileSplat entry_of(const BinParameters p, uint splat) {
   TileSplat entry;
   entry.slot = splat;
@@ -164,7 +164,7 @@ __kernel OF_GROUPS void bin_make_entries(const GroupBinParameters p, __global co
   const uint count = min((uint)GROUP_ITEMS, p.entry_count - first);
   if (item < count) {
     const uint splat = splats_of_entries[first + item];
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
     own[item] = entry_of(p.bin, splat);
 #else
     const Splat found = splats[splat];

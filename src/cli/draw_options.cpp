@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "common/unfinished_file.h"
+#include "common/utf8.h"
 #include "estimate/frame_estimate.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
@@ -54,8 +55,6 @@ void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& s
 }
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json particles_to_json(const RenderStats& stats) {
   return {
@@ -182,7 +181,7 @@ Json to_json(const FilmStats& film) {
 }
 
 void write(const std::filesystem::path& path, const Json& json) {
-  const std::string text = json.dump(2) + "\n";
+  const std::string text = json_text(json);
   UnfinishedFile file(path);
   file.write(text.data(), text.size());
   file.finish();

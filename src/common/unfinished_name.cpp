@@ -16,7 +16,7 @@
 #include <string_view>
 
 #include "common/folders.h"
-#include "common/word_hash.h"
+#include "scene/hash.h"
 
 namespace splotchcl {
 namespace {

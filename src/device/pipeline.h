@@ -115,6 +115,7 @@ class Pipeline {
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
+  Buffer<float> deepest_;  // layers of the picture
   const Surroundings surroundings_;
   CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
   CloudLayers around_;      // ... or layers between them

@@ -28,6 +28,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/particles.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 namespace {
@@ -155,6 +156,15 @@ std::shared_ptr<const Image> background_image(const ImageSettings& image,
   });
 }
 
+// Nothing that is drawn errs by less.
+void note_small_tolerance(double tolerance, std::vector<std::string>& notes) {
+  if (tolerance == 0 || tolerance >= extended_tolerance) return;
+  notes.push_back(fmt::format(
+      "tolerance: found {:g}, which is drawn as 0: as exact as possible, to {:g}; expected 0 or "
+      "at least that",
+      tolerance, extended_tolerance));
+}
+
 }  // namespace
 
 FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
@@ -164,6 +174,7 @@ FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
   check_finish(scene, snapshot.info());
+  note_small_tolerance(scene.tolerance, notes);
   if (scene.periodic.wrap) periodic_box_ = periodic_box(scene.periodic, snapshot.info());
   components_.emplace(scene, snapshot, missing_sizes(scene, progress), notes, periodic_box_);
   auto fields = components_->fields().begin();

@@ -14,8 +14,8 @@
 
 #include "common/mapped_file.h"
 #include "common/unfinished_file.h"
-#include "common/word_hash.h"
 #include "ranks/exchange.h"
+#include "scene/hash.h"
 #include "scene/particle_columns.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/load_memory.h"

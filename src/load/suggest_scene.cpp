@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "common/utf8.h"
 #include "load/passes.h"
 #include "load/suggest_camera.h"
 #include "scene/particle_columns.h"
@@ -333,6 +334,7 @@ Scene suggest_scene(const Snapshot& snapshot) {
   }
   Scene scene;
   scene.snapshot = info.files.front().string();
+  require_utf8(scene.snapshot);
   scene.image.gamma = gamma;
   show_all_light(scene.finish);
   scene.components = choose_components(snapshot);

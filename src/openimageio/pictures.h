@@ -21,7 +21,7 @@ ImageFileInfo read_info(const std::filesystem::path& path);
 Image scaled(const Image& image, const PictureArea& area, int width, int height);
 std::vector<float> blurred(const std::vector<float>& values, int width, int height, float reach);
 
-// OpenImageIO may report a line for each part that failed; ours are one line.
+// OpenImageIO may report a line for each part that failed, or none; ours are one line.
 std::string first_line(const std::string& text);
 
 // `hints` tell the reader of the format what is wanted. Throws DataError for what is no flat

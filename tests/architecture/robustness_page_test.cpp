@@ -30,6 +30,12 @@ std::set<TestName> tests_of_the_project() {
     for (const Match& found : matches_of(content_of(test::source_folder() / path), definition))
       tests.insert({found[1], found[2]});
   }
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::source_folder() / "tests/sessions")) {
+    if (entry.path().extension() != ".session") continue;
+    for (const Match& found : matches_of(content_of(entry.path()), R"(\n== (\w+))"))
+      tests.insert({entry.path().stem().string(), found[1]});
+  }
   return tests;
 }
 

@@ -1,9 +1,6 @@
-// What people have on disk, and what they put into scenes.
+// What people have on disk, in files of numbers; of texts sessions tell.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fstream>
-#include <functional>
 
 #include "cli/program.h"
 #include "formats/hdf5/hdf5_values.h"
@@ -14,38 +11,12 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class EverydayFiles : public ::testing::Test {
  protected:
-  // A line for each place of a lattice with a little disorder.
-  void write_table(const char* name, const std::string& header,
-                   const std::function<std::string(int)>& row_starts_with) const {
-    std::ofstream table(folder_ / name);
-    table << header << '\n';
-    for (int i = 0; i < 512; ++i)
-      table << row_starts_with(i) << i % 8 + 0.01 * (i % 7) << ',' << i / 8 % 8 << ','
-            << i / 64 + 0.01 * (i % 5) << '\n';
-  }
-  ProgramResult run(const std::string& arguments) const {
-    return run_in(folder_, "timeout 120 \"$splotchcl\" " + arguments);
-  }
+  ProgramResult run(const std::string& arguments) const { return splotchcl_in(folder_, arguments); }
   TemporaryFolder folder_;
 };
-
-TEST_F(EverydayFiles, OfPandasHaveAColumnOfRowNumbers) {
-  write_table("t.csv", ",x,y,z", [](int i) { return std::to_string(i) + ","; });
-  const ProgramResult result = run("info t.csv");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("512 particles"));
-}
-
-TEST_F(EverydayFiles, OfWhiteSpaceHaveUnitsInTheirHeaders) {
-  std::ofstream(folder_ / "t.txt") << "x [kpc] y [kpc] z [kpc]\n1 2 3\n2 3 4\n3 5 4\n";
-  const ProgramResult result = run("info t.txt");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("kpc"));
-}
 
 // P-Gadget keeps other things there, in the first file of a set alone.
 TEST_F(EverydayFiles, OfGadgetMayHaveHighWordsThatAreNoCounts) {
@@ -77,68 +48,6 @@ TEST_F(EverydayFiles, OfSwiftsimioStartSimulations) {
   }
   EXPECT_THAT(run("info t.hdf5").out,
               AllOf(HasSubstr("SWIFT initial conditions"), HasSubstr("0.912871")));
-}
-
-TEST_F(EverydayFiles, OfEvenMatterAreShownWithContrast) {
-  write_table("t.csv", "x,y,z", [](int) { return ""; });
-  EXPECT_THAT(run("render t.csv --explain").out, HasSubstr("percentiles = [50, 99.9]"));
-}
-
-TEST_F(EverydayFiles, OfAWrappedBoxAreSelectedAcrossItsFaces) {
-  std::ofstream(folder_ / "t.csv") << "x,y,z\n0.05,0.5,0.5\n9.95,0.5,0.5\n5,5,5\n";
-  std::ofstream(folder_ / "s.toml")
-      << "snapshot = 't.csv'\nperiodic = {wrap = true, box = 10}\n[image]\nsize = [16, 12]\n"
-         "[camera]\nposition = [0.5, 0.5, 20]\nlook_at = [0.5, 0.5, 0.5]\n[[component]]\n"
-         "size.fixed = 0.5\nselect.sphere = {center = [0, 0.5, 0.5], radius = 0.5}\n";
-  const ProgramResult result = run("render s.toml --reference -o a.png --stats s.json");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(read_text(folder_ / "s.json"), HasSubstr("\"drawn\": 2"));
-}
-
-TEST_F(EverydayFiles, ThatAreTablesWithoutRowsAreNotCalledScenes) {
-  std::ofstream(folder_ / "empty.csv") << "x,y,z\n";
-  for (const char* arguments : {"render empty.csv -o a.png", "map empty.csv -o a.npy"}) {
-    const ProgramResult result = run(arguments);
-    EXPECT_NE(result.exit_code, 0);
-    EXPECT_TRUE(is_one_line(result.err)) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("text, but no table with three or more numbers"),
-                                  HasSubstr("or a scene file"), Not(HasSubstr("TOML"))));
-  }
-}
-
-class LargeScenes : public EverydayFiles {
- protected:
-  void expect_refused_in_a_line(const std::string& scene) const {
-    std::ofstream(folder_ / "t.csv") << "x,y,z\n1,2,3\n2,3,4\n3,5,4\n";
-    std::ofstream(folder_ / "s.toml") << "snapshot = 't.csv'\nimage.size = [16, 12]\n" << scene;
-    const ProgramResult result = run("render s.toml --reference -o a.png");
-    EXPECT_EQ(result.exit_code, 2) << result.err.substr(0, 500);
-    EXPECT_TRUE(is_one_line(result.err)) << result.err.substr(0, 500);
-    EXPECT_LT(result.err.size(), 1000U);
-  }
-  static std::string many(const std::string& part, int count) {
-    std::string text;
-    for (int i = 0; i < count; ++i)
-      text += part;
-    return text;
-  }
-};
-
-TEST_F(LargeScenes, HaveNoKeysOfAnyDepth) {
-  expect_refused_in_a_line(many("a.", 200000) + "a = 1\n");
-  expect_refused_in_a_line("[" + many("a.", 200000) + "a]\n");
-}
-
-TEST_F(LargeScenes, HaveNoNumbersOfAnyPrecision) {
-  expect_refused_in_a_line("[[component]]\n[finish.title]\ntext = '{time:.999999999f}'\n");
-}
-
-TEST_F(LargeScenes, HaveNoTextsOfAnyLength) {
-  expect_refused_in_a_line("[[component]]\n[finish.title]\ntext = '" + many("x", 2000000) + "'\n");
-}
-
-TEST_F(LargeScenes, HaveNoThousandsOfComponents) {
-  expect_refused_in_a_line(many("[[component]]\n", 5000));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
   for (const ProgramSource& program :
        {join_program(variant), composite_program(variant.of_slabs()),
         join_program(variant.of_slabs()), certify_program(variant), refine_program(variant),
-        blur_program(variant), lay_slab_program(variant)})
+        blur_program(variant), lay_slab_program(variant), deepest_program(variant)})
     programs.push_back(program);
   return programs;
 }
@@ -36,8 +36,8 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
 std::vector<ProgramSource> programs_of_all_frames() {
   return {program_source("kernels/interpolate/interpolate.cl", lanes_of(true)),
           program_source("kernels/interpolate/interpolate.cl", lanes_of(false)),
-          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS"}),
-          program_source("kernels/project/boxes.cl"),
+          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS 1"}),
+          program_source("kernels/project/boxes.cl", {"VECTOR_COLORS 0"}),
           program_source("kernels/project/compact.cl"),
           program_source("kernels/sort/sort.cl"),
           program_source("kernels/sort/sort_groups.cl"),

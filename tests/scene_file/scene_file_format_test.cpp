@@ -5,8 +5,8 @@
 #include <string>
 
 #include "long_tests.h"
-#include "scene_file/scene_file_equality.h"
-#include "scene_file/scene_file_random.h"
+#include "scene_file/random_scenes.h"
+#include "scene_file/same_scene.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 
@@ -24,6 +24,8 @@ TEST(FormattedScene, ReadsBackAsTheSameScene) {
     SCOPED_TRACE(text);
     expect_same(parse_scene(text, "scene.toml"), scene);
   }
+  for (const scene_file::Key& key : scene_file::all_keys())
+    EXPECT_EQ(scenes.taken().count(key.path), 1U) << key.path << " was in no scene";
 }
 
 TEST(FormattedScene, OfWhatWasReadIsTheSameText) {

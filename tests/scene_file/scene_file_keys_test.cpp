@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -8,6 +9,7 @@
 
 #include "paths.h"
 #include "scene_file/keys.h"
+#include "scene_file/random_scenes.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 
@@ -27,6 +29,26 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
+// With every part, so that each key has a place, and with that without which others say nothing.
+Scene full_scene() {
+  Scene scene;
+  scene.camera.emplace();
+  scene.stereo.emplace();
+  scene.components.emplace_back();
+  scene.components[0].color.field = scene.components[0].intensity.field = "U";
+  scene.time.pattern = "snap_%03d";
+  scene.path.orbit.emplace();
+  scene.path.fly.emplace().through.resize(2);
+  return scene;
+}
+
+bool exclude_each_other(const Key& a, const Key& b) {
+  const auto excludes = [](const Key& key, const Key& other) {
+    return std::find(key.excludes.begin(), key.excludes.end(), other.path) != key.excludes.end();
+  };
+  return excludes(a, b) || excludes(b, a);
+}
+
 TEST(SceneKeys, AreAllExplained) {
   for (const Key& key : all_keys()) {
     EXPECT_FALSE(key.expected.empty()) << key.path;
@@ -35,10 +57,7 @@ TEST(SceneKeys, AreAllExplained) {
 }
 
 TEST(SceneKeys, HaveADefaultOrSayWhatCountsWithoutThem) {
-  Scene scene;
-  scene.camera.emplace();
-  scene.stereo.emplace();
-  scene.components.emplace_back();
+  const Scene scene = full_scene();
   for (const Key& key : all_keys()) {
     EXPECT_TRUE(!key.absent.empty() || key.get(scene, 0)) << key.path;
   }
@@ -62,13 +81,24 @@ TEST(SceneKeys, ExcludeOnlyKeysThatExist) {
   }
 }
 
+TEST(SceneKeys, SetTheirOwnValueAlone) {
+  test::RandomValues values(7);
+  for (const Key& key : all_keys()) {
+    const std::string value = values.value_of(key);
+    const toml::table table = toml::parse("value = " + value);
+    Scene scene = full_scene();
+    ASSERT_TRUE(key.set(scene, 0, *table.get("value"))) << key.path << " = " << value;
+    for (const Key& other : all_keys()) {
+      if (other.path == key.path || exclude_each_other(key, other)) continue;
+      EXPECT_EQ(other.get(scene, 0), other.get(full_scene(), 0)) << key.path << ", " << other.path;
+    }
+  }
+}
+
 TEST(SceneKeys, RefuseValuesOfNoType) {
   const toml::table nested = toml::parse("value = { no = { key = 'takes' } }");
   for (const Key& key : all_keys()) {
-    Scene scene;
-    scene.camera.emplace();
-    scene.stereo.emplace();
-    scene.components.emplace_back();
+    Scene scene = full_scene();
     EXPECT_FALSE(key.set(scene, 0, *nested.get("value"))) << key.path;
   }
 }

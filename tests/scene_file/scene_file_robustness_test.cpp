@@ -6,7 +6,7 @@
 #include <string>
 
 #include "long_tests.h"
-#include "scene_file/scene_file_random.h"
+#include "scene_file/random_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 

@@ -24,6 +24,8 @@ ProgramSource blur_program(const Variant& variant);
 // A slab's wide splats laid among its narrow ones.
 ProgramSource lay_slab_program(const Variant& variant);
 ProgramSource resolve_program(const Variant& variant);
+// How deep the layers are at most.
+ProgramSource deepest_program(const Variant& variant);
 // Of clouds around the camera: which they are, and their layers.
 ProgramSource list_around_program(const Variant& variant);
 ProgramSource behind_program(const Variant& variant);
