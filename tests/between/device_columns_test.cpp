@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "between/interpolated_column.h"
+#include "between/interpolation.h"
 #include "device/frame/particle_store.h"
 
 namespace splotchcl {

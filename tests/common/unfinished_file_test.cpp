@@ -6,7 +6,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "common/writing_process.h"
+#include "common/unfinished_name.h"
 #include "splotchcl/error.h"
 #include "temporary_folder.h"
 

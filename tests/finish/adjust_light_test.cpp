@@ -1,10 +1,9 @@
-#include "finish/adjust_light.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "finish/finish_pictures.h"
+#include "finish/tone.h"
 
 namespace splotchcl::test {
 namespace {

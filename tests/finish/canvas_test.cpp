@@ -1,8 +1,7 @@
-#include "finish/canvas.h"
-
 #include <gtest/gtest.h>
 
 #include "finish/finish_pictures.h"
+#include "finish/overlay.h"
 
 namespace splotchcl::test {
 namespace {

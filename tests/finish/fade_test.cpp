@@ -1,10 +1,9 @@
-#include "finish/fade.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "finish/finish_pictures.h"
+#include "finish/joined_pictures.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,8 +1,7 @@
-#include "finish/layout.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "finish/overlay.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "finish/text_style.h"
+#include "finish/overlay.h"
 #include "paths.h"
 #include "splotchcl/error.h"
 

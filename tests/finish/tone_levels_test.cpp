@@ -1,14 +1,12 @@
 // What a scene leaves to its picture: exposure and white.
-#include "finish/tone_levels.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "finish/adjust_light.h"
 #include "finish/finish_pictures.h"
+#include "finish/tone.h"
 
 namespace splotchcl::test {
 namespace {

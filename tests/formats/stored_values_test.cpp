@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "formats/snapshot_writer.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -1,11 +1,11 @@
 // Profiles as ICC.1:2004-10 has them.
-#include "image/color_profile.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <string>
+
+#include "image/picture_encoders.h"
 
 namespace splotchcl {
 namespace {

@@ -1,10 +1,10 @@
 // Data of PNG files, strip by strip.
-#include "image/png_strips.h"
-
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <random>
+
+#include "image/png_file.h"
 
 namespace splotchcl {
 namespace {

@@ -1,5 +1,3 @@
-#include "load/periodic_wrap.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "load/periodic.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"

@@ -1,10 +1,10 @@
 // Doubles that single precision cannot hold well enough are told of.
-#include "load/rounded_positions.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "load/placement.h"
 
 namespace splotchcl {
 namespace {

@@ -1,9 +1,8 @@
-#include "map/angular_distance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "map/sky.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

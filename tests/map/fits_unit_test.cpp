@@ -1,6 +1,6 @@
-#include "map/fits_unit.h"
-
 #include <gtest/gtest.h>
+
+#include "map/map_files.h"
 
 namespace splotchcl {
 namespace {

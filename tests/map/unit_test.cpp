@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "map/fits_unit.h"
+#include "map/map_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

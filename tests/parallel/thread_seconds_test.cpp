@@ -1,9 +1,9 @@
-#include "parallel/thread_seconds.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
+
+#include "parallel/thread_pool.h"
 
 namespace splotchcl::test {
 namespace {

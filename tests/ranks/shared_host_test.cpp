@@ -1,6 +1,6 @@
-#include "ranks/shared_host.h"
-
 #include <gtest/gtest.h>
+
+#include "ranks/mpi_library.h"
 
 namespace splotchcl::test {
 namespace {

@@ -3,8 +3,7 @@
 #include <memory>
 
 #include "device/counted_column.h"
-#include "scene/picked_particles.h"
-#include "scene/same_columns.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

@@ -1,11 +1,10 @@
-#include "scene/flight.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
 #include "scene/constants.h"
+#include "scene/curves.h"
 #include "scene/expect_near.h"
 
 namespace splotchcl {

@@ -1,10 +1,10 @@
-#include "scene/spline.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "scene/curves.h"
 
 namespace splotchcl {
 namespace {

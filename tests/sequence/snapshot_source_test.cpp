@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "formats/snapshot_writer.h"
-#include "snapshot/snapshot_list.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"

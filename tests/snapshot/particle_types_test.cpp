@@ -1,9 +1,9 @@
-#include "snapshot/particle_types.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "snapshot/field_names.h"
 
 namespace splotchcl {
 namespace {

@@ -1,6 +1,6 @@
-#include "snapshot/unit_ratio.h"
-
 #include <gtest/gtest.h>
+
+#include "snapshot/unit.h"
 
 namespace splotchcl {
 namespace {

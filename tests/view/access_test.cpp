@@ -1,9 +1,9 @@
 // Who may talk to the server of the live view.
-#include "view/requests/access.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {

@@ -1,8 +1,8 @@
 // How values are distributed.
-#include "view/field_histogram.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "view/answers.h"
 
 namespace splotchcl::view {
 namespace {

@@ -1,12 +1,11 @@
 // The files of the page are in the program.
-#include "view/requests/page_files.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "matches.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {

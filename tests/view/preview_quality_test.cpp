@@ -1,7 +1,7 @@
 // How much of the data previews show.
-#include "view/preview_quality.h"
-
 #include <gtest/gtest.h>
+
+#include "view/frame_scheduler.h"
 
 namespace splotchcl::view {
 namespace {

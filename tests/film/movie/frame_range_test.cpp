@@ -1,8 +1,7 @@
-#include "film/movie/frame_range.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "film/movie/numbered_files.h"
 #include "film/path/path_messages.h"
 
 namespace splotchcl {
