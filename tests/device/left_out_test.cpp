@@ -12,8 +12,8 @@
 
 #include "device/counted_column.h"
 #include "device/pictures.h"
-#include "device/scene_maker.h"
 #include "device/stages.h"
+#include "frames/random_frames.h"
 
 namespace splotchcl::test {
 namespace {

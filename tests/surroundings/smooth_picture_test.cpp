@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "frames/random_frames.h"
 #include "long_tests.h"
 #include "scene/projection.h"
 #include "surroundings/clouds_in_blocks.h"
-#include "surroundings/frames_around.h"
 
 namespace splotchcl::test {
 namespace {
