@@ -60,10 +60,7 @@ class Agreement : public PictureTest,
   const CompositeShape shape_ = std::get<1>(std::get<1>(GetParam()));
 
   Frame frame() const {
-    DrawnComponent component = random_clouds(clouds_.setup);
-    if (light_ == LightPlan::emission) component.absorption.kind = Absorption::Kind::none;
-    if (light_ == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-    Frame frame = frame_of(clouds_.setup.width, clouds_.setup.height, {component});
+    Frame frame = clouds_for(light_, clouds_.setup);
     clouds_.change(frame);
     EXPECT_EQ(choose_light(frame), light_);
     return frame;
@@ -90,11 +87,8 @@ using PlansAgree = PictureTest;
 
 TEST_F(PlansAgree, SameFrameGivesTheSameBitsWhoeverDrawsIt) {
   for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
-    for (const Absorption& absorption :
-         {Absorption{Absorption::Kind::none, 0}, Absorption(), {Absorption::Kind::gray, 0.2}}) {
-      DrawnComponent component = random_clouds({});
-      component.absorption = absorption;
-      const Frame frame = frame_of(100, 70, {component});
+    for (const LightPlan plan : all_plans) {
+      const Frame frame = clouds_for(plan);
       Renderer another({"", shape});
       EXPECT_EQ(draw(frame, shape).pixels, another.render(frame).pixels);
     }

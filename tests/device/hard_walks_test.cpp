@@ -23,16 +23,7 @@ Image draw_in_lanes_of(int pixels, const Frame& frame) {
 }
 
 Frame clouds(LightPlan plan, std::optional<double> cut, Projection projection) {
-  CloudSetup setup;
-  setup.count = 300;
-  setup.width = 130;
-  setup.height = 65;
-  setup.sigma_low = 0.5;
-  setup.column_low = 1e-3;
-  DrawnComponent component = random_clouds(setup);
-  if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
-  if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-  Frame frame = frame_of(setup.width, setup.height, {component});
+  Frame frame = clouds_for(plan, {300, 130, 65, 0.5, 30, 1e-3});
   frame.kernel.cut = cut;
   if (projection == Projection::equirectangular) {
     Camera camera;
@@ -108,16 +99,7 @@ TEST_P(ThinLayers, DoNotDarkenWhatTheirRoundingsTouch) {
 // (kernels/common/splat.h, place_fractions).
 
 Frame narrow_clouds(LightPlan plan) {
-  CloudSetup setup;
-  setup.count = 1000;
-  setup.width = 90;
-  setup.height = 60;
-  setup.sigma_low = 0.02;
-  setup.sigma_high = 0.6;
-  DrawnComponent component = random_clouds(setup);
-  if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
-  if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-  Frame frame = frame_of(setup.width, setup.height, {component});
+  Frame frame = clouds_for(plan, {1000, 90, 60, 0.02, 0.6});
   frame.tolerance = 1e-5;
   return frame;
 }

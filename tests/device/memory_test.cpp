@@ -1,5 +1,3 @@
-#include "device/opencl/buffer_pool.h"
-
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -10,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "device/opencl/buffer_pool.h"
 #include "device/opencl/large_pages.h"
 #include "device/opencl/staged_copies.h"
 #include "device/stages.h"
